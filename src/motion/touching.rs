@@ -77,7 +77,7 @@ impl TouchingPairs {
 
     /// Whether nothing is close at the start, nor expected to touch.
     pub(super) fn is_empty(&self) -> bool {
-        self.relaxed == self.allowed
+        self.relaxed.is_same(&self.allowed)
     }
 
     /// The pairs that were close, and those that are declared.

@@ -1,5 +1,7 @@
 //! Pairs of bodies that are expected to touch during a motion.
 
+use std::sync::Arc;
+
 use super::body_name::BodyName;
 
 /// Pairs that collision queries ignore, such as the fingers and the object to grasp, or
@@ -9,7 +11,7 @@ use super::body_name::BodyName;
 /// expected to touch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct AllowedPairs {
-    pairs: Vec<(BodyName, BodyName)>,
+    pairs: Arc<Vec<(BodyName, BodyName)>>,
 }
 
 impl AllowedPairs {
@@ -21,7 +23,7 @@ impl AllowedPairs {
     /// Also allows the two to touch, in either order.
     #[must_use]
     pub(crate) fn and(mut self, a: BodyName, b: BodyName) -> Self {
-        self.pairs.push((a, b));
+        Arc::make_mut(&mut self.pairs).push((a, b));
         self
     }
 
@@ -32,9 +34,14 @@ impl AllowedPairs {
         bodies: impl IntoIterator<Item = BodyName>,
         other: &BodyName,
     ) -> Self {
-        self.pairs
-            .extend(bodies.into_iter().map(|b| (b, other.clone())));
+        let pairs = bodies.into_iter().map(|b| (b, other.clone()));
+        Arc::make_mut(&mut self.pairs).extend(pairs);
         self
+    }
+
+    /// Whether both are the same list, which is quick to tell; equal lists need not be.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.pairs, &other.pairs)
     }
 
     /// All pairs, in the order in which they were added.

@@ -12,13 +12,15 @@
 //! these gaps.
 
 use std::ops::ControlFlow;
+use std::rc::Rc;
 
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
-use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted};
+use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted, in_order};
+use super::link_pairs::LinkPairs;
 use super::moving_parts::{MovingParts, Pairs};
 use super::part_key::{PartKey, index};
 use super::robot_configuration::RobotConfiguration;
@@ -63,11 +65,19 @@ pub(crate) struct CollisionChecker<'w> {
     scratch: Scratch,
     moving: Option<MovingParts>,
     /// The pairs of solid links that move relative to each other, once they have been listed.
-    changing: Option<Vec<(usize, usize)>>,
+    changing: Option<LinkPairs>,
     pairs: Pairs,
     /// The pairs of bodies that a query is about, if not all.
-    only: Option<Vec<(PartKey, PartKey)>>,
+    only: Option<Keys>,
+    /// The keys of pairs that were passed in.
+    known: Vec<(AllowedPairs, Keys)>,
 }
+
+/// Pairs of bodies, each in order, sorted.
+type Keys = Rc<[(PartKey, PartKey)]>;
+
+/// How many lists of pairs are remembered by a checker: callers use the same few again and again.
+const MOST_KNOWN: usize = 4;
 
 impl<'w> CollisionChecker<'w> {
     pub(crate) fn new(surroundings: Surroundings<'w>) -> Self {
@@ -82,6 +92,7 @@ impl<'w> CollisionChecker<'w> {
             changing: None,
             pairs: Pairs::All,
             only: None,
+            known: Vec::new(),
         }
     }
 
@@ -104,10 +115,10 @@ impl<'w> CollisionChecker<'w> {
     pub(crate) fn expect(&mut self, moving: MovingParts, pairs: Pairs) {
         let models = self.surroundings.models;
         let links = &models.robot_geometry.solid_links;
-        let all = models.self_pairs.iter().copied();
+        let all = &models.self_pairs;
         // The pairs are indices of this list.
-        let changing = all.filter(|(a, b)| moving.part(links[*a].link, links[*b].link));
-        self.changing = Some(changing.collect());
+        let changing = all.filtered(|a, b| moving.part(links[a].link, links[b].link));
+        self.changing = Some(changing);
         self.moving = Some(moving);
         self.pairs = pairs;
     }
@@ -210,7 +221,7 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Vec<CollisionHit> {
-        self.only = Some(self.allowed_keys(pairs));
+        self.only = Some(self.keys_of(pairs));
         let hits = self.all_hits(robot, allowed, margin);
         self.only = None;
         hits
@@ -279,7 +290,7 @@ impl<'w> CollisionChecker<'w> {
         margin: f64,
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
     ) {
-        let allowed = self.allowed_keys(allowed);
+        let allowed = self.keys_of(allowed);
         let question = Question {
             allowed: &allowed,
             only: self.only.as_deref(),
@@ -297,11 +308,20 @@ impl<'w> CollisionChecker<'w> {
             .search(link_poses, moved, question, margin, scratch, visit);
     }
 
-    fn allowed_keys(&self, allowed: &AllowedPairs) -> Vec<(PartKey, PartKey)> {
-        allowed
-            .iter()
-            .filter_map(|(a, b)| Some((self.key_of(a)?, self.key_of(b)?)))
-            .collect()
+    /// The keys of the pairs.
+    fn keys_of(&mut self, pairs: &AllowedPairs) -> Keys {
+        let known = self.known.iter().find(|(list, _)| list.is_same(pairs));
+        if let Some((_, keys)) = known {
+            return keys.clone();
+        }
+        let keys = pairs.iter();
+        let keys = keys.filter_map(|(a, b)| Some(in_order(self.key_of(a)?, self.key_of(b)?)));
+        let mut keys: Vec<_> = keys.collect();
+        keys.sort_unstable();
+        let keys = Keys::from(keys);
+        self.known.truncate(MOST_KNOWN - 1);
+        self.known.insert(0, (pairs.clone(), keys.clone()));
+        keys
     }
 
     fn key_of(&self, name: &BodyName) -> Option<PartKey> {

@@ -9,6 +9,7 @@ use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
 
 use super::frame::Frame;
+use super::link_pairs::{BLOCK, LinkPairs, blocks_of, meet};
 use super::models::{Footing, Models};
 use super::moving_parts::{MovingParts, Pairs};
 use super::obstacles::Obstacles;
@@ -75,16 +76,16 @@ pub(crate) enum Wanted {
 /// Which pairs a query looks at, and what it wants to know about them.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'q> {
-    /// Pairs that do not matter.
+    /// Pairs that do not matter, each [`in_order`], sorted.
     pub(crate) allowed: &'q [(PartKey, PartKey)],
-    /// The pairs that matter, if not all.
+    /// The pairs that matter, likewise, if not all.
     pub(crate) only: Option<&'q [(PartKey, PartKey)]>,
     /// What moves.
     pub(crate) moving: Option<&'q MovingParts>,
     /// Which pairs matter, by what moves.
     pub(crate) pairs: Pairs,
-    /// Those of the robot's solid links that may matter, as indices.
-    pub(crate) self_pairs: &'q [(usize, usize)],
+    /// Those of the robot's solid links that may matter.
+    pub(crate) self_pairs: &'q LinkPairs,
     pub(crate) wanted: Wanted,
 }
 
@@ -92,9 +93,16 @@ pub(crate) struct Question<'q> {
 #[derive(Default)]
 pub(crate) struct Scratch {
     movers: Vec<Mover>,
+    /// The bounds of each mover in the map frame (m). Most comparisons need nothing else, so they
+    /// lie close together.
+    bounds: Vec<Aabb>,
+    /// The bounds (m) of each block of movers.
+    blocks: Vec<Aabb>,
     solids: Vec<PlacedSolid>,
-    /// The furniture near the robot, as places in the list of all.
-    furniture: Vec<usize>,
+    /// The furniture near the robot: its bounds (m), and its places in the list of all.
+    furniture: Vec<(Aabb, usize)>,
+    /// The part of it that is near the block of movers being looked at.
+    near_block: Vec<(Aabb, usize)>,
     /// The pairs of links with bounds that are near each other.
     near: Vec<(usize, usize)>,
 }
@@ -106,8 +114,6 @@ struct Mover {
     link: LinkId,
     pose: ParryPose,
     frame: Frame,
-    /// Bounds in the map frame (m).
-    bounds: Aabb,
     /// Index of its first solid in the scratch memory.
     first: usize,
     /// Whether its solids have been placed.
@@ -150,6 +156,9 @@ impl<'w> Surroundings<'w> {
             Some(moved) if !search.scratch.movers.is_empty() => search.place_moved(moved),
             _ => search.place_all(),
         }
+        let Scratch { bounds, blocks, .. } = &mut *search.scratch;
+        blocks.clear();
+        blocks.extend(blocks_of(bounds));
         // Whether the visitor stopped the search is of no interest to the caller.
         let _stopped = search.run();
     }
@@ -182,9 +191,17 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let around = self.around;
         let links = &around.models.robot_geometry.solid_links;
         self.find_furniture();
-        for place in 0..self.scratch.movers.len() {
-            if self.may_matter(place) {
-                self.against_world(place)?;
+        for block in 0..self.scratch.blocks.len() {
+            let movers = self.scratch.movers.len();
+            let block_places = block * BLOCK..((block + 1) * BLOCK).min(movers);
+            let mut asked = block_places.clone();
+            if asked.any(|place| self.asks_of_world(self.scratch.movers[place].link)) {
+                self.find_furniture_near(block);
+                for place in block_places {
+                    if self.may_matter(place) {
+                        self.against_world(place)?;
+                    }
+                }
             }
         }
         if self.question.wanted == Wanted::HowMuchToOthers {
@@ -202,7 +219,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             Some(only) => {
                 let all = self.question.self_pairs;
                 let mut pairs: Vec<_> = only.iter().filter_map(|p| self.self_pair(*p)).collect();
-                pairs.retain(|pair| all.binary_search(pair).is_ok());
+                pairs.retain(|pair| all.contains(*pair));
                 pairs.sort_unstable();
                 pairs.dedup();
                 for (a, b) in pairs {
@@ -249,25 +266,18 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         if self.question.pairs == Pairs::Changing && whole.is_some() {
             return;
         }
-        let pairs = self.question.self_pairs.iter().copied();
-        near.extend(pairs.filter(|&(a, b)| self.are_near(a, b, margin)));
+        let Scratch { bounds, blocks, .. } = &*self.scratch;
+        let pairs = self.question.self_pairs;
+        pairs.near(bounds, blocks, margin.max(0.0), near);
     }
 
     /// Whether the bounds of two movers are closer than the margin (m).
-    #[inline]
     fn are_near(&self, a: usize, b: usize, margin: f64) -> bool {
-        let movers = &self.scratch.movers;
-        let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
+        let bounds = &self.scratch.bounds;
+        let (Some(one), Some(two)) = (bounds.get(a), bounds.get(b)) else {
             return false;
         };
-        let (one, two, slack) = (&one.bounds, &two.bounds, margin.max(0.0));
-        // One branch for all: which of the comparisons fails cannot be foreseen.
-        (one.mins.x - slack <= two.maxs.x)
-            & (one.maxs.x + slack >= two.mins.x)
-            & (one.mins.y - slack <= two.maxs.y)
-            & (one.maxs.y + slack >= two.mins.y)
-            & (one.mins.z - slack <= two.maxs.z)
-            & (one.maxs.z + slack >= two.mins.z)
+        meet(&with_slack(one, margin), two)
     }
 
     /// The pose of a link. The caller must pass one for every link; a link without one is taken to
@@ -300,14 +310,15 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let held = around.held.iter().map(|held| (held.key, held.link));
         let mut first = 0;
         self.scratch.movers.clear();
+        self.scratch.bounds.clear();
         for (place, (key, link)) in links.chain(held).enumerate() {
             let (pose, frame, bounds) = self.place(place);
+            self.scratch.bounds.push(bounds);
             self.scratch.movers.push(Mover {
                 key,
                 link,
                 pose,
                 frame,
-                bounds,
                 first,
                 is_placed: false,
             });
@@ -327,8 +338,9 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
                 continue;
             }
             let (pose, frame, bounds) = self.place(place);
+            self.scratch.bounds[place] = bounds;
             let mover = &mut self.scratch.movers[place];
-            (mover.pose, mover.frame, mover.bounds) = (pose, frame, bounds);
+            (mover.pose, mover.frame) = (pose, frame);
             mover.is_placed = false;
         }
     }
@@ -353,35 +365,58 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 
     /// Finds the furniture near any of the movers.
     fn find_furniture(&mut self) {
-        let movers = self.scratch.movers.iter();
-        let asked = movers.filter(|mover| self.asks_of_world(mover.link));
-        let Some(bounds) = asked.map(|m| m.bounds).reduce(|a, b| a.merged(&b)) else {
+        let movers = self.scratch.movers.iter().zip(&self.scratch.bounds);
+        let asked = movers.filter(|(mover, _)| self.asks_of_world(mover.link));
+        let bounds = asked.map(|(_, bounds)| *bounds);
+        let Some(bounds) = bounds.reduce(|a, b| a.merged(&b)) else {
             return;
         };
         let bounds = with_slack(&bounds, self.margin);
-        let near = self.around.furniture.places_near(&bounds);
+        let furniture = self.around.furniture;
+        let near = furniture.places_near(&bounds);
+        // These are places in the list.
+        let near = near.map(|place| (furniture.all()[place].placed.bounds, place));
         self.scratch.furniture.extend(near);
     }
 
-    /// Checks one mover against furniture, objects and floor.
+    /// Finds the furniture near a block of movers, out of that near any of them.
+    fn find_furniture_near(&mut self, block: usize) {
+        let Scratch {
+            blocks,
+            furniture,
+            near_block,
+            ..
+        } = &mut *self.scratch;
+        // Callers pass the number of a block.
+        let bounds = with_slack(&blocks[block], self.margin);
+        near_block.clear();
+        near_block.extend(furniture.iter().filter(|(near, _)| meet(near, &bounds)));
+    }
+
+    /// Checks one mover against furniture, that near its block, objects and floor.
     fn against_world(&mut self, place: usize) -> ControlFlow<()> {
         let around = self.around;
-        let Some(mover) = self.scratch.movers.get(place) else {
+        let scratch = &self.scratch;
+        let (Some(mover), Some(own)) = (scratch.movers.get(place), scratch.bounds.get(place))
+        else {
             return ControlFlow::Continue(());
         };
         if !self.asks_of_world(mover.link) {
             return ControlFlow::Continue(());
         }
-        let (key, lowest) = (mover.key, mover.bounds.mins.z);
-        let (bounds, margin) = (with_slack(&mover.bounds, self.margin), self.margin);
-        for i in 0..self.scratch.furniture.len() {
-            // These are places in this list.
-            let obstacle = &around.furniture.all()[self.scratch.furniture[i]];
-            if !obstacle.placed.bounds.intersects(&bounds) || self.is_allowed(key, obstacle.key) {
+        let (key, lowest) = (mover.key, own.mins.z);
+        let (bounds, margin) = (with_slack(own, self.margin), self.margin);
+        for i in 0..self.scratch.near_block.len() {
+            let (near, obstacle) = &self.scratch.near_block[i];
+            if !meet(near, &bounds) {
                 continue;
             }
-            let (solid, placed) = (&obstacle.solid, &obstacle.placed);
-            self.solids_against(place, obstacle.key, solid, placed, margin)?;
+            // This is a place in the list.
+            let obstacle = &around.furniture.all()[*obstacle];
+            if !self.is_allowed(key, obstacle.key) {
+                let other = (&obstacle.solid, &obstacle.placed);
+                self.against_solid(place, obstacle.key, other, margin)?;
+            }
         }
         for object in &around.objects {
             if !object.bounds.intersects(&bounds) || self.is_allowed(key, object.key) {
@@ -389,7 +424,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             }
             for solid in object.solids {
                 let placed = PlacedSolid::new(solid, &object.pose);
-                self.solids_against(place, object.key, solid, &placed, margin)?;
+                self.against_solid(place, object.key, (solid, &placed), margin)?;
             }
         }
         let margin = match around.models.footing(key) {
@@ -403,11 +438,12 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
                 // The solids were placed from `first` on by the line above.
                 let pose = self.scratch.solids[first + i].pose;
                 if let Some(separation) = below_floor(&pose, solid, margin.min(self.margin)) {
-                    self.report(Near {
+                    let near = Near {
                         moving: key,
                         other: PartKey::Floor,
                         separation,
-                    })?;
+                    };
+                    (self.visit)(near, &mut self.margin)?;
                 }
             }
         }
@@ -433,58 +469,55 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         if box1.is_apart(&one.frame, &box2, &two.frame, margin.max(0.0)) {
             return ControlFlow::Continue(());
         }
-        let bounds = with_slack(&one.bounds, margin);
-        let other = two.key;
-        let first = self.place_solids(b);
-        for (i, solid) in around.solids(b).iter().enumerate() {
-            // The solids were placed from `first` on by the line above.
-            let placed = &self.scratch.solids[first + i];
-            if placed.bounds.intersects(&bounds) {
-                let placed = *placed;
-                self.solids_against(a, other, solid, &placed, margin)?;
+        let keys = (one.key, two.key);
+        let (first1, first2) = (self.place_solids(a), self.place_solids(b));
+        let (solids1, solids2) = (around.solids(a), around.solids(b));
+        let bounds = with_slack(&self.scratch.bounds[a], margin);
+        // The solids were placed from these places on.
+        let all = &self.scratch.solids;
+        let (placed1, placed2) = (&all[first1..first1 + solids1.len()], &all[first2..]);
+        let is_quick = self.question.wanted == Wanted::Whether;
+        for other in solids2.iter().zip(placed2) {
+            if other.1.bounds.intersects(&bounds) {
+                let own = solids1.iter().zip(placed1);
+                let mut visit = |separation, margin: &mut f64| {
+                    let (moving, other) = keys;
+                    let near = Near {
+                        moving,
+                        other,
+                        separation,
+                    };
+                    (self.visit)(near, margin)
+                };
+                visit_near(own, other, is_quick, margin, &mut self.margin, &mut visit)?;
             }
         }
         ControlFlow::Continue(())
     }
 
-    /// Checks the solids of a mover against one solid.
-    fn solids_against(
+    /// Checks the solids of a mover against one solid at its place.
+    fn against_solid(
         &mut self,
         place: usize,
         other: PartKey,
-        other_solid: &Solid,
-        other_placed: &PlacedSolid,
+        solid: (&Solid, &PlacedSolid),
         margin: f64,
     ) -> ControlFlow<()> {
-        let around = self.around;
         let first = self.place_solids(place);
-        for (i, solid) in around.solids(place).iter().enumerate() {
-            // The solids were placed from `first` on by the line above.
-            // The visitor may have lowered the margin since.
-            let margin = margin.min(self.margin);
-            let placed = &self.scratch.solids[first + i];
-            let (box1, box2) = (&solid.containing_box, &other_solid.containing_box);
-            if !with_slack(&placed.bounds, margin).intersects(&other_placed.bounds)
-                || box1.is_apart(&placed.frame, box2, &other_placed.frame, margin.max(0.0))
-            {
-                continue;
-            }
-            let near = if self.question.wanted == Wanted::Whether && margin == 0.0 {
-                overlap(&placed.pose, solid, &other_placed.pose, other_solid)
-            } else {
-                separation(&placed.pose, solid, &other_placed.pose, other_solid, margin)
+        // The mover exists: its solids were placed from `first` on.
+        let moving = self.scratch.movers[place].key;
+        let own = self.around.solids(place).iter();
+        let own = own.zip(&self.scratch.solids[first..]);
+        let is_quick = self.question.wanted == Wanted::Whether;
+        let mut visit = |separation, margin: &mut f64| {
+            let near = Near {
+                moving,
+                other,
+                separation,
             };
-            if let Some(separation) = near {
-                // The mover exists: its solids were placed.
-                let moving = self.scratch.movers[place].key;
-                self.report(Near {
-                    moving,
-                    other,
-                    separation,
-                })?;
-            }
-        }
-        ControlFlow::Continue(())
+            (self.visit)(near, margin)
+        };
+        visit_near(own, solid, is_quick, margin, &mut self.margin, &mut visit)
     }
 
     /// Places the solids of the mover if needed, and returns the index of the first.
@@ -504,16 +537,45 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 
     /// Whether the pair does not matter.
     fn is_allowed(&self, a: PartKey, b: PartKey) -> bool {
-        let has = |pairs: &[(PartKey, PartKey)]| {
-            let mut pairs = pairs.iter();
-            pairs.any(|&(x, y)| (x == a && y == b) || (x == b && y == a))
-        };
+        let pair = in_order(a, b);
+        let has = |pairs: &[(PartKey, PartKey)]| pairs.binary_search(&pair).is_ok();
         has(self.question.allowed) || self.question.only.is_some_and(|only| !has(only))
     }
+}
 
-    fn report(&mut self, near: Near) -> ControlFlow<()> {
-        (self.visit)(near, &mut self.margin)
+/// The pair as lists of pairs have it.
+pub(crate) fn in_order(a: PartKey, b: PartKey) -> (PartKey, PartKey) {
+    (a.min(b), a.max(b))
+}
+
+/// Visits the solids that are closer to another one than the margin (m) and than `most` (m), which
+/// the visitor may lower, until the visitor stops. With `is_quick` and no margin, the distances
+/// are meaningless.
+fn visit_near<'a>(
+    solids: impl Iterator<Item = (&'a Solid, &'a PlacedSolid)>,
+    (other, at): (&Solid, &PlacedSolid),
+    is_quick: bool,
+    margin: f64,
+    most: &mut f64,
+    visit: &mut impl FnMut(Separation, &mut f64) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    for (solid, placed) in solids {
+        let margin = margin.min(*most);
+        let (box1, box2) = (&solid.containing_box, &other.containing_box);
+        if !with_slack(&placed.bounds, margin).intersects(&at.bounds)
+            || box1.is_apart(&placed.frame, box2, &at.frame, margin.max(0.0))
+        {
+            continue;
+        }
+        let near = match is_quick && margin == 0.0 {
+            true => overlap(&placed.pose, solid, &at.pose, other),
+            false => separation(&placed.pose, solid, &at.pose, other, margin),
+        };
+        if let Some(separation) = near {
+            visit(separation, most)?;
+        }
     }
+    ControlFlow::Continue(())
 }
 
 /// The bounds, grown by the margin (m) unless it is negative.

@@ -21,6 +21,7 @@ pub(crate) mod hash;
 pub(crate) mod holding;
 mod kitchen_motion;
 mod link_geometry;
+mod link_pairs;
 mod map_area;
 pub(crate) mod models;
 pub(crate) mod moved_part;

@@ -3,6 +3,7 @@
 
 use super::body_name::BodyName;
 use super::link_geometry::TreeGeometry;
+use super::link_pairs::LinkPairs;
 use super::map_area::MapArea;
 use super::object_library::{OBJECTS, ObjectLibrary};
 use super::part_key::PartKey;
@@ -29,8 +30,8 @@ pub(crate) struct Models {
     pub(crate) kitchen_geometry: TreeGeometry,
     /// The floor that the robot can drive on.
     pub(crate) map: MapArea,
-    /// Pairs of indices into the robot's solid links that must not touch.
-    pub(crate) self_pairs: Vec<(usize, usize)>,
+    /// Pairs of the robot's solid links that must not touch.
+    pub(crate) self_pairs: LinkPairs,
     /// The hand that each link of the robot belongs to, if any.
     hand_of: Vec<Option<Side>>,
     /// For each body of the robot in the physics engine, the number of the hand that it is of.
@@ -135,7 +136,7 @@ impl Models {
             robot_geometry,
             kitchen_geometry,
             map,
-            self_pairs,
+            self_pairs: LinkPairs::new(self_pairs),
             hand_of,
             hands,
             footing,
