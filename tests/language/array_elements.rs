@@ -152,7 +152,7 @@ fn bytes_go_to_files_and_come_from_them() {
 #[test]
 fn an_element_type_that_does_not_exist_is_an_error() {
     let refusal = |form: &str| format!("(handler-case {form} (error (e) (princ-to-string e)))");
-    let told = "\"unknown type specifier: (UNSIGNED-BYT 8)\"";
+    let told = "\"unknown type specifier: (UNSIGNED-BYT 8). Did you mean UNSIGNED-BYTE?\"";
     check(&[
         (
             &refusal("(make-array 2 :element-type '(unsigned-byt 8))"),
@@ -167,8 +167,48 @@ fn an_element_type_that_does_not_exist_is_an_error() {
             "T",
         ),
         (
-            "(progn (deftype small (n) (list 'mod n)) (make-array 2 :element-type '(small 3)))",
-            "#(0 0)",
+            &refusal("(make-sequence '(vector (unsigned-byt 8)) 2)"),
+            told,
+        ),
+        (&refusal("(typep #(1) '(vector (unsigned-byt 8)))"), told),
+        (
+            &refusal("(coerce '(1) '(simple-array (unsigned-byt 8) (*)))"),
+            told,
+        ),
+        (
+            &refusal("(typep 1 'intger)"),
+            "\"unknown type specifier: INTGER. Did you mean INTEGER?\"",
+        ),
+        (
+            &refusal("(typep 1 'zzyzx)"),
+            "\"unknown type specifier: ZZYZX\"",
+        ),
+    ]);
+}
+
+#[test]
+fn element_types_are_what_deftype_says() {
+    check(&[
+        (
+            "(progn (deftype small (n) (list 'mod n)) (deftype row (kind n) `(simple-array ,kind (,n)))
+                    (mapcar #'array-element-type
+                            (list (make-array 2 :element-type '(small 3))
+                                  (make-sequence '(vector (small 300)) 2)
+                                  (make-sequence '(row (small 2) 3) 3)
+                                  (coerce '(1 2) '(vector (small 16)))
+                                  (concatenate '(vector (small 200)) '(1) '(2))
+                                  (map '(vector (small 16)) #'1+ '(1))
+                                  (merge '(vector (small 16)) (list 1) (list 2) #'<))))",
+            "((UNSIGNED-BYTE 2) (UNSIGNED-BYTE 15) BIT (UNSIGNED-BYTE 4) (UNSIGNED-BYTE 8) (UNSIGNED-BYTE 4) (UNSIGNED-BYTE 4))",
+        ),
+        (
+            "(list (upgraded-array-element-type '(small 200)) (typep (make-array 2 :element-type '(small 200)) '(vector (unsigned-byte 8)))
+                   (typep #*01 '(row (small 2) 2)) (typep #*01 '(vector (small 200))))",
+            "((UNSIGNED-BYTE 8) T T NIL)",
+        ),
+        (
+            "(progn (deftype endless (n) `(endless ,n)) (handler-case (make-array 1 :element-type '(endless 1)) (error () :refused)))",
+            ":REFUSED",
         ),
     ]);
 }

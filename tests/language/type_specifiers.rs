@@ -90,6 +90,14 @@ fn names_of_types_stand_for_sequences_and_elements() {
             "(\"cup\" \"Cup\")",
         ),
         (
+            "(typep #'car '(function (t) t))",
+            "!! Nothing can be tested for being (FUNCTION (T) T): such a type is for declarations.",
+        ),
+        (
+            "(typep 1 '(or string (values integer)))",
+            "!! Nothing can be tested for being (VALUES INTEGER): such a type is for declarations.",
+        ),
+        (
             "(setf (readtable-case (copy-readtable nil)) :sideways)",
             "!! The value :SIDEWAYS is not of type (MEMBER :UPCASE :DOWNCASE :PRESERVE :INVERT)",
         ),

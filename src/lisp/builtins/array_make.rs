@@ -10,6 +10,7 @@ use super::lists::size;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
+use crate::lisp::types::asking::settle;
 use crate::lisp::types::parse;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
@@ -41,7 +42,7 @@ pub(crate) struct Options {
 
 impl Options {
     /// From keyword arguments.
-    pub(crate) fn parse(image: &Image, args: &[Value]) -> Result<Options, Box<Raise>> {
+    pub(crate) fn parse(image: &mut Image, args: &[Value]) -> Result<Options, Box<Raise>> {
         let [
             element,
             contents,
@@ -80,7 +81,9 @@ impl Options {
             ));
         }
         let element_type = match element_type {
-            Some(specifier) => Some(parse::element_type(image, &specifier)?),
+            Some(specifier) => Some(settle(image, |image, answers| {
+                parse::element_type(image, &specifier, answers)
+            })?),
             None => None,
         };
         Ok(Options {

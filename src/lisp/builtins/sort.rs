@@ -164,9 +164,9 @@ fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
 }
 
 fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let result = SequenceType::new(machine.image, &args[0])?;
     let image = &machine.image;
     let [key] = keywords::parse(image, &args[4..], [known::K_KEY])?;
-    let result = SequenceType::new(image, &args[0])?;
     let left = Sequence::of(&args[1])?.all()?;
     let right = Sequence::of(&args[2])?.all()?;
     let before = callable(image, &args[3])?;

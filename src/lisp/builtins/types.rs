@@ -2,7 +2,7 @@
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::types::asking;
+use crate::lisp::types::asking::{self, settle};
 use crate::lisp::types::coerce::coerce;
 use crate::lisp::types::emptiness::is_subtype;
 use crate::lisp::types::parse::{element_type, parse};
@@ -14,6 +14,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -59,7 +60,12 @@ pub(crate) static TABLE: &[Builtin] = &[
         "type &optional environment",
         "The element type that an array made for elements of the type really has.",
         &["(upgraded-array-element-type 'symbol) => T"],
-        |image, args| element_type(image, &args[0]).map(ElementType::specifier),
+        |image, args| {
+            let found = settle(image, |image, answers| {
+                element_type(image, &args[0], answers)
+            });
+            found.map(ElementType::specifier)
+        },
     ),
 ];
 
@@ -77,7 +83,40 @@ fn typep_operation(
     args: &[Value],
     answers: &mut Answers,
 ) -> Result<Value, Stop> {
+    if let Some(part) = untestable(&args[1]) {
+        let part = crate::lisp::object::text(image, &part);
+        return Err(Raise::simple(format!(
+            "Nothing can be tested for being {part}: such a type is for declarations."
+        ))
+        .into());
+    }
     typep_with(image, &args[0], &args[1], answers).map(Value::bool)
+}
+
+/// The type specifier, or the one that it combines with others, that tells what functions take or
+/// what forms return.
+fn untestable(specifier: &Value) -> Option<Value> {
+    let head = specifier.car_or_nil();
+    if head
+        .as_symbol()
+        .is_some_and(|name| COMBINATIONS.contains(&name))
+    {
+        let mut parts = specifier.iter_list().skip(1).take(MOST_PARTS);
+        parts.find(is_for_declarations)
+    } else {
+        is_for_declarations(specifier).then(|| specifier.clone())
+    }
+}
+
+/// A list of parts may have no end.
+const MOST_PARTS: usize = 1000;
+
+const COMBINATIONS: [Sym; 3] = [known::AND, known::OR, known::NOT];
+
+fn is_for_declarations(specifier: &Value) -> bool {
+    let head = specifier.car_or_nil();
+    matches!(head.as_symbol(), Some(known::FUNCTION | known::VALUES))
+        && specifier.cdr_or_nil().is_true()
 }
 
 fn subtypep_operation(

@@ -4,6 +4,7 @@ use super::specifier::{Answers, Stop};
 use super::test::typep_with;
 use crate::lisp::image::Image;
 use crate::lisp::object::text;
+use crate::lisp::types::parse::expanded;
 use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -22,7 +23,7 @@ pub(crate) fn coerce(
     if typep_with(image, value, specifier, answers)? {
         return Ok(value.clone());
     }
-    let specifier = match expand(image, specifier, answers)? {
+    let specifier = match expanded(image, specifier, answers)? {
         Value::Class(class) => class.name.into(),
         other => other,
     };
@@ -41,21 +42,6 @@ pub(crate) fn coerce(
         // The result must satisfy a range or another restriction.
         Some(result) if typep_with(image, &result, &specifier, answers)? => Ok(result),
         _ => Err(cannot(image, value, &specifier).into()),
-    }
-}
-
-/// Expands a type defined by `deftype`, down to one that is not.
-fn expand(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Value, Stop> {
-    let mut specifier = specifier.clone();
-    loop {
-        let (name, args) = match &specifier {
-            Value::Cons(list) => (list.car().as_symbol(), list.cdr()),
-            other => (other.as_symbol(), Value::NIL),
-        };
-        let Some(expander) = name.and_then(|n| image.types.get(&n)) else {
-            return Ok(specifier);
-        };
-        specifier = answers.ask(&Value::Function(expander.clone()), vec![args])?;
     }
 }
 
@@ -81,7 +67,7 @@ fn convert(
         }
         known::CHARACTER => character(image, value),
         known::FUNCTION => function(image, value, answers)?,
-        _ => match SequenceType::of(image, specifier) {
+        _ => match SequenceType::of(image, specifier, answers)? {
             Some(wanted) => match Sequence::of(value) {
                 Ok(sequence) => Some(wanted.make(sequence.all()?)?),
                 Err(_) => None,

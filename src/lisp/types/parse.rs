@@ -1,6 +1,7 @@
 //! Reading type specifiers.
 
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types;
 use crate::lisp::value::Value;
@@ -167,6 +168,16 @@ impl Parser<'_> {
         Ok(Some(found))
     }
 
+    fn element_type(&mut self, specifier: &Value) -> Result<ElementType, Stop> {
+        let known = expanded(self.image, specifier, self.answers)?;
+        let upgraded = sequence_types::upgraded(&known);
+        // Only what nothing is known of is looked at more closely.
+        if upgraded == ElementType::T {
+            self.parse(&known)?;
+        }
+        Ok(upgraded)
+    }
+
     fn array(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
         let (simple, element) = match name {
             known::ARRAY | known::VECTOR => (false, None),
@@ -183,7 +194,8 @@ impl Parser<'_> {
         let has_element = matches!(name, known::ARRAY | known::SIMPLE_ARRAY | known::VECTOR);
         let (element, size) = match (has_element, args) {
             (true, [of, rest @ ..]) if !is_star(of) => {
-                (Some(sequence_types::upgraded(self.image, of)), rest.first())
+                let element = self.element_type(of)?;
+                (Some(element), rest.first())
             }
             (true, [_, rest @ ..]) => (None, rest.first()),
             (true, []) => (None, None),
@@ -229,21 +241,50 @@ fn simple(name: Sym) -> Option<Type> {
     })
 }
 
-fn is_star(value: &Value) -> bool {
+pub(super) fn is_star(value: &Value) -> bool {
     value.as_symbol() == Some(known::TIMES)
+}
+
+/// What a specifier stands for whose name `deftype` has defined; else the specifier itself.
+pub(crate) fn expanded(
+    image: &Image,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<Value, Stop> {
+    let mut specifier = specifier.clone();
+    for _ in 0..MAX_DEPTH {
+        let (name, args) = match &specifier {
+            Value::Cons(list) => (list.car().as_symbol(), list.cdr()),
+            other => (other.as_symbol(), Value::NIL),
+        };
+        let Some(name) = name else { break };
+        if args.is_nil()
+            && let Some(known) = image.type_names.get(&name)
+        {
+            specifier = known.clone();
+            continue;
+        }
+        let Some(expander) = image.types.get(&name) else {
+            break;
+        };
+        specifier = answers.ask(&Value::Function(expander.clone()), vec![args])?;
+    }
+    Ok(specifier)
 }
 
 /// The actual element type of an array that is made for elements of a type; fails if there is no
 /// such type.
-pub(crate) fn element_type(image: &Image, specifier: &Value) -> Result<ElementType, Box<Raise>> {
-    let upgraded = sequence_types::upgraded(image, specifier);
-    // Only what nothing is known of is looked at more closely.
-    if upgraded == ElementType::T
-        && let Err(Stop::UnknownType(raise)) = parse(image, specifier, &mut Answers::default())
-    {
-        return Err(raise);
+pub(crate) fn element_type(
+    image: &Image,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<ElementType, Stop> {
+    Parser {
+        image,
+        answers,
+        depth: 0,
     }
-    Ok(upgraded)
+    .element_type(specifier)
 }
 
 fn integers(low: Option<i64>, high: Option<i64>) -> Type {
@@ -387,8 +428,47 @@ fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<
 }
 
 fn unknown(image: &Image, specifier: &Value) -> Stop {
-    let text = crate::lisp::object::text(image, specifier);
-    Stop::UnknownType(Raise::simple(format!("unknown type specifier: {text}")))
+    let text = |value: &Value| crate::lisp::object::text(image, value);
+    let mut report = format!("unknown type specifier: {}", text(specifier));
+    let name = match specifier {
+        Value::Cons(list) => list.car().as_symbol(),
+        other => other.as_symbol(),
+    };
+    if let Some(near) = name.and_then(|name| near_type(image, name)) {
+        report.push_str(&format!(". Did you mean {}?", text(&near.into())));
+    }
+    Stop::UnknownType(Raise::simple(report))
+}
+
+/// Names of types that are neither classes nor defined by `deftype`.
+const PLAIN_TYPES: &[Sym] = &[
+    known::UNSIGNED_BYTE,
+    known::SIGNED_BYTE,
+    known::MOD,
+    known::SHORT_FLOAT,
+    known::LONG_FLOAT,
+    known::STANDARD_CHAR,
+    known::BASE_CHAR,
+    known::EXTENDED_CHAR,
+    known::BASE_STRING,
+    known::SIMPLE_BASE_STRING,
+    known::BOOLEAN,
+    known::ATOM,
+    known::MEMBER,
+    known::SATISFIES,
+];
+
+/// The name of a type that is nearest to one that is none.
+fn near_type(image: &Image, name: Sym) -> Option<Sym> {
+    let classes = image.classes.iter();
+    let classes = classes.filter(|(_, class)| class.is_defined.get());
+    let names = image.types.keys().chain(PLAIN_TYPES);
+    let names: Vec<Sym> = names
+        .chain(classes.map(|(name, _)| name))
+        .copied()
+        .collect();
+    let near = closest_name(image.name(name), names.iter().map(|sym| image.name(*sym)))?;
+    names.into_iter().find(|sym| image.name(*sym) == near)
 }
 
 /// Is the symbol the name of a class that types alone describe?

@@ -1,6 +1,9 @@
 //! Type specifiers that name kinds of sequences, for results of `map`, `concatenate`,
 //! `merge`, `make-sequence` and `coerce`.
 
+use super::asking::settle;
+use super::parse::{element_type, expanded, is_star};
+use super::specifier::{Answers, Stop};
 use crate::lisp::image::Image;
 use crate::lisp::object::text as shown;
 use crate::lisp::value::Value;
@@ -20,15 +23,22 @@ pub(crate) struct SequenceType {
 
 impl SequenceType {
     /// The sequence type that a type specifier denotes, if it names a kind of sequence.
-    pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
-        let named = match specifier {
-            Value::Class(class) => by_itself(image, &class.name.into()),
-            other => by_itself(image, other),
+    pub(crate) fn of(
+        image: &Image,
+        specifier: &Value,
+        answers: &mut Answers,
+    ) -> Result<Option<SequenceType>, Stop> {
+        let named = match expanded(image, specifier, answers)? {
+            Value::Class(class) => class.name.into(),
+            other => other,
         };
         let mut parts = named.iter_list();
         let (name, first, second) = match &named {
-            Value::Symbol(sym, ..) => (*sym, None, None),
-            _ => (parts.next()?.as_symbol()?, parts.next(), parts.next()),
+            Value::Symbol(sym, ..) => (Some(*sym), None, None),
+            _ => {
+                let name = parts.next().and_then(|name| name.as_symbol());
+                (name, parts.next(), parts.next())
+            }
         };
         let size = |value: Option<Value>| match value {
             Some(Value::Int(n)) => usize::try_from(n).ok(),
@@ -39,12 +49,18 @@ impl SequenceType {
             },
             _ => None,
         };
+        let Some(name) = name else { return Ok(None) };
         let (kind, length) = match name {
             known::LIST | known::CONS => (Kind::List, None),
             known::NULL => (Kind::List, Some(0)),
             known::VECTOR | known::ARRAY | known::SIMPLE_ARRAY => {
-                let element_type = first.unwrap_or(Value::T);
-                (vector_kind(image, &element_type), size(second))
+                let element = first.filter(|element| !is_star(element));
+                let element = element.map(|element| element_type(image, &element, answers));
+                let kind = match element.transpose()? {
+                    Some(ElementType::Character) => Kind::Str,
+                    other => Kind::Vector(other.unwrap_or(ElementType::T)),
+                };
+                (kind, size(second))
             }
             known::SIMPLE_VECTOR => (Kind::Vector(ElementType::T), size(first)),
             known::BIT_VECTOR | known::SIMPLE_BIT_VECTOR => {
@@ -54,18 +70,21 @@ impl SequenceType {
             | known::SIMPLE_STRING
             | known::BASE_STRING
             | known::SIMPLE_BASE_STRING => (Kind::Str, size(first)),
-            _ => return None,
+            _ => return Ok(None),
         };
-        Some(SequenceType {
+        Ok(Some(SequenceType {
             kind,
             length,
             specifier: specifier.clone(),
-        })
+        }))
     }
 
     /// The sequence type that a type specifier denotes; an error if it is not a kind of sequence.
-    pub(crate) fn new(image: &Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
-        SequenceType::of(image, specifier).ok_or_else(|| {
+    pub(crate) fn new(image: &mut Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
+        let found = settle(image, |image, answers| {
+            SequenceType::of(image, specifier, answers)
+        })?;
+        found.ok_or_else(|| {
             Raise::new(
                 known::SIMPLE_TYPE_ERROR,
                 format!(
@@ -107,33 +126,10 @@ impl SequenceType {
     }
 }
 
-/// How often a name may stand for another one.
-const MOST_EXPANSIONS: usize = 50;
-
-/// What a specifier stands for, if it is a name that `deftype` has defined.
-fn by_itself(image: &Image, specifier: &Value) -> Value {
-    let mut specifier = specifier;
-    for _ in 0..MOST_EXPANSIONS {
-        let name = specifier.as_symbol();
-        match name.and_then(|name| image.type_names.get(&name)) {
-            Some(expansion) => specifier = expansion,
-            None => break,
-        }
-    }
-    specifier.clone()
-}
-
-/// The kind of vector that holds elements of a type.
-pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
-    match upgraded(image, element_type) {
-        ElementType::Character => Kind::Str,
-        other => Kind::Vector(other),
-    }
-}
-
-/// The actual element type of an array that is made for elements of a type.
-pub(crate) fn upgraded(image: &Image, element_type: &Value) -> ElementType {
-    match &by_itself(image, element_type) {
+/// The actual element type of an array that is made for elements of a type, given by a specifier
+/// whose name `deftype` has not defined.
+pub(super) fn upgraded(element_type: &Value) -> ElementType {
+    match element_type {
         Value::Symbol(sym, ..) => match *sym {
             known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR | known::EXTENDED_CHAR => {
                 ElementType::Character
