@@ -78,3 +78,35 @@ fn any_character_can_be_a_letter() {
         ),
     ]);
 }
+
+#[test]
+fn dispatching_characters_of_the_standard_syntax_are_replaced() {
+    check(&[
+        (
+            "(let ((*readtable* (copy-readtable)))
+               (set-dispatch-macro-character #\\# #\\\\ (lambda (s c n) (declare (ignore c)) (list n (read s t nil t))))
+               (set-dispatch-macro-character #\\# #\\| (lambda (s c n) (declare (ignore s)) (list c n)))
+               (set-dispatch-macro-character #\\# #\\x (lambda (s c n) (declare (ignore c n)) (read-char s t nil t)))
+               (values (read-from-string \"(#\\\\latin #7\\\\b #3| #xff)\")))",
+            "((NIL LATIN) (7 B) (#\\| 3) #\\f F)",
+        ),
+    ]);
+}
+
+#[test]
+fn blanks_can_be_macro_characters() {
+    check(&[
+        (
+            "(let ((*readtable* (copy-readtable)))
+               (set-macro-character #\\Newline (lambda (s c) (declare (ignore s c)) :end-of-line))
+               (with-input-from-string (s (format nil \"a b~%~%(c~%)\"))
+                 (list (read s) (read s) (read s) (read s) (read s))))",
+            "(A B :END-OF-LINE :END-OF-LINE (C :END-OF-LINE))",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable)))
+               (set-syntax-from-char #\\Space #\\') (read-from-string \" x\"))",
+            "'X ; 2",
+        ),
+    ]);
+}

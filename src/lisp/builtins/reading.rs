@@ -325,7 +325,7 @@ impl Reading {
             }
             (After::Stream(from), Some(form)) => {
                 if !from.preserve_whitespace {
-                    self.reader.skip_one_blank();
+                    self.reader.skip_one_blank(image);
                 }
                 self.advance_stream(image)?;
                 form
@@ -347,7 +347,7 @@ impl Reading {
                 let value = match form {
                     Some(form) => {
                         if !*preserve_whitespace {
-                            self.reader.skip_one_blank();
+                            self.reader.skip_one_blank(image);
                         }
                         form
                     }

@@ -63,6 +63,28 @@ pub(crate) struct Token {
     pub(crate) is_closed: bool,
 }
 
+impl Token {
+    /// If the token begins with the dispatching macro character `#`: the digits after it, the
+    /// letter in upper case, and where the text after that begins.
+    pub(crate) fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {
+        let letter = match self.kind {
+            TokenKind::Dispatch { argument, letter } => return Some((argument, letter, self.end)),
+            TokenKind::Prefixed {
+                argument,
+                letter,
+                body,
+            } => return Some((argument, letter, body)),
+            TokenKind::Character => '\\',
+            TokenKind::BlockComment => '|',
+            _ => return None,
+        };
+        let digits = text.get(self.start + 1..self.end)?;
+        let digits = digits.split(letter).next().unwrap_or("");
+        let body = self.start + 1 + digits.len() + letter.len_utf8();
+        Some((digits.parse().ok(), letter, body))
+    }
+}
+
 /// Splits a text into tokens.
 #[derive(Clone)]
 pub(crate) struct Lexer<'t> {

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use super::error::{ReadError, ReadErrorKind};
 use super::label::Labels;
-use super::lexer::{Lexer, TokenKind};
+use super::lexer::{Lexer, is_blank};
 use super::readtable::Readtable;
 use crate::lisp::image::Image;
 use crate::lisp::source::{Place, SourceId};
@@ -129,12 +129,14 @@ impl Reader {
     }
 
     /// Moves past one blank character, as `read` does after a form.
-    pub(crate) fn skip_one_blank(&mut self) {
-        if let Some(c) = self
-            .text
-            .get(self.position..)
-            .and_then(|s| s.chars().next())
-            && crate::lisp::reader::lexer::is_blank(c)
+    pub(crate) fn skip_one_blank(&mut self, image: &Image) {
+        let readtable = image.special(known::V_READTABLE);
+        let readtable = readtable.as_foreign::<Readtable>();
+        let is_significant =
+            |c| readtable.is_some_and(|readtable| readtable.significant().contains(&c));
+        if let Some(c) = self.rest().chars().next()
+            && is_blank(c)
+            && !is_significant(c)
         {
             self.position += c.len_utf8();
         }
@@ -172,9 +174,7 @@ impl Reader {
             });
             self.skips += 1;
         }
-        let constituents: Vec<char> = readtable
-            .map(|table| table.constituents.borrow().iter().copied().collect())
-            .unwrap_or_default();
+        let constituents = readtable.map(Readtable::significant).unwrap_or_default();
         let mut lexer = Lexer::at(&text, self.position)
             .with_terminators(&terminators)
             .with_constituents(&constituents);
@@ -192,13 +192,13 @@ impl Reader {
                 return self.at_end(image);
             };
             self.position = token.end;
-            if let (Some(readtable), TokenKind::Dispatch { argument, letter }) =
-                (readtable, token.kind)
+            if let Some(readtable) = readtable
+                && let Some((argument, letter, body)) = token.dispatching(&text)
                 && let Some(function) = readtable.dispatch_of(letter)
             {
                 let number = argument.map_or(Value::NIL, |n| Value::Int(n.into()));
                 let arguments = [Value::Char(letter), number];
-                return Ok(self.call_macro(token.end, function, &arguments));
+                return Ok(self.call_macro(body, function, &arguments));
             }
             match self.token(image, &text, token) {
                 Ok(None) => {}

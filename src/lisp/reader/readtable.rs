@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::lexer::is_blank;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::copy::Copier;
@@ -86,6 +87,15 @@ impl Readtable {
             .filter(|(_, (_, inside))| !inside)
             .map(|(c, _)| *c)
             .collect()
+    }
+
+    /// Characters that are not what they are in the standard syntax: parts of symbols, and blank
+    /// macro characters.
+    pub(crate) fn significant(&self) -> Vec<char> {
+        let constituents = self.constituents.borrow();
+        let macros = self.macros.borrow();
+        let blank_macros = macros.keys().filter(|c| is_blank(**c));
+        constituents.iter().chain(blank_macros).copied().collect()
     }
 
     pub(crate) fn macro_of(&self, c: char) -> Option<Value> {
