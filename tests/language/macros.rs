@@ -25,6 +25,20 @@ fn macros_that_the_compiler_knows_are_macros() {
             "(eval (macroexpand-1 '(handler-bind ((warning #'muffle-warning)) (warn \"x\") 1)))",
             "1",
         ),
+        // What walks code finds functions and calls of functions only.
+        (
+            "(first (macroexpand-1 '(handler-bind ((error #'print)) 1)))",
+            "SYSTEM:%CALL-WITH-HANDLERS",
+        ),
+        (
+            "(eval (macroexpand-1 '(handler-bind ((error (lambda (c) c nil)) (warning #'muffle-warning)) (list (warn \"x\") (ignore-errors (error \"y\"))))))",
+            "(NIL NIL)",
+        ),
+        (
+            "(list (special-operator-p 'system:with-restarts)
+                   (eval (macroexpand-1 '(system:with-restarts (list (system:make-restart 'three (lambda () 3) nil nil nil)) (invoke-restart 'three)))))",
+            "(NIL 3)",
+        ),
         (
             "(multiple-value-list (catch 'x (throw 'x (values 1 2))))",
             "(1 2)",
@@ -73,4 +87,18 @@ fn a_parameter_has_three_parts_at_most() {
         "(lambda (&optional (a 3 b 4)) a b)",
         "!! more than three parts of a parameter: (A 3 B 4) is not a valid lambda list",
     )]);
+}
+
+#[test]
+fn special_variables_are_no_symbol_macros() {
+    check(&[
+        (
+            "(symbol-macrolet ((*print-base* 2)) *print-base*)",
+            "!! *PRINT-BASE* is a special variable and cannot be a symbol macro.",
+        ),
+        (
+            "(symbol-macrolet ((x 2)) (declare (special x)) x)",
+            "!! X is a special variable and cannot be a symbol macro.",
+        ),
+    ]);
 }

@@ -8,6 +8,7 @@ mod debugger_and_packages;
 mod examples;
 mod files;
 mod formatters;
+mod generic_functions;
 mod gray_streams;
 mod library;
 mod limits;

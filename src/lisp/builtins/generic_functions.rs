@@ -62,6 +62,7 @@ pub(crate) static TABLE: &[Builtin] = &[
             if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
                 return Err(wrong_count(image, &args[0], required, count));
             }
+            check_owner(image, &function, method_argument(&args[1])?)?;
             add_method(image, &function, method_argument(&args[1])?.clone())?;
             Ok(args[0].clone())
         },
@@ -95,6 +96,22 @@ pub(crate) static TABLE: &[Builtin] = &[
         },
     ),
     pure(
+        "FUNCTION-KEYWORDS",
+        "method",
+        "The keywords that a method accepts, and whether it accepts all others, too.",
+        &[
+            "(function-keywords (defmethod poured (x &key (into 'cup)) (list x into))) => (:INTO) ; NIL",
+        ],
+        |_, args| {
+            let parameters = &method_argument(&args[0])?.parameters;
+            let keys = parameters.keys.iter().flatten().copied();
+            Ok(Value::values(vec![
+                Value::list(keys.map(Value::symbol)),
+                Value::bool(parameters.allows_other_keys),
+            ]))
+        },
+    ),
+    pure(
         "METHOD-QUALIFIERS",
         "method",
         "The qualifiers of a method.",
@@ -120,7 +137,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
     pure(
         "%ENSURE-GENERIC",
-        "name lambda-list combination documentation precedence",
+        "name lambda-list combination documentation precedence keeps-methods",
         "Defines a generic function as DEFGENERIC describes it.",
         &[],
         defmethod::ensure_generic_function,
@@ -213,6 +230,25 @@ pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> 
         .as_foreign::<MethodObject>()
         .map(|object| &object.0)
         .ok_or_else(|| Raise::type_error(value, Value::symbol(known::METHOD)))
+}
+
+/// Checks that a method is not one of another generic function.
+fn check_owner(
+    image: &Image,
+    function: &Rc<Function>,
+    method: &Rc<Method>,
+) -> Result<(), Box<Raise>> {
+    let owner = image.named_function(&method.name);
+    let owner = owner.filter(|owner| !Rc::ptr_eq(owner, function));
+    let is_owned = owner.as_ref().and_then(|owner| owner.as_generic());
+    if is_owned.is_some_and(|owner| owner.methods.borrow().iter().any(|m| Rc::ptr_eq(m, method))) {
+        return Err(Raise::simple(format!(
+            "{} belongs to {}; a method can have one generic function only.",
+            text(image, &method_value(method)),
+            text(image, &method.name)
+        )));
+    }
+    Ok(())
 }
 
 /// The error for a method, or the description of one, with another number of required parameters.

@@ -205,6 +205,14 @@ impl<'a> Compiler<'a> {
         Ok(sym)
     }
 
+    /// The error for a symbol that cannot stand for a form since it is a special variable.
+    pub(crate) fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
+        let shown = crate::lisp::print::to_string(self.image, &name.into(), true);
+        self.program_error(format!(
+            "{shown} is a special variable and cannot be a symbol macro."
+        ))
+    }
+
     /// A program error at the current place.
     pub(crate) fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
         Raise::program(text).at(self.place)

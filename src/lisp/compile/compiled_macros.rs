@@ -77,7 +77,35 @@ pub(super) fn multiple_value_bind(image: &mut Image, form: &Value) -> Expansion 
     ])
 }
 
-/// `(handler-bind bindings body…)`: the special operator behind it.
+/// `(handler-bind bindings body…)`: a call with a function of the body, types and handlers.
 pub(super) fn handler_bind(_: &mut Image, form: &Value) -> Expansion {
-    Ok(form![known::WITH_HANDLERS; form.cdr_or_nil()])
+    let args = form.cdr_or_nil();
+    let mut call = vec![
+        known::SYS_CALL_WITH_HANDLERS.into(),
+        thunk(args.cdr_or_nil()),
+    ];
+    for binding in args.car_or_nil().iter_list() {
+        call.push(form![known::QUOTE, binding.car_or_nil()]);
+        call.push(binding.cdr_or_nil().car_or_nil());
+    }
+    Ok(Value::list(call))
+}
+
+/// `(with-restarts list body…)`: a call with the list and a function of the body.
+pub(super) fn with_restarts(_: &mut Image, form: &Value) -> Expansion {
+    let args = form.cdr_or_nil();
+    let body = thunk(args.cdr_or_nil());
+    Ok(form![
+        known::SYS_CALL_WITH_RESTARTS,
+        args.car_or_nil(),
+        body
+    ])
+}
+
+/// The form of a function without parameters.
+fn thunk(body: Value) -> Value {
+    form![
+        known::FUNCTION,
+        form![known::LAMBDA, Value::NIL, form![known::LOCALLY; body]]
+    ]
 }

@@ -196,35 +196,30 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
 ];
 
 /// Special operators of package `SYSTEM`.
-pub(crate) static SYSTEM_FORMS: &[Operator] = &[
-    special(
-        "NAMED-LAMBDA",
-        "name lambda-list &body body",
-        "A function with a name, whose body stands in a block of that name.",
-        &["(funcall (system:named-lambda f (x) (return-from f x)) 1) => 1"],
+pub(crate) static SYSTEM_FORMS: &[Operator] = &[special(
+    "NAMED-LAMBDA",
+    "name lambda-list &body body",
+    "A function with a name, whose body stands in a block of that name.",
+    &["(funcall (system:named-lambda f (x) (return-from f x)) 1) => 1"],
+)];
+
+/// Macros of package `SYSTEM`.
+pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
+    macro_(
+        "QUASIQUOTE",
+        "template",
+        "A template: what the reader makes of a backquote.",
+        &["`(1 ,(+ 1 1) ,@(list 3 4)) => (1 2 3 4)"],
+        quasiquote::expand_quasiquote,
     ),
-    special(
-        "WITH-HANDLERS",
-        "bindings &body body",
-        "What HANDLER-BIND expands into.",
-        &["(system:with-handlers ((warning #'muffle-warning)) (warn \"x\") 1) => 1"],
-    ),
-    special(
+    macro_(
         "WITH-RESTARTS",
         "list &body body",
         "Establishes a list of restart objects.",
         &["(system:with-restarts nil 1) => 1"],
+        compiled_macros::with_restarts,
     ),
 ];
-
-/// Macros of package `SYSTEM`.
-pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[macro_(
-    "QUASIQUOTE",
-    "template",
-    "A template: what the reader makes of a backquote.",
-    &["`(1 ,(+ 1 1) ,@(list 3 4)) => (1 2 3 4)"],
-    quasiquote::expand_quasiquote,
-)];
 
 /// Macros of package `COMMON-LISP`.
 pub(crate) static OPERATORS: &[Operator] = &[

@@ -54,7 +54,7 @@ pub(super) fn lookup(name: Sym) -> Option<SpecialForm> {
                 "There is no function named DECLARE: declarations stand at the start of a body.",
             ))
         },
-        known::HANDLER_BIND | known::WITH_HANDLERS => handler_bind,
+        known::HANDLER_BIND => handler_bind,
         known::WITH_RESTARTS => restarts,
         _ => return None,
     })
@@ -514,6 +514,9 @@ fn symbol_macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compile
     let mut inner = scope.clone();
     for spec in rest.car_or_nil().iter_list() {
         let name = c.check_bindable(&spec.car_or_nil())?;
+        if c.is_special(name) {
+            return Err(c.special_symbol_macro(name));
+        }
         let expansion = spec.cdr_or_nil().car_or_nil();
         inner = inner.with(Entry::Variable(
             name,
@@ -521,6 +524,13 @@ fn symbol_macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compile
         ));
     }
     let body = parse_body(&rest.cdr_or_nil(), false);
+    let names = rest.car_or_nil();
+    let mut names = names
+        .iter_list()
+        .filter_map(|spec| spec.car_or_nil().as_symbol());
+    if let Some(name) = names.find(|name| body.specials.contains(name)) {
+        return Err(c.special_symbol_macro(name));
+    }
     c.analyze_body(&body, &[], &inner)
 }
 

@@ -20,9 +20,10 @@
   "A list of `n` numbers from `start` (0) in steps (1).
   Examples:
   (alexandria:iota 3) => (0 1 2)
-  (alexandria:iota 3 :start 1 :step 2) => (1 3 5)"
+  (alexandria:iota 3 :start 1 :step 2) => (1 3 5)
+  (alexandria:iota 2 :start 0.0 :step #C(0 2)) => (#C(0.0 0.0) #C(0.0 2.0))"
   ;; All numbers have one type, even if only the step is a float.
-  (let ((number (+ start (- step step))))
+  (let ((number (- (+ start step) step)))
     (map-into (make-list n)
               (lambda () (prog1 number (incf number step))))))
 
@@ -31,7 +32,7 @@
   Examples:
   (let ((sum 0)) (alexandria:map-iota (lambda (i) (incf sum i)) 4) sum) => 6"
   (loop repeat n
-        for number = (+ start (- step step)) then (+ number step)
+        for number = (- (+ start step) step) then (+ number step)
         do (funcall function number))
   n)
 

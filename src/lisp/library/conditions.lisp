@@ -51,6 +51,18 @@
             (return-from ,block (handler-bind ,(nreverse handlers) ,form))
             ,@(nreverse statements))))))
 
+(defun %call-with-handlers (function &rest handlers)
+  "Calls a function while handlers are there, given as types and functions: what HANDLER-BIND means."
+  (handler-bind ((condition (lambda (condition)
+                              (loop for (type handler) on handlers by #'cddr
+                                    when (typep condition type)
+                                      do (funcall handler condition)))))
+    (funcall function)))
+
+(defun %call-with-restarts (restarts function)
+  "Calls a function while restarts are there."
+  (with-restarts restarts (funcall function)))
+
 (defmacro ignore-errors (&body body)
   "The body; an error makes it NIL and the condition.
   Examples:

@@ -68,7 +68,7 @@
                     entries)
          ,@body))))
 
-(defun ensure-generic-function (name &key lambda-list documentation
+(defun ensure-generic-function (name &key (lambda-list '() lambda-list-p) documentation
                                        generic-function-class method-class
                                        argument-precedence-order declare environment
                                        method-combination)
@@ -76,15 +76,15 @@
   Examples:
   (progn (ensure-generic-function 'ensured :lambda-list '(x)) (typep #'ensured 'generic-function)) => T"
   (declare (ignore generic-function-class method-class declare environment method-combination))
-  (cond ((and (fboundp name) (typep (fdefinition name) 'generic-function))
-         (fdefinition name))
-        ((fboundp name)
-         (error "~s is no generic function." name))
-        (t (eval `(defgeneric ,name ,lambda-list
-                    ,@(and argument-precedence-order
-                           `((:argument-precedence-order ,@argument-precedence-order)))
-                    ,@(and documentation `((:documentation ,documentation)))))
-           (fdefinition name))))
+  (let ((function (and (fboundp name) (fdefinition name))))
+    (unless (typep function '(or null generic-function))
+      (error "~s is no generic function." name))
+    (cond ((or (null function) lambda-list-p)
+           (%ensure-generic name lambda-list '(standard) documentation argument-precedence-order t))
+          (documentation
+           (setf (documentation function t) documentation)
+           function)
+          (t function))))
 
 (defun make-load-form (object &optional environment)
   "Forms that make an object like this one and initialize it. Programs add methods.

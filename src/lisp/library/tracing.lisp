@@ -4,12 +4,12 @@
 
 (defvar system::%*traced* '()
   "What is traced: lists of a name, what traces it, a function that tells whether that is so still,
-  and one that ends it.")
+  one that ends it, and the function that is traced if it is one.")
 
 (defvar system::%*tracers* '(system::%trace-function)
   "Functions that trace one kind of thing each. Called with a name, they begin to trace what it
-  means, and return two functions: whether that is traced still, and what ends it. They return NIL
-  if the name has no such meaning.")
+  means, and return functions: whether that is traced still, what ends it, and what is traced if it
+  is a function. They return NIL if the name has no such meaning.")
 
 (defvar system::%*trace-depth* 0
   "How many traced calls are open.")
@@ -50,9 +50,9 @@
   "Traces a name by one of the tracers, unless that does so already; false if it has no meaning."
   (or (find-if (lambda (entry) (and (equal (first entry) name) (eq (second entry) tracer)))
                (%still-traced))
-      (multiple-value-bind (is-traced end) (funcall tracer name)
+      (multiple-value-bind (is-traced end function) (funcall tracer name)
         (when end
-          (push (list name tracer is-traced end) %*traced*)))))
+          (push (list name tracer is-traced end function) %*traced*)))))
 
 (defun %refuse-to-trace (name)
   "The error for a name that means nothing that can be traced."
@@ -83,7 +83,8 @@
                                   (lambda () (apply function arguments))))))
       (setf (fdefinition name) shown)
       (values (lambda () (and (fboundp name) (eq (fdefinition name) shown)))
-              (lambda () (setf (fdefinition name) function))))))
+              (lambda () (setf (fdefinition name) function))
+              function))))
 
 (defun %traced-call (shown name call)
   "The values of a call, which is shown with them, or with what has made it fail."

@@ -292,6 +292,7 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
         combination,
         doc,
         quote(order),
+        Value::NIL,
     ];
     if methods.is_empty() {
         return Ok(ensure);
@@ -305,15 +306,20 @@ pub(crate) fn ensure_generic_function(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Value, Box<Raise>> {
-    let [name, lambda_list, combination, doc, order] = args else {
+    let [name, lambda_list, combination, doc, order, keep] = args else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
+    let keeps_methods = keep.is_true();
     let parameters = Parameters::parse(image, lambda_list)?;
     let found = combination_named(image, &combination.car_or_nil())?;
     let precedence = precedence_order(image, lambda_list, order, parameters.required)?;
     let function = ensure_generic(image, name, &parameters)?;
     if let Some(generic) = function.as_generic() {
-        let own = generic.own_methods.take();
+        let own = if keeps_methods {
+            Vec::new()
+        } else {
+            generic.own_methods.take()
+        };
         generic
             .methods
             .borrow_mut()
@@ -331,12 +337,14 @@ pub(crate) fn ensure_generic_function(
         }
         *generic.parameters.borrow_mut() = parameters;
         generic.is_declared.set(true);
-        generic.combination.set(found);
         *generic.precedence.borrow_mut() = precedence;
-        let order = combination.cdr_or_nil().car_or_nil().as_symbol();
-        generic
-            .most_specific_last
-            .set(order == Some(known::K_MOST_SPECIFIC_LAST));
+        if !keeps_methods {
+            generic.combination.set(found);
+            let order = combination.cdr_or_nil().car_or_nil().as_symbol();
+            generic
+                .most_specific_last
+                .set(order == Some(known::K_MOST_SPECIFIC_LAST));
+        }
         if let Some(text) = doc.as_text() {
             *generic.doc.borrow_mut() = Some(text.into());
         }

@@ -24,11 +24,19 @@ pub(crate) fn make_instance(
 ) -> Result<Step, Box<Raise>> {
     let mut args = args.into_iter();
     let designator = args.next().unwrap_or(Value::NIL);
+    if matches!(designator, Value::Symbol(..))
+        && let Some(function) = extended_function(machine.image, known::MAKE_INSTANCE)
+    {
+        // A program's methods are for classes, not for their names.
+        let class = Value::Class(designated_class(machine.image, &designator)?);
+        let args: Vec<Value> = std::iter::once(class).chain(args).collect();
+        return run(machine, "MAKE-INSTANCE", |calls| async move {
+            Ok(calls.call(&function, Args::Many(args)).await)
+        });
+    }
     let class = instantiable_class(machine.image, &designator)?;
     let initargs: Vec<Value> = args.collect();
-    if !initargs.len().is_multiple_of(2) {
-        return Err(Raise::program("odd number of &KEY arguments"));
-    }
+    check_pairs(machine.image, &initargs)?;
     let (initargs, pending) = with_default_initargs(&class, initargs);
     if pending.is_empty() {
         return make(machine, class, initargs);
@@ -79,6 +87,7 @@ fn make(
             known::INITIALIZE_INSTANCE,
             known::SHARED_INITIALIZE,
         ];
+        let protocol = protocol.map(|name| (name, [object.clone(), Value::T]));
         check_initargs(machine.image, &object, &protocol, &initargs)?;
     }
     let initialize = extended_function(machine.image, known::INITIALIZE_INSTANCE);
@@ -158,12 +167,30 @@ fn has_key(initargs: &[Value], key: Sym) -> bool {
         .any(|pair| pair[0].as_symbol() == Some(key))
 }
 
+/// Checks that initargs are symbols with values.
+pub(super) fn check_pairs(image: &Image, initargs: &[Value]) -> Result<(), Box<Raise>> {
+    if !initargs.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    let names = initargs.chunks_exact(2).map(|pair| &pair[0]);
+    match names.into_iter().find(|name| name.as_symbol().is_none()) {
+        Some(name) => Err(Raise::program(format!(
+            "The name of an initialization argument is a symbol, not {}.",
+            super::text(image, name)
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// A function of the initialization protocol, and the arguments with which it would be called.
+type ProtocolCall = (Sym, [Value; 2]);
+
 /// Checks that each initarg names a slot or is a keyword of an applicable method of one of
 /// the `protocol` functions.
-fn check_initargs(
+pub(super) fn check_initargs(
     image: &Image,
     object: &Value,
-    protocol: &[Sym],
+    protocol: &[ProtocolCall],
     initargs: &[Value],
 ) -> Result<(), Box<Raise>> {
     let class = super::class_of(image, object);
@@ -181,7 +208,7 @@ fn check_initargs(
     if unknown.is_empty() || allows_other_keys(initargs) {
         return Ok(());
     }
-    let Some(keys) = method_keys(image, object, protocol) else {
+    let Some(keys) = method_keys(image, protocol) else {
         return Ok(());
     };
     let bad: Vec<String> = unknown
@@ -208,14 +235,13 @@ fn allows_other_keys(initargs: &[Value]) -> bool {
 }
 
 /// The keywords that the program's methods of the functions accept; none if any are accepted.
-fn method_keys(image: &Image, object: &Value, functions: &[Sym]) -> Option<Vec<Sym>> {
+fn method_keys(image: &Image, protocol: &[ProtocolCall]) -> Option<Vec<Sym>> {
     let mut keys = Vec::new();
-    for function in functions {
+    for (function, args) in protocol {
         let Some(generic) = image.function(*function).and_then(|f| f.as_generic()) else {
             continue;
         };
-        let args = [object.clone(), Value::T];
-        for method in applicable_methods(image, generic, &args) {
+        for method in applicable_methods(image, generic, args) {
             if method.is_builtin {
                 continue;
             }
@@ -247,6 +273,7 @@ pub(crate) fn reinitialize_instance(
 ) -> Result<Step, Box<Raise>> {
     if let Some((object, initargs)) = args.split_first() {
         let protocol = [known::REINITIALIZE_INSTANCE, known::SHARED_INITIALIZE];
+        let protocol = protocol.map(|name| (name, [object.clone(), Value::T]));
         check_initargs(machine.image, object, &protocol, initargs)?;
     }
     share(machine, args, Value::NIL)
@@ -278,9 +305,7 @@ pub(crate) fn shared_initialize(
             Value::symbol(known::STANDARD_OBJECT),
         ));
     };
-    if !initargs.len().is_multiple_of(2) {
-        return Err(Raise::program("odd number of &KEY arguments"));
-    }
+    check_pairs(machine.image, initargs)?;
     let finish = Finish::Return(object.clone());
     let which = Which::from_value(names);
     fill(machine, instance, &which, initargs, finish)

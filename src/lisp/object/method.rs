@@ -134,7 +134,10 @@ pub(crate) fn ensure_generic(
                 let max = (!parameters.has_rest && parameters.keys.is_none()).then_some(all);
                 extended(image, name, required, max, function.clone())
             }
-            _ => return Err(names_ordinary_function(image, name)),
+            _ => {
+                return traced_generic(image, name)
+                    .ok_or_else(|| names_ordinary_function(image, name));
+            }
         },
         None => {
             let mut parameters = parameters.clone();
@@ -145,6 +148,19 @@ pub(crate) fn ensure_generic(
     };
     set_named_function(image, name, function.clone());
     Ok(function)
+}
+
+/// The generic function whose calls are shown by the function that has its name: see `trace`.
+fn traced_generic(image: &Image, name: &Value) -> Option<Rc<Function>> {
+    let traced = image.special(known::SYS_TRACED).iter_list();
+    let mut functions = traced.filter_map(|entry| {
+        let entry = entry.list_to_vec()?;
+        match entry.as_slice() {
+            [of, .., Value::Function(function)] if of.is_eql(name) => Some(function.clone()),
+            _ => None,
+        }
+    });
+    functions.find(|function| function.as_generic().is_some())
 }
 
 fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {

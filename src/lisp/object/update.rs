@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::fill::{Finish, Which, fill};
+use super::instance::{check_initargs, check_pairs};
 use super::method::extended_function;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, Instance, OldSlot, SlotDefinition};
@@ -130,6 +131,16 @@ pub(crate) fn change_class(
     initargs: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
     let object = Value::Instance(instance.clone());
+    check_pairs(machine.image, &initargs)?;
+    let changed = Value::Instance(Rc::new(Instance::new(class.clone())));
+    let protocol = [
+        (
+            known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS,
+            [object.clone(), changed.clone()],
+        ),
+        (known::SHARED_INITIALIZE, [changed.clone(), Value::T]),
+    ];
+    check_initargs(machine.image, &changed, &protocol, &initargs)?;
     let old_class = instance.class();
     let previous = Rc::new(Instance {
         class: old_class.clone().into(),

@@ -8,6 +8,7 @@ use super::tour;
 use crate::lisp::builtin::{Builtin, Operator, control};
 use crate::lisp::builtins::help::{self, Topic, Topics};
 use crate::lisp::image::Image;
+use crate::lisp::stream;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
@@ -87,7 +88,9 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
             let simulated = plan.now() - now;
             let real = begin.elapsed().as_secs_f64();
             let text = format!("; {simulated:.3} s simulated, {real:.3} s real");
-            calls.with(move |machine| say(machine.image, &text)).await;
+            calls
+                .with(move |machine| trace(machine.image, &text))
+                .await?;
             Ok(values)
         })
     },
@@ -111,6 +114,13 @@ fn expand_doc(image: &mut Image, form: &Value) -> Result<Value> {
     let package = image.packages.find("PLANWRIGHT");
     let topic = image.intern(package.unwrap_or(PackageTable::USER), "DESCRIBE-TOPIC");
     Ok(Value::list([topic.into(), quoted]))
+}
+
+/// Writes a line to `*trace-output*`.
+fn trace(image: &mut Image, line: &str) -> Result<()> {
+    let output = image.special(known::V_TRACE_OUTPUT).clone();
+    stream::fresh_line(image, &output)?;
+    stream::write(image, &output, &format!("{line}\n"))
 }
 
 fn say(image: &mut Image, text: &str) {
