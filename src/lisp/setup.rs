@@ -90,6 +90,7 @@ fn define_variables(image: &mut Image) {
         (known::V_DEBUGGER_HOOK, Value::NIL),
         (known::V_READ_SUPPRESS, Value::NIL),
         (known::V_PRINT_DEPTH, Value::Int(0)),
+        (known::V_PRINT_LABELS, Value::NIL),
         (known::V_READ_BASE, Value::Int(10)),
         (
             known::V_READ_DEFAULT_FLOAT_FORMAT,

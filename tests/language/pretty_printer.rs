@@ -153,3 +153,41 @@ fn each_dimension_of_an_array_is_a_level() {
         ),
     ]);
 }
+
+#[test]
+fn elements_of_logical_blocks_share_labels() {
+    let circle = |form: &str| format!("(let ((*print-circle* t) (*print-pretty* t)) {form})");
+    check(&[
+        (
+            &circle("(let ((x (list 'a))) (list (with-output-to-string (s) (pprint-fill s (list x x)))
+                                               (with-output-to-string (s) (pprint-linear s (list x 'b x)))
+                                               (format nil \"~:<~@{~A~^ ~}~:>\" (list x x))))"),
+            "(\"(#1=(A) #1#)\" \"(#1=(A) B #1#)\" \"(#1=(A) #1#)\")",
+        ),
+        (
+            &circle("(let* ((x (list 8)) (list (list x x)))
+                       (with-output-to-string (s)
+                         (pprint-logical-block (s list :prefix \"<\" :suffix \">\")
+                           (dotimes (i 2) (pprint-logical-block (s (pprint-pop) :prefix \"[\" :suffix \"]\") (prin1 (pprint-pop) s))))))"),
+            "\"<#1=[8]#1#>\"",
+        ),
+        (
+            &circle("(let ((x (list 1 2))) (setf (cddr x) x)
+                       (list (with-output-to-string (s) (pprint-fill s x)) (format nil \"~:<~@{~A~^ ~}~:>\" x)))"),
+            "(\"#1=(1 2 . #1#)\" \"#1=(1 2 . #1#)\")",
+        ),
+        (
+            &circle("(let ((x (list 0))) (format nil \"~:<~@{~A~^ ~}~:>\" (cons x x)))"),
+            "\"(#1=(0) . #1#)\"",
+        ),
+        // What a method prints inside something with labels has none of the same numbers.
+        (
+            &circle("(progn (defclass pair () ((part :initform (list 1) :reader part)))
+                            (defmethod print-object ((p pair) s) (pprint-fill s (list (part p) (part p))))
+                            (let ((p (make-instance 'pair))) (list (prin1-to-string p) (prin1-to-string (list p p)))))"),
+            "(\"(#1=(1) #1#)\" \"(#1=((1) (1)) #1#)\")",
+        ),
+        ("(format nil \"~:<~@{~A~^ ~}~:>\" '(1 2 . 3))", "\"(1 2 . 3)\""),
+        ("(let ((x (list 'a))) (with-output-to-string (s) (pprint-fill s (list x x))))", "\"((A) (A))\""),
+    ]);
+}

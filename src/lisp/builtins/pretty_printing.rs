@@ -7,7 +7,7 @@ use super::streams::stream_of;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::print::{self, Settings};
+use crate::lisp::print::{self, Settings, SharedLabels};
 use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
 use crate::lisp::value::document::{Document, Newline, Tab};
@@ -69,6 +69,42 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
             }
             stream::write(image, &args[0], &string(&args[1])?.text())?;
             Ok(Value::NIL)
+        },
+    ),
+    pure(
+        "%LABELS",
+        "list",
+        "The labels of a list that a logical block prints.",
+        &[],
+        |image, args| {
+            let labels = SharedLabels::of(image, &args[0], &Settings::of(image));
+            Ok(Value::foreign(labels))
+        },
+    ),
+    pure(
+        "%LABELLED-P",
+        "object",
+        "Is the object printed with a label in the logical block?",
+        &[],
+        |image, args| {
+            let labels = Settings::of(image).shared;
+            Ok(Value::bool(
+                labels.is_some_and(|labels| labels.is_marked(&args[0])),
+            ))
+        },
+    ),
+    pure(
+        "%WRITE-LABEL",
+        "object stream",
+        "Writes the label that the object has in the logical block; does it take the place of the object?",
+        &[],
+        |image, args| {
+            let labels = Settings::of(image).shared;
+            let Some((label, is_all)) = labels.and_then(|labels| labels.next(&args[0])) else {
+                return Ok(Value::NIL);
+            };
+            stream::write(image, &args[1], &label)?;
+            Ok(Value::bool(is_all))
         },
     ),
     pure(

@@ -123,6 +123,11 @@ impl Calls {
         Some(Document::new(false))
     }
 
+    /// Have all calls been made on which what was printed so far depends?
+    pub(super) fn are_made(&self) -> bool {
+        self.needed.is_empty() && !self.is_undecided
+    }
+
     /// The calls whose texts were missing.
     pub(crate) fn into_needed(self) -> Vec<Call> {
         self.needed

@@ -1,5 +1,6 @@
 //! Which parts of a value occur more than once, or contain themselves.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -8,13 +9,17 @@ use crate::lisp::guard::Pace;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// A value with fewer parts than this is first walked without bookkeeping: if the walk
 /// ends, nothing in it is circular.
 const QUICK: usize = 20_000;
 
 /// The parts that are printed with labels.
-#[derive(Default)]
+#[derive(Clone, Default, Debug)]
 pub(super) struct Labels {
     /// By address; the label's number once it has been printed.
     marked: HashMap<usize, Option<usize>>,
@@ -80,8 +85,103 @@ fn is_small_tree(value: &Value) -> bool {
     true
 }
 
+/// Labels that the elements of a logical block share, although they are printed one by one.
+#[derive(Clone, Debug)]
+pub(crate) struct SharedLabels {
+    labels: Rc<RefCell<Labels>>,
+    /// Do they belong to one attempt to print, which is repeated if it needs calls?
+    is_of_attempt: bool,
+}
+
+impl PartialEq for SharedLabels {
+    fn eq(&self, other: &SharedLabels) -> bool {
+        Rc::ptr_eq(&self.labels, &other.labels)
+    }
+}
+
+impl Eq for SharedLabels {}
+
+impl SharedLabels {
+    /// The labels of a list that a block prints.
+    pub(crate) fn of(image: &Image, list: &Value, settings: &Settings) -> SharedLabels {
+        SharedLabels {
+            labels: Rc::new(RefCell::new(Labels::of(image, list, &settings.effective()))),
+            is_of_attempt: false,
+        }
+    }
+
+    /// A copy for an attempt to print.
+    pub(super) fn for_attempt(&self) -> SharedLabels {
+        SharedLabels {
+            labels: Rc::new(RefCell::new(self.labels.borrow().clone())),
+            is_of_attempt: true,
+        }
+    }
+
+    /// The labels, and those of a value that has parts from elsewhere.
+    pub(super) fn with(&self, own: Labels) -> Labels {
+        let mut labels = self.labels.borrow().clone();
+        for address in own.marked.into_keys() {
+            labels.marked.entry(address).or_insert(None);
+        }
+        labels
+    }
+
+    /// Notes what has been printed; after an attempt that needs calls, nothing has been.
+    pub(super) fn note(&self, printed: &Labels, is_complete: bool) {
+        if !is_complete && !self.is_of_attempt {
+            return;
+        }
+        let mut labels = self.labels.borrow_mut();
+        for (address, number) in &mut labels.marked {
+            if let Some(given) = printed.marked.get(address) {
+                *number = *given;
+            }
+        }
+        labels.given = printed.given;
+    }
+
+    /// Notes what an attempt has printed.
+    pub(super) fn note_attempt(&self, attempt: &SharedLabels, is_complete: bool) {
+        self.note(&attempt.labels.borrow(), is_complete);
+    }
+
+    /// Is the part to be printed with a label?
+    pub(crate) fn is_marked(&self, value: &Value) -> bool {
+        self.labels.borrow().is_marked(value)
+    }
+
+    /// The label of a part that is about to be printed, and whether it takes the part's place.
+    pub(crate) fn next(&self, value: &Value) -> Option<(String, bool)> {
+        match self.labels.borrow_mut().next(value) {
+            Label::None => None,
+            Label::First(number) => Some((format!("#{number}="), false)),
+            Label::Again(number) => Some((format!("#{number}#"), true)),
+        }
+    }
+}
+
+impl Foreign for SharedLabels {
+    fn type_symbol(&self) -> Sym {
+        known::T
+    }
+
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
+        "#<labels>".to_owned()
+    }
+
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        // The parts have other addresses in a copy.
+        ForeignCopy::New(Box::new(SharedLabels {
+            labels: Rc::default(),
+            is_of_attempt: false,
+        }))
+    }
+}
+
 enum Visit {
-    Enter(Value),
+    /// With the index of a list's rest in the list.
+    Enter(Value, usize),
     Leave(usize),
 }
 
@@ -96,7 +196,7 @@ impl Labels {
             return labels;
         }
         let mut seen: HashMap<usize, bool> = HashMap::new();
-        let mut pending = vec![Visit::Enter(value.clone())];
+        let mut pending = vec![Visit::Enter(value.clone(), 0)];
         let mut inner = Vec::new();
         let mut pace = Pace::default();
         while let Some(visit) = pending.pop() {
@@ -105,7 +205,7 @@ impl Labels {
                 Visit::Leave(address) => {
                     seen.insert(address, false);
                 }
-                Visit::Enter(value) => {
+                Visit::Enter(value, index) => {
                     let Some(address) = address(&value) else {
                         continue;
                     };
@@ -120,13 +220,28 @@ impl Labels {
                             pending.push(Visit::Leave(address));
                             inner.clear();
                             parts(&value, symbols, &mut inner);
-                            pending.extend(inner.drain(..).map(Visit::Enter));
+                            let is_list = matches!(value, Value::Cons(_));
+                            // The first part of a pair that comes is the rest of the list.
+                            let has_rest = is_list && is_shareable(&value.cdr_or_nil(), symbols);
+                            let is_cut =
+                                all_shared && settings.length.is_some_and(|most| index + 1 >= most);
+                            let visits = inner.drain(..).enumerate();
+                            let visits = visits.filter(|(i, _)| !(has_rest && is_cut && *i == 0));
+                            pending.extend(visits.map(|(i, part)| {
+                                let is_rest = has_rest && i == 0;
+                                Visit::Enter(part, if is_rest { index + 1 } else { 0 })
+                            }));
                         }
                     }
                 }
             }
         }
         labels
+    }
+
+    /// Has no part a label?
+    pub(super) fn is_empty(&self) -> bool {
+        self.marked.is_empty()
     }
 
     /// Is the part to be printed with a label?

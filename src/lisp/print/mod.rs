@@ -26,6 +26,7 @@ mod tests;
 
 pub(crate) use super::image::identity::identity;
 pub(crate) use calls::{Call, Calls, not_readable};
+pub(crate) use circle::SharedLabels;
 pub(crate) use qualified::qualified;
 pub(crate) use settings::{Case, Settings};
 

@@ -20,6 +20,7 @@ use crate::lisp::value::array::Array;
 use crate::lisp::value::class::Instance;
 use crate::lisp::value::document::Document;
 use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 use list::Rest;
 
 /// Prints one value.
@@ -109,6 +110,9 @@ impl<'a> Printer<'a> {
 
     fn run(&mut self, value: &Value) {
         self.labels = Labels::of(self.image, value, self.settings);
+        if let Some(shared) = &self.settings.shared {
+            self.labels = shared.with(std::mem::take(&mut self.labels));
+        }
         self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
         let mut pace = Pace::default();
         while let Some(task) = self.tasks.pop() {
@@ -140,6 +144,9 @@ impl<'a> Printer<'a> {
                 }
             }
         }
+        if let Some(shared) = &self.settings.shared {
+            shared.note(&self.labels, self.calls.are_made());
+        }
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
@@ -159,7 +166,7 @@ impl<'a> Printer<'a> {
                 function,
                 before: Vec::new(),
                 after: vec![value.clone()],
-                bindings: self.settings.bindings(self.image, depth),
+                bindings: bindings(self.image, self.settings, &self.labels, depth),
                 is_pretty: true,
             })
         {
@@ -221,7 +228,7 @@ impl<'a> Printer<'a> {
         before: Vec<Value>,
         depth: usize,
     ) -> Option<Document> {
-        let bindings = self.settings.bindings(self.image, depth);
+        let bindings = bindings(self.image, self.settings, &self.labels, depth);
         self.calls.text(|| Call {
             function,
             before,
@@ -230,4 +237,21 @@ impl<'a> Printer<'a> {
             is_pretty: self.settings.pretty,
         })
     }
+}
+
+/// The printer variables for a function that prints a part. Its logical blocks have labels only if there
+/// are none around it, which would have the same numbers.
+fn bindings(
+    image: &Image,
+    settings: &Settings,
+    labels: &Labels,
+    depth: usize,
+) -> Vec<(Sym, Value)> {
+    let mut bindings = settings.bindings(image, depth);
+    if !labels.is_empty() {
+        bindings.push((known::V_PRINT_LABELS, Value::T));
+    } else if settings.shared.is_some() {
+        bindings.push((known::V_PRINT_LABELS, Value::NIL));
+    }
+    bindings
 }

@@ -1,5 +1,6 @@
 //! The printer variables, read once per call.
 
+use super::circle::SharedLabels;
 use crate::lisp::image::Image;
 use crate::lisp::reader::LetterCase;
 use crate::lisp::value::Value;
@@ -40,6 +41,8 @@ pub(crate) struct Settings {
     pub(crate) depth: usize,
     /// `*print-circle*`: shared parts as `#1#`?
     pub(crate) circle: bool,
+    /// The labels of the logical block around what is printed, if it has some.
+    pub(crate) shared: Option<SharedLabels>,
     /// `readtable-case`: what the reader does with letters.
     pub(crate) letters: LetterCase,
     /// `*print-gensym*`: uninterned symbols with `#:`?
@@ -70,6 +73,8 @@ impl Settings {
     /// The current values of the printer variables.
     pub(crate) fn of(image: &Image) -> Settings {
         let flag = |variable| image.special(variable).is_true();
+        let shared = image.special(known::V_PRINT_LABELS);
+        let shared = shared.as_foreign::<SharedLabels>();
         Settings {
             escape: flag(known::V_PRINT_ESCAPE),
             readably: flag(known::V_PRINT_READABLY),
@@ -89,6 +94,7 @@ impl Settings {
             level: count(image, known::V_PRINT_LEVEL),
             depth: count(image, known::V_PRINT_DEPTH).unwrap_or(0),
             circle: flag(known::V_PRINT_CIRCLE),
+            shared: shared.cloned().filter(|_| flag(known::V_PRINT_CIRCLE)),
             gensym: flag(known::V_PRINT_GENSYM),
             array: flag(known::V_PRINT_ARRAY),
             lines: count(image, known::V_PRINT_LINES),

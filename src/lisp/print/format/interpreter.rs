@@ -9,6 +9,7 @@ mod control_flow;
 mod numbers;
 
 use super::super::calls::{Call, Calls};
+use super::super::circle::SharedLabels;
 use super::super::printer::Printer;
 use super::super::settings::Settings;
 use super::Control;
@@ -105,7 +106,12 @@ pub(super) fn run_for_rest(
     let context = Context {
         control: &control.text,
     };
+    let shared = interpreter.settings.shared.clone();
+    interpreter.settings.shared = shared.as_ref().map(SharedLabels::for_attempt);
     interpreter.pieces(context, &control.pieces, &mut arguments)?;
+    if let (Some(shared), Some(attempt)) = (shared, &interpreter.settings.shared) {
+        shared.note_attempt(attempt, interpreter.calls.are_made());
+    }
     Ok((interpreter.output, arguments.rest()))
 }
 

@@ -3,19 +3,24 @@
 use super::arguments::Arguments;
 use super::{Context, Flow, Interpreter, Result};
 use crate::lisp::guard::Pace;
+use crate::lisp::print::circle::SharedLabels;
 use crate::lisp::print::format::directive::{Clause, Directive, Piece};
 use crate::lisp::print::format::error::Problem;
 use crate::lisp::value::Value;
 use crate::lisp::value::document::Newline;
 
 impl Arguments {
-    /// The elements of a list that a logical block prints, which may be dotted.
-    fn of_block(list: &Value) -> Arguments {
+    /// The elements of a list that a logical block prints, which may be dotted or circular.
+    fn of_block(list: &Value, labels: Option<&SharedLabels>) -> Arguments {
         let mut items = Vec::new();
         let mut rest = list.clone();
         let mut pace = Pace::default();
         while let Value::Cons(cons) = &rest {
             pace.step();
+            // A rest that has a label is printed like the tail of a dotted list.
+            if !items.is_empty() && labels.is_some_and(|labels| labels.is_marked(&rest)) {
+                break;
+            }
             items.push(cons.car());
             let next = cons.cdr();
             rest = next;
@@ -40,16 +45,17 @@ impl Interpreter<'_> {
         if !takes_one {
             return false;
         }
+        let is_beyond = self.settings.length.is_some_and(|most| args.next >= most);
         if args.next >= args.items.len()
             && let Some(tail) = &args.tail
+            && !(is_beyond && matches!(tail, Value::Cons(_)))
         {
             self.output.push(". ");
             let settings = self.settings.clone();
             self.write(tail, &settings);
             return true;
         }
-        let is_cut = args.next < args.items.len()
-            && self.settings.length.is_some_and(|most| args.next >= most);
+        let is_cut = is_beyond && (args.next < args.items.len() || args.tail.is_some());
         if is_cut {
             self.output.push("...");
         }
@@ -110,6 +116,7 @@ impl Interpreter<'_> {
         body: &Clause,
         suffix: &str,
     ) -> Result<Flow> {
+        let outer = self.settings.shared.clone();
         let mut inner = if d.at {
             let rest = Arguments::new(args.rest());
             args.next = args.items.len();
@@ -130,7 +137,19 @@ impl Interpreter<'_> {
                 self.output.push("#");
                 return Ok(Flow::Through);
             }
-            Arguments::of_block(&value)
+            if self.settings.circle && outer.is_none() {
+                let labels = SharedLabels::of(self.image, &value, &self.settings);
+                self.settings.shared = Some(labels.for_attempt());
+            }
+            let labels = self.settings.shared.clone();
+            if let Some((label, is_all)) = labels.as_ref().and_then(|labels| labels.next(&value)) {
+                self.output.push(&label);
+                if is_all {
+                    self.settings.shared = outer;
+                    return Ok(Flow::Through);
+                }
+            }
+            Arguments::of_block(&value, labels.as_ref())
         };
         self.output.push(prefix);
         if let Some(document) = self.output.document() {
@@ -143,11 +162,12 @@ impl Interpreter<'_> {
         }
         self.settings.depth += 1;
         let fills = d.close.is_some_and(|close| close.at);
-        let outer = std::mem::replace(&mut self.fills, fills);
+        let outer_fills = std::mem::replace(&mut self.fills, fills);
         let flow = self.pieces(c, &body.pieces, &mut inner);
-        self.fills = outer;
+        self.fills = outer_fills;
         flow?;
         self.settings.depth -= 1;
+        self.settings.shared = outer;
         if let Some(document) = self.output.document() {
             document.end();
         }

@@ -118,7 +118,9 @@ impl Interpreter<'_> {
             return Ok(Flow::Through);
         }
         let mut count = 0;
-        while (items.left() > 0 || at_least_once) && most.is_none_or(|most| count < most) {
+        // The tail of a dotted list that a logical block prints comes after the elements.
+        let has_more = |items: &Arguments| items.left() > 0 || (!d.colon && items.tail.is_some());
+        while (has_more(&items) || at_least_once) && most.is_none_or(|most| count < most) {
             at_least_once = false;
             count += 1;
             let before = items.next;
@@ -138,7 +140,7 @@ impl Interpreter<'_> {
             if flow != Flow::Through {
                 break;
             }
-            if !d.colon && items.left() > 0 && items.next <= before && most.is_none() {
+            if !d.colon && has_more(&items) && items.next <= before && most.is_none() {
                 // A body that uses no argument would be repeated for ever.
                 return Err(c.error(
                     d,
