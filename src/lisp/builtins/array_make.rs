@@ -7,11 +7,10 @@ use std::rc::Rc;
 use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
+use super::settled_types;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
-use crate::lisp::types::asking::settle;
-use crate::lisp::types::parse;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::elements::{Displacement, Elements};
@@ -81,9 +80,7 @@ impl Options {
             ));
         }
         let element_type = match element_type {
-            Some(specifier) => Some(settle(image, |image, answers| {
-                parse::element_type(image, &specifier, answers)
-            })?),
+            Some(specifier) => Some(settled_types::element_type(image, &specifier)?),
             None => None,
         };
         Ok(Options {

@@ -47,6 +47,7 @@ pub(crate) mod sequence_duplicates;
 pub(crate) mod sequence_find;
 pub(crate) mod sequence_map;
 pub(crate) mod sequence_search;
+mod settled_types;
 pub(crate) mod shown;
 pub(crate) mod signalling;
 pub(crate) mod sort;

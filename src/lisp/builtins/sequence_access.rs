@@ -5,10 +5,10 @@ use std::rc::Rc;
 use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
+use super::settled_types::sequence_type;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::guard::reserve;
 use crate::lisp::image::Image;
-use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
 use crate::lisp::value::known;
@@ -144,7 +144,7 @@ fn replace(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
-    let result = SequenceType::new(image, &args[0])?;
+    let result = sequence_type(image, &args[0])?;
     if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
         let strings = || args[1..].iter().filter_map(Value::as_string);
         let bytes = strings().map(|string| string.borrow().len()).sum();
@@ -165,7 +165,7 @@ fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
 
 fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     let [element] = keywords::parse(image, &args[2..], [known::K_INITIAL_ELEMENT])?;
-    let result = SequenceType::new(image, &args[0])?;
+    let result = sequence_type(image, &args[0])?;
     let count = size(&args[1])?;
     let element = element.unwrap_or_else(|| default_element(result.kind));
     result.make(vec![element; count])

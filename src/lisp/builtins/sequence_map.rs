@@ -3,8 +3,8 @@
 
 use super::criterion::Key;
 use super::keywords;
+use super::settled_types::sequence_type;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -47,7 +47,7 @@ impl Side {
 fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let result = match &args[0] {
         Value::Symbol(known::NIL, ..) => None,
-        specifier => Some(SequenceType::new(machine.image, specifier)?),
+        specifier => Some(sequence_type(machine.image, specifier)?),
     };
     let function = callable(machine.image, &args[1])?;
     let mut side = Side::new(&args[2..])?;

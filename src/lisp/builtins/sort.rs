@@ -2,8 +2,8 @@
 
 use super::criterion::Key;
 use super::keywords;
+use super::settled_types::sequence_type;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -164,7 +164,7 @@ fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
 }
 
 fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let result = SequenceType::new(machine.image, &args[0])?;
+    let result = sequence_type(machine.image, &args[0])?;
     let image = &machine.image;
     let [key] = keywords::parse(image, &args[4..], [known::K_KEY])?;
     let left = Sequence::of(&args[1])?.all()?;

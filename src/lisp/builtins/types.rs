@@ -1,11 +1,12 @@
 //! Builtins on types: `typep`, `subtypep`, `type-of`, `coerce`, `deftype`.
 
+use super::settled_types::element_type;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::types::asking::{self, settle};
+use crate::lisp::types::asking;
 use crate::lisp::types::coerce::coerce;
 use crate::lisp::types::emptiness::is_subtype;
-use crate::lisp::types::parse::{element_type, parse};
+use crate::lisp::types::parse::parse;
 use crate::lisp::types::specifier::{Answers, Stop};
 use crate::lisp::types::subtype::Verdict;
 use crate::lisp::types::test::typep_with;
@@ -60,12 +61,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "type &optional environment",
         "The element type that an array made for elements of the type really has.",
         &["(upgraded-array-element-type 'symbol) => T"],
-        |image, args| {
-            let found = settle(image, |image, answers| {
-                element_type(image, &args[0], answers)
-            });
-            found.map(ElementType::specifier)
-        },
+        |image, args| element_type(image, &args[0]).map(ElementType::specifier),
     ),
 ];
 

@@ -1,7 +1,6 @@
 //! Running an operation on types as a builtin: its calls go through the machine.
 
 use super::specifier::{Answers, Stop};
-use crate::lisp::evaluator::nested::call_nested;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
@@ -25,24 +24,6 @@ pub(crate) fn run(
         answers: Answers::default(),
     };
     compute(machine, name, asking)
-}
-
-/// Runs an operation within a builtin that cannot wait: the calls that it asks for are made at once.
-pub(crate) fn settle<T>(
-    image: &mut Image,
-    operation: impl Fn(&Image, &mut Answers) -> Result<T, Stop>,
-) -> Result<T, Box<Raise>> {
-    let mut answers = Answers::default();
-    loop {
-        match operation(image, &mut answers) {
-            Ok(value) => return Ok(value),
-            Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => return Err(raise),
-            Err(Stop::Call { function, args }) => {
-                let answer = call_nested(image, function, args)?;
-                answers.add(answer);
-            }
-        }
-    }
 }
 
 /// An operation with the answers to the calls that it has asked for so far. It starts again after

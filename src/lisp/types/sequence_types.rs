@@ -1,7 +1,6 @@
 //! Type specifiers that name kinds of sequences, for results of `map`, `concatenate`,
 //! `merge`, `make-sequence` and `coerce`.
 
-use super::asking::settle;
 use super::parse::{element_type, expanded, is_star};
 use super::specifier::{Answers, Stop};
 use crate::lisp::image::Image;
@@ -80,11 +79,12 @@ impl SequenceType {
     }
 
     /// The sequence type that a type specifier denotes; an error if it is not a kind of sequence.
-    pub(crate) fn new(image: &mut Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
-        let found = settle(image, |image, answers| {
-            SequenceType::of(image, specifier, answers)
-        })?;
-        found.ok_or_else(|| {
+    pub(crate) fn new(
+        image: &Image,
+        specifier: &Value,
+        answers: &mut Answers,
+    ) -> Result<SequenceType, Stop> {
+        SequenceType::of(image, specifier, answers)?.ok_or_else(|| {
             Raise::new(
                 known::SIMPLE_TYPE_ERROR,
                 format!(
@@ -94,6 +94,7 @@ impl SequenceType {
             )
             .with(known::K_DATUM, specifier.clone())
             .with(known::K_EXPECTED_TYPE, known::SEQUENCE.into())
+            .into()
         })
     }
 
