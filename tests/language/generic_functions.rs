@@ -59,6 +59,11 @@ fn a_method_belongs_to_one_generic_function() {
             "3",
         ),
         (
+            "(let ((method (find-method #'pushed '() '(integer))))
+               (list (documentation method t) (setf (documentation method t) \"Pushes.\") (documentation method t)))",
+            "(NIL \"Pushes.\" \"Pushes.\")",
+        ),
+        (
             "(function-keywords (defmethod kept (x &key in (on x) &allow-other-keys) (list x in on)))",
             "(:IN :ON) ; T",
         ),

@@ -50,7 +50,7 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
         (Value::Class(class), _) => class.doc.borrow().clone(),
         (other, _) => other
             .as_foreign::<MethodObject>()
-            .and_then(|method| method.0.doc.clone()),
+            .and_then(|method| method.0.doc.borrow().clone()),
     };
     Ok(text.map_or(Value::NIL, |text| Value::string(text.as_ref())))
 }
@@ -102,7 +102,11 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
                 *generic.doc.borrow_mut() = text;
             }
         }
-        _ => {}
+        (other, _) => {
+            if let Some(method) = other.as_foreign::<MethodObject>() {
+                *method.0.doc.borrow_mut() = text;
+            }
+        }
     }
     Ok(args[0].clone())
 }

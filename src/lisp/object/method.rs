@@ -209,7 +209,7 @@ fn plain_method(name: &Value, parameters: Parameters, function: Rc<Function>) ->
         takes_next: false,
         accessor: None,
         is_builtin: false,
-        doc: None,
+        doc: RefCell::default(),
         object: RefCell::new(Weak::new()),
     }
 }
@@ -250,7 +250,7 @@ pub(crate) fn define_method(
         specializers: definition.specializers,
         takes_next: definition.takes_next,
         accessor: definition.accessor,
-        doc: definition.doc,
+        doc: RefCell::new(definition.doc),
         ..plain_method(&definition.name, definition.parameters, definition.function)
     });
     add_method(image, &function, method.clone())?;

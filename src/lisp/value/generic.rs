@@ -89,7 +89,7 @@ pub(crate) struct Method {
     /// Was the method made by the implementation?
     pub(crate) is_builtin: bool,
     /// Documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub(crate) doc: RefCell<Option<Rc<str>>>,
     /// The value that stands for the method, as long as it is referenced.
     pub(crate) object: RefCell<Weak<ForeignBox>>,
 }
