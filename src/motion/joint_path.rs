@@ -458,6 +458,7 @@ pub(super) fn unit(rng: &mut Pcg64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
     use rand_pcg::rand_core::SeedableRng;
 
     const PLANE: [PathAxis; 2] = [PathAxis {
@@ -527,5 +528,43 @@ mod tests {
                 samples: 1500
             })
         );
+    }
+
+    #[test]
+    fn a_wall_that_can_only_be_passed_far_from_the_straight_path_is_passed() {
+        // The gap is where one of the axes ends, at the far end of its range.
+        let mut wall = |p: &[f64]| (p[0].abs() < 0.1 && p[1] > -1.8).then_some("wall");
+        let path = find(&mut wall).unwrap();
+        assert!(path.iter().any(|point| point[1] <= -1.8), "{path:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn shortening_makes_no_path_longer_and_leaves_it_free(
+            seed in 0u64..1000,
+            heights in proptest::collection::vec(1.0f64..2.0, 1..8),
+        ) {
+            // A detour over the wall, by way of points above it.
+            let steps = heights.len() as f64;
+            let above = heights.iter().enumerate();
+            let above = above.map(|(i, height)| vec![-0.5 + i as f64 / steps, *height]);
+            let ends = [vec![-1.0, 0.0], vec![1.0, 0.0]];
+            let mut path = vec![ends[0].clone(), vec![-0.5, 1.0]];
+            path.extend(above);
+            path.extend([vec![0.5, 1.0], ends[1].clone()]);
+            let mut search = Search {
+                axes: &PLANE,
+                effort: JointPathEffort::default(),
+                blocked: &mut wall,
+                checks: 0,
+            };
+            let before = search.along(path.iter());
+            let short = search.shorten(path, &mut Pcg64::seed_from_u64(seed));
+            prop_assert!(search.along(short.iter()) <= before + 1e-9);
+            prop_assert_eq!([&short[0], &short[short.len() - 1]], [&ends[0], &ends[1]]);
+            for leg in short.windows(2) {
+                prop_assert_eq!(search.edge(&leg[0], &leg[1]), None);
+            }
+        }
     }
 }
