@@ -46,6 +46,39 @@ fn a_bottle_is_transported_and_not_again() {
     cook.assert_no_overlap();
 }
 
+/// A world that is saved after fetching becomes the same one by delivering, each time, and saving it
+/// makes no difference.
+#[test]
+fn a_world_saved_in_the_middle_ends_as_without_that() {
+    let fetch = "(defparameter *found* (with-simulated-robot
+          (let ((?place *on-the-counter*))
+            (perform (an action (type searching) (object (an object (type bottle)))
+                         (location (a location (pose ?place))))))))
+        (defun fetch (?object)
+          (with-simulated-robot (perform (an action (type fetching) (object ?object)))))
+        (defun deliver (?object ?target)
+          (with-simulated-robot
+            (perform (an action (type delivering) (object ?object)
+                         (target (a location (pose ?target)))))))
+        (fetch *found*)";
+    let deliver = "(deliver *found* *on-the-island*)";
+    let mut plain = cook();
+    plain.done(fetch);
+    plain.done(deliver);
+    let mut saving = cook();
+    saving.done(fetch);
+    saving.done("(pw:snapshot 'middle)");
+    let middle = saving.session.world_hash();
+    saving.done(deliver);
+    let end = saving.session.world_hash();
+    assert_eq!(plain.session.world_hash(), end, "saving is no change");
+    assert_ne!(middle, end);
+    saving.done("(pw:restore 'middle)");
+    assert_eq!(saving.session.world_hash(), middle);
+    saving.done(deliver);
+    assert_eq!(saving.session.world_hash(), end, "delivered once more");
+}
+
 #[test]
 fn a_second_object_of_the_same_description_is_another_one() {
     let mut cook = cook();
