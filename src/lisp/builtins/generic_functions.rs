@@ -239,9 +239,9 @@ fn check_owner(
     method: &Rc<Method>,
 ) -> Result<(), Box<Raise>> {
     let owner = image.named_function(&method.name);
-    let owner = owner.filter(|owner| !Rc::ptr_eq(owner, function));
-    let is_owned = owner.as_ref().and_then(|owner| owner.as_generic());
-    if is_owned.is_some_and(|owner| owner.methods.borrow().iter().any(|m| Rc::ptr_eq(m, method))) {
+    let other = owner.filter(|owner| !Rc::ptr_eq(owner, function));
+    let other = other.as_ref().and_then(|other| other.as_generic());
+    if other.is_some_and(|other| other.methods.borrow().iter().any(|m| Rc::ptr_eq(m, method))) {
         return Err(Raise::simple(format!(
             "{} belongs to {}; a method can have one generic function only.",
             text(image, &method_value(method)),
