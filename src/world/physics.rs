@@ -43,10 +43,16 @@ pub(crate) const STEP_SECONDS: f64 = 1.0 / 240.0;
 /// Acceleration of free fall (m/s²), towards -z.
 pub(crate) const GRAVITY: f64 = 9.81;
 
-/// Gap (m) up to which the solver keeps bodies from running into each other within a step. The
-/// engine's own, 2 cm, is for 60 steps per second; here a step is a quarter as long. With 2 cm, the
-/// sides of a mug, 8 mm above the table, would have as many constraints as its bottom.
-const PREDICTION: f64 = 0.005;
+/// Gap (m) up to which the solver keeps bodies from running into each other within a step. With the
+/// engine's own, the sides of a mug, 8 mm above the table, would have as many constraints as its bottom.
+const MARGIN: f64 = 0.005;
+
+/// The same, the engine's own, while anything moves farther than the other within a step: a thing that
+/// falls would pass through a thin board.
+const MARGIN_FOR_FAST: f64 = 0.02;
+
+/// Greatest distance (m) of a part of a body from its centre, as far as its turning matters here.
+const EXTENT: f64 = 0.25;
 
 /// Number of parts into which the solver divides a step.
 const SOLVER_ITERATIONS: usize = 4;
@@ -169,7 +175,6 @@ impl Physics {
             friction_model: FrictionModel::Simplified,
             friction_in_bias_pass: false,
             contact_recycling: false,
-            normalized_prediction_distance: PREDICTION,
             contact_softness: SpringCoefficients::new(CONTACT_FREQUENCY, CONTACT_DAMPING),
             ..IntegrationParameters::default()
         };
@@ -465,6 +470,7 @@ impl Physics {
         if !std::mem::take(&mut s.is_edited) && s.islands.num_active_bodies() == 0 {
             return;
         }
+        self.parameters.normalized_prediction_distance = s.margin();
         // What is held goes where the hand goes, which is checked before.
         self.parameters.max_ccd_substeps = usize::from(s.has_loose_body_awake());
         self.pipeline.step(
@@ -511,6 +517,18 @@ impl Physics {
 }
 
 impl Sets {
+    /// The gap (m) up to which bodies are kept from running into each other in the coming step.
+    fn margin(&self) -> f64 {
+        let awake = self.islands.active_bodies();
+        let awake = awake.filter_map(|body| self.bodies.get(body));
+        let speed = |body: &RigidBody| body.linvel().length() + body.angvel().length() * EXTENT;
+        let fastest = awake.map(speed).fold(0.0, f64::max);
+        match fastest * STEP_SECONDS > MARGIN {
+            true => MARGIN_FOR_FAST,
+            false => MARGIN,
+        }
+    }
+
     /// Whether anything that moves by itself, and is not welded to anything, is awake.
     fn has_loose_body_awake(&self) -> bool {
         let mut awake = self.islands.active_bodies();

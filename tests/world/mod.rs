@@ -1,6 +1,7 @@
 //! The physical world.
 
 mod collisions;
+mod falling;
 pub(crate) mod fixture;
 mod kitchen_surfaces;
 mod link_shapes;
