@@ -40,10 +40,9 @@ pub(super) fn hidden(world: &mut World, query: &BaseQuery) -> Result<Option<Stri
             "{does_not_see} (the neck does not turn that far)"
         )));
     }
-    let sight = Sight::of_robot(world);
     match object_of(query) {
         Some(name) => {
-            let seen = sight.visibility(name)?;
+            let seen = Sight::of_robot_at(world, name)?.visibility(name)?;
             if seen.fraction() >= SHARE {
                 return Ok(None);
             }
@@ -54,19 +53,11 @@ pub(super) fn hidden(world: &mut World, query: &BaseQuery) -> Result<Option<Stri
             }))
         }
         None => {
-            let camera = sight.picture().camera();
             let point = Point3::from(target.pose.translation.vector);
-            let away = camera.pose.inverse_transform_point(&point).z;
-            let is_seen = camera.pixel_of(&point).is_some_and(|[column, row]| {
-                let (width, height) = (camera.width as f64, camera.height as f64);
-                let is_inside = (0.0..width).contains(&column) && (0.0..height).contains(&row);
-                // Both are within the picture, so that the casts are exact.
-                let (column, row) = (column as usize, row as usize);
-                let depth = sight.picture().depth(column, row);
-                let key = sight.picture().keys().get(row * camera.width + column);
-                is_inside
-                    && (depth.is_none_or(|depth| depth >= away - SLACK)
-                        || key.is_some_and(|key| is_at(world, *key, &point)))
+            let glance = Sight::of_robot_towards(world, &point);
+            let is_seen = glance.is_some_and(|glance| {
+                let is_near = |depth: f64| depth >= glance.wanted - SLACK;
+                glance.depth.is_none_or(is_near) || is_at(world, glance.key, &point)
             });
             Ok((!is_seen).then_some(does_not_see))
         }

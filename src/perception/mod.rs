@@ -7,6 +7,7 @@ pub(crate) mod camera;
 pub(crate) mod mesh;
 pub(crate) mod picture;
 pub(crate) mod visibility;
+mod window;
 
 pub(crate) use camera::Camera;
 pub(crate) use picture::Picture;

@@ -4,13 +4,15 @@ use nalgebra::{Point3, Vector3};
 
 use super::camera::Camera;
 use super::mesh::Mesh;
+use super::window::Window;
 use crate::spatial::Pose;
 use crate::world::PartKey;
 
-/// What a camera sees: for every pixel the nearest body and its distance.
+/// What a camera sees: for every pixel, or those of a window, the nearest body and its distance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Picture {
     camera: Camera,
+    window: Window,
     keys: Vec<Option<PartKey>>,
     /// Inverse of the depth (1/m), 0 where nothing is seen.
     inverse_depth: Vec<f64>,
@@ -22,9 +24,15 @@ type Corner = Vector3<f64>;
 impl Picture {
     /// An empty picture.
     pub(crate) fn new(camera: Camera) -> Self {
-        let pixels = camera.width * camera.height;
+        Self::of_window(camera, Window::whole(&camera))
+    }
+
+    /// An empty picture of which only a window is drawn.
+    pub(crate) fn of_window(camera: Camera, window: Window) -> Self {
+        let pixels = window.pixels();
         Self {
             camera,
+            window,
             keys: vec![None; pixels],
             inverse_depth: vec![0.0; pixels],
         }
@@ -35,19 +43,43 @@ impl Picture {
         &self.camera
     }
 
-    /// The body at every pixel, row by row from the top.
+    /// The pixels that it holds.
+    pub(crate) fn window(&self) -> Window {
+        self.window
+    }
+
+    /// The body at every pixel of the window, row by row from the top.
     pub(crate) fn keys(&self) -> &[Option<PartKey>] {
         &self.keys
     }
 
     /// Distance (m along the camera's z) of what the pixel shows; `None` if it shows nothing or
-    /// lies outside the picture.
+    /// lies outside the window.
     pub(crate) fn depth(&self, column: usize, row: usize) -> Option<f64> {
-        if column >= self.camera.width {
-            return None;
-        }
-        let inverse = *self.inverse_depth.get(row * self.camera.width + column)?;
+        let inverse = *self.inverse_depth.get(self.window.place([column, row])?)?;
         (inverse > 0.0).then(|| 1.0 / inverse)
+    }
+
+    /// Whether a ball around the origin of a pose (map frame), with a radius (m), may be seen in the
+    /// window.
+    pub(crate) fn may_show(&self, pose: &Pose, radius: f64) -> bool {
+        let camera = &self.camera;
+        let origin = Point3::from(pose.translation.vector);
+        let c = camera.pose.inverse_transform_point(&origin).coords;
+        if c.z < camera.near - radius || c.z > camera.far + radius {
+            return false;
+        }
+        let f = camera.focal_length();
+        // How far the ball is beyond the planes through the focal point and the window's borders.
+        let beyond = |axis: usize, size: usize| {
+            let [first, end] = [self.window.first, self.window.end]
+                .map(|at| (at[axis] as f64 - size as f64 / 2.0) / f);
+            let along = c[axis];
+            let before = (first * c.z - along) / libm::hypot(first, 1.0);
+            let after = (along - end * c.z) / libm::hypot(end, 1.0);
+            before.max(after)
+        };
+        beyond(0, camera.width) <= radius && beyond(1, camera.height) <= radius
     }
 
     /// Number of pixels that show the body.
@@ -123,19 +155,20 @@ impl Picture {
         if area == 0.0 {
             return;
         }
-        let range = |axis: usize, end: usize| {
+        let Window { first, end } = self.window;
+        let range = |axis: usize| {
             let (lo, hi) = (
                 a[axis].min(b[axis]).min(c[axis]),
                 a[axis].max(b[axis]).max(c[axis]),
             );
             // Pixel centres are at halves; the casts saturate at the borders.
-            let first = (lo - 0.5).ceil().max(0.0) as usize;
+            let lowest = (lo - 0.5).ceil().max(0.0) as usize;
             let after = ((hi - 0.5).floor() + 1.0).max(0.0) as usize;
-            first..after.min(end)
+            lowest.max(first[axis])..after.min(end[axis])
         };
         let farthest = 1.0 / self.camera.far;
-        let columns = range(0, width);
-        for row in range(1, height) {
+        let columns = range(0);
+        for row in range(1) {
             let y = row as f64 + 0.5;
             for column in columns.clone() {
                 let x = column as f64 + 0.5;
@@ -148,8 +181,8 @@ impl Picture {
                     continue;
                 }
                 let inverse = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
-                // Rows and columns were clipped to the picture above.
-                let pixel = row * width + column;
+                // Rows and columns were clipped to the window above.
+                let pixel = (row - first[1]) * (end[0] - first[0]) + column - first[0];
                 if inverse > self.inverse_depth[pixel] && inverse >= farthest {
                     self.inverse_depth[pixel] = inverse;
                     self.keys[pixel] = Some(key);
@@ -166,8 +199,11 @@ fn cross(a: [f64; 3], b: [f64; 3], x: f64, y: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use rand_pcg::Pcg64;
+    use rand_pcg::rand_core::{Rng, SeedableRng};
+
     use super::*;
-    use crate::spatial::Shape;
+    use crate::spatial::{Shape, pose};
 
     const NEAR: PartKey = PartKey::Object(1);
     const FAR: PartKey = PartKey::Object(2);
@@ -198,6 +234,85 @@ mod tests {
         two.draw(NEAR, &Pose::translation(0.0, 0.0, 2.0), &cube(0.5));
         assert_eq!(one, two);
         assert!(one.count(NEAR) > 0 && one.count(FAR) > one.count(NEAR));
+    }
+
+    /// Balls, cubes and boards at random, some around or behind the camera.
+    fn scene() -> Vec<(PartKey, Pose, Shape)> {
+        let mut random = Pcg64::seed_from_u64(5);
+        let mut number = |low: f64, high: f64| {
+            low + (high - low) * f64::from(random.next_u32()) / f64::from(u32::MAX)
+        };
+        let things = 0..60;
+        things
+            .map(|i| {
+                let at = [number(-3.0, 3.0), number(-3.0, 3.0), number(-2.0, 6.0)];
+                let turn = [0.0; 3].map(|_: f64| number(-3.0, 3.0));
+                let size = [0.0; 3].map(|_: f64| number(0.02, 1.5));
+                let shape = match i % 3 {
+                    0 => Shape::Box { size },
+                    1 => Shape::Sphere {
+                        radius: size[0] / 2.0,
+                    },
+                    _ => Shape::Cylinder {
+                        radius: size[0] / 2.0,
+                        length: size[1],
+                    },
+                };
+                (PartKey::Object(i), pose::from_xyz_rpy(at, turn), shape)
+            })
+            .collect()
+    }
+
+    fn draw(mut picture: Picture, culls: bool) -> Picture {
+        for (key, pose, shape) in scene() {
+            if !culls || picture.may_show(&pose, shape.bounding_radius()) {
+                picture.draw(key, &pose, &Mesh::of(&shape));
+            }
+        }
+        picture
+    }
+
+    #[test]
+    fn a_window_shows_what_the_whole_picture_shows_there() {
+        let camera = Camera::of_head(Pose::translation(0.1, 0.2, -1.0));
+        let whole = draw(Picture::new(camera), false);
+        assert!(
+            whole == draw(Picture::new(camera), true),
+            "something was left out"
+        );
+        for (first, end) in [
+            ([0, 0], [60, 200]),
+            ([100, 60], [240, 61]),
+            ([200, 120], [320, 200]),
+        ] {
+            let window = Window { first, end };
+            let part = draw(Picture::of_window(camera, window), true);
+            let mut seen = 0;
+            for (row, column) in
+                (first[1]..end[1]).flat_map(|r| (first[0]..end[0]).map(move |c| (r, c)))
+            {
+                assert_eq!(part.depth(column, row), whole.depth(column, row));
+                let place = window.place([column, row]).unwrap();
+                assert_eq!(part.keys[place], whole.keys[row * 320 + column]);
+                seen += usize::from(part.keys[place].is_some());
+            }
+            assert!(seen > 0);
+            assert_eq!(part.depth(end[0], first[1]), None);
+        }
+    }
+
+    #[test]
+    fn a_body_is_within_the_window_around_its_corners() {
+        let camera = Camera::of_head(Pose::translation(0.0, 0.0, -1.0));
+        for (key, pose, shape) in scene() {
+            let mesh = Mesh::of(&shape);
+            let mut whole = Picture::new(camera);
+            whole.draw(key, &pose, &mesh);
+            let window = Window::around(&camera, mesh.corners.iter().map(|p| pose * p));
+            let mut part = Picture::of_window(camera, window);
+            part.draw(key, &pose, &mesh);
+            assert_eq!(part.count(key), whole.count(key));
+        }
     }
 
     #[test]

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::camera::Camera;
 use super::mesh::Mesh;
 use super::picture::Picture;
-use crate::spatial::trig;
+use super::window::Window;
+use crate::spatial::{Pose, trig};
 use crate::world::{BodyName, Object, PartKey, World, WorldError};
 
 /// A side of the picture.
@@ -87,6 +88,26 @@ impl fmt::Display for Visibility {
     }
 }
 
+/// The pixels in which an object at a pose (map frame) may be seen.
+fn window_of(object: &Object, pose: &Pose, camera: &Camera) -> Window {
+    let corners = object.shapes().iter().flat_map(|placed| {
+        let at = pose * placed.pose;
+        let corners = Mesh::of(&placed.shape).corners;
+        corners.into_iter().map(move |corner| at * corner)
+    });
+    Window::around(camera, corners)
+}
+
+/// What is seen in one direction.
+pub(crate) struct Glance {
+    /// How far away it is (m along the camera's z); `None` if nothing is seen.
+    pub(crate) depth: Option<f64>,
+    /// How far away the point is at which the camera looks.
+    pub(crate) wanted: f64,
+    /// The body that is seen.
+    pub(crate) key: Option<PartKey>,
+}
+
 /// One look at the world.
 pub(crate) struct Sight<'w> {
     world: &'w World,
@@ -110,9 +131,43 @@ impl<'w> Sight<'w> {
     /// Takes a picture of the world from anywhere. An object counts as seen if `needed_share`
     /// (0..1) of it is in sight.
     pub(crate) fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
-        let mut picture = Picture::new(camera);
+        Self::draw(world, Picture::new(camera), needed_share)
+    }
+
+    /// Looks through the robot's own camera at one object only; the picture holds nothing else.
+    pub(crate) fn of_robot_at(world: &'w World, name: &str) -> Result<Self, WorldError> {
+        let description = world.models().description.camera();
+        let camera = Camera::new(description, world.link_pose(description.frame));
+        let pose = world.object_pose(name)?;
+        let window = window_of(world.object(name)?, &pose, &camera);
+        let picture = Picture::of_window(camera, window);
+        Ok(Self::draw(world, picture, description.visible_share))
+    }
+
+    /// What the robot's own camera sees in the direction of a point (m, map frame): the depth of that
+    /// (m along the camera's z) and the point's, and the body; `None` if the point is not in the
+    /// picture.
+    pub(crate) fn of_robot_towards(world: &'w World, point: &Point3<f64>) -> Option<Glance> {
+        let description = world.models().description.camera();
+        let camera = Camera::new(description, world.link_pose(description.frame));
+        let pixel = camera.pixel_of(point)?;
+        let window = Window::pixel(&camera, pixel)?;
+        let picture = Picture::of_window(camera, window);
+        let sight = Self::draw(world, picture, description.visible_share);
+        // The pixel is within the picture, so that the casts are exact.
+        let [column, row] = pixel.map(|i| i as usize);
+        Some(Glance {
+            depth: sight.picture.depth(column, row),
+            wanted: camera.pose.inverse_transform_point(point).z,
+            key: sight.picture.keys().first().copied().flatten(),
+        })
+    }
+
+    fn draw(world: &'w World, mut picture: Picture, needed_share: f64) -> Self {
         for shape in world.shapes() {
-            picture.draw(shape.key, &shape.pose, &Mesh::of(shape.shape));
+            if picture.may_show(&shape.pose, shape.shape.bounding_radius()) {
+                picture.draw(shape.key, &shape.pose, &Mesh::of(shape.shape));
+            }
         }
         Self {
             world,
@@ -132,19 +187,21 @@ impl<'w> Sight<'w> {
         let pose = self.world.object_pose(name)?;
         let camera = *self.picture.camera();
         let key = object.key();
-        let alone = |camera: Camera| {
-            let mut picture = Picture::new(camera);
+        let alone = |camera: Camera, window: Window| {
+            let mut picture = Picture::of_window(camera, window);
             for placed in object.shapes() {
                 picture.draw(key, &(pose * placed.pose), &Mesh::of(&placed.shape));
             }
             picture
         };
         let origin = Point3::from(pose.translation.vector);
+        let turned = camera.turned_to(&origin);
+        let in_middle = alone(turned, window_of(object, &pose, &turned));
         Ok(Visibility {
             object: name.to_owned(),
             visible_pixels: self.picture.count(key),
-            full_pixels: alone(camera.turned_to(&origin)).count(key),
-            occluders: self.occluders(key, &alone(camera)),
+            full_pixels: in_middle.count(key),
+            occluders: self.occluders(key, &alone(camera, self.picture.window())),
             needed_share: self.needed_share,
             outside: self.outside(object, &pose),
         })
@@ -173,7 +230,7 @@ impl<'w> Sight<'w> {
     }
 
     /// How far the object extends beyond the borders of the picture.
-    fn outside(&self, object: &Object, pose: &crate::spatial::Pose) -> Option<(Border, f64)> {
+    fn outside(&self, object: &Object, pose: &Pose) -> Option<(Border, f64)> {
         let camera = self.picture.camera();
         let to_camera = camera.pose.inverse() * pose;
         let half_width = camera.horizontal_fov() / 2.0;

@@ -26,6 +26,17 @@ pub(crate) enum Shape {
     },
 }
 
+impl Shape {
+    /// Radius (m) of the ball around the origin that holds the solid.
+    pub(crate) fn bounding_radius(&self) -> f64 {
+        match self {
+            Self::Box { size: [x, y, z] } => libm::hypot(libm::hypot(*x, *y), *z) / 2.0,
+            Self::Cylinder { radius, length } => libm::hypot(*radius, length / 2.0),
+            Self::Sphere { radius } => *radius,
+        }
+    }
+}
+
 /// A shape with its pose in the frame of the link or object that it belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PlacedShape {
