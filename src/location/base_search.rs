@@ -1,9 +1,9 @@
 //! The search for base poses from which a target is within reach or in sight.
 
 use std::collections::VecDeque;
-use std::f64::consts::TAU;
 
 use super::base_query::BaseQuery;
+use super::base_walk::Walk;
 use super::costmap::{Costmap, Factor};
 use super::draw::Draw;
 use super::offered::Offered;
@@ -12,7 +12,7 @@ use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
 use crate::motion::{BaseChecker, Effort, interruption};
-use crate::spatial::{Pose, pose, trig};
+use crate::spatial::{Pose, pose};
 use crate::world::{World, WorldError};
 
 /// Edge length (m) of a cell.
@@ -23,13 +23,14 @@ const COMFORT: [f64; 2] = [0.65, 0.15];
 const SIGHT_VARIANCE: f64 = 0.5;
 /// Distance (m) from where the robot is over which the preference for a place falls to 37 %.
 const NEAR: f64 = 0.8;
-/// Number of headings that are tried at a place, besides the one to the target.
-const HEADINGS: u32 = 24;
 /// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
 const MOST_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again when all
 /// others have been tried.
 const MOST_AGAIN: usize = 1000;
+/// When so many postures of the arms have been checked for collisions, the search does not go on
+/// between the base poses that it has tried: that is about a second.
+const MOST_POSTURES: u32 = 100_000;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -42,15 +43,14 @@ pub(super) struct BaseSearch {
     looking: World,
     /// What is to be reached there.
     goal: Goal,
-    /// Number of base poses for which it was checked whether the target can be reached.
+    /// Number of base poses for which it was checked in vain whether the target can be reached.
     checks: u32,
-    order: Vec<usize>,
-    next: usize,
-    /// Which heading is tried: 0 for the one to the target, then others, the nearest first.
-    turn: u32,
+    /// Number of postures that have been checked.
+    postures: u32,
+    walk: Walk,
     /// Base poses that are to be examined again.
     again: VecDeque<Pose>,
-    /// Whether all others have been tried.
+    /// Whether all others of the walk have been tried.
     is_second_look: bool,
 }
 
@@ -75,13 +75,8 @@ impl BaseSearch {
         scene: Scene<'_>,
         draw: &mut Draw,
     ) -> Result<Result<Self, String>, WorldError> {
-        let t = query.target.pose.translation;
-        let far = match &query.arms {
-            Some(_) => query.distances.reach[1],
-            None => query.distances.sight,
-        };
-        let limits = [[t.x - far, t.y - far], [t.x + far, t.y + far]];
-        let map = match Costmap::product(RESOLUTION, limits, &factors(query, scene.world)) {
+        let factors = factors(query, scene.world);
+        let map = match Costmap::product(RESOLUTION, limits(query), &factors) {
             Ok(map) => map,
             Err(emptied) => {
                 return Ok(Err(format!(
@@ -91,31 +86,22 @@ impl BaseSearch {
             }
         };
         let imagined = imagined(query, scene)?;
-        let mut search = Self {
+        Ok(Ok(Self {
             goal: Goal::new(query, scene, &imagined),
             looking: imagined.clone(),
             imagined,
             checks: 0,
+            postures: 0,
+            walk: Walk::first(query, map.cells.clone(), draw),
             map,
-            order: Vec::new(),
-            next: 0,
-            turn: 0,
             again: VecDeque::new(),
             is_second_look: false,
-        };
-        search.begin_turn(0, draw);
-        Ok(Ok(search))
+        }))
     }
 
     /// The map of where to look.
     pub(super) fn map(&self) -> &Costmap {
         &self.map
-    }
-
-    fn begin_turn(&mut self, turn: u32, draw: &mut Draw) {
-        self.order = draw.order(self.map.cells.iter().map(|(_, value)| *value));
-        self.next = 0;
-        self.turn = turn;
     }
 
     /// The next base pose that has not been offered.
@@ -128,23 +114,34 @@ impl BaseSearch {
         tally: &mut Tally,
     ) -> Result<Option<Pose>, WorldError> {
         let Self {
-            map,
             imagined,
             looking,
             goal,
-            order,
-            next,
-            turn,
             checks,
+            postures,
+            walk,
             again,
             is_second_look,
+            ..
         } = self;
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
+        let before = *postures;
         loop {
             interruption::look();
+            *postures = before + test.reach.postures();
+            let has_to_end = *postures >= MOST_POSTURES;
+            if has_to_end && !walk.is_first() {
+                tally.give_up();
+                return Ok(None);
+            }
             if *is_second_look {
                 let Some(base) = again.pop_front() else {
-                    return Ok(None);
+                    let more = between(query, scene.world, walk, draw);
+                    let Some(between) = more.filter(|_| !has_to_end) else {
+                        return Ok(None);
+                    };
+                    (*walk, *is_second_look, *checks) = (between, false, 0);
+                    continue;
                 };
                 let is_new = !offered.has(&base);
                 if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
@@ -152,20 +149,10 @@ impl BaseSearch {
                 }
                 continue;
             }
-            let Some(cell) = order.get(*next) else {
-                if *turn == HEADINGS {
-                    *is_second_look = true;
-                    continue;
-                }
-                *turn += 1;
-                *order = draw.order(map.cells.iter().map(|(_, value)| *value));
-                *next = 0;
+            let Some(base) = walk.next(draw) else {
+                *is_second_look = true;
                 continue;
             };
-            *next += 1;
-            // The order consists of indices of this list.
-            let (point, _) = map.cells[*cell];
-            let base = heading_to(query, point, *turn);
             if offered.has(&base) {
                 continue;
             }
@@ -283,6 +270,27 @@ impl<'a> Test<'a> {
     }
 }
 
+/// The part of the floor (m) that is searched.
+fn limits(query: &BaseQuery) -> [[f64; 2]; 2] {
+    let t = query.target.pose.translation;
+    let far = match &query.arms {
+        Some(_) => query.distances.reach[1],
+        None => query.distances.sight,
+    };
+    [[t.x - far, t.y - far], [t.x + far, t.y + far]]
+}
+
+/// The walk between the base poses of the one before, if there is one. There are places where the robot
+/// fits only there; what is to be seen only is seen from much of the floor.
+fn between(query: &BaseQuery, world: &World, before: &Walk, draw: &mut Draw) -> Option<Walk> {
+    query.arms.as_ref()?;
+    let factors = factors(query, world);
+    before.between(draw, |shift| {
+        let map = Costmap::shifted_product(RESOLUTION, shift, limits(query), &factors);
+        map.map_or_else(|_| Vec::new(), |map| map.cells)
+    })
+}
+
 /// The factors of the map.
 fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
     let t = query.target.pose.translation;
@@ -326,49 +334,4 @@ fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
 /// A bell curve with the value 1 at 0 and never quite 0.
 fn gauss(x: f64, variance: f64) -> f64 {
     libm::exp(-x * x / (2.0 * variance)).max(1e-6)
-}
-
-/// The base pose at a point (m) with one of the headings.
-fn heading_to(query: &BaseQuery, [x, y]: [f64; 2], turn: u32) -> Pose {
-    let t = query.target.pose.translation;
-    let ahead = trig::atan2(t.y - y, t.x - x);
-    if turn == 0 {
-        return pose::from_xy_yaw(x, y, ahead);
-    }
-    let step = TAU / f64::from(HEADINGS);
-    let nearest = (ahead / step).round();
-    let side = if nearest * step > ahead { -1.0 } else { 1.0 };
-    // 0, 1, -1, 2, -2 … steps, beginning on the side of the exact heading.
-    let by = f64::from(turn / 2) * if turn.is_multiple_of(2) { side } else { -side };
-    pose::from_xy_yaw(x, y, trig::wrap((nearest + by) * step))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::location::{Distances, Item, Target};
-
-    #[test]
-    fn every_heading_of_the_grid_is_tried_once() {
-        let query = BaseQuery {
-            target: Target {
-                item: Item::Point,
-                pose: Pose::translation(1.0, 0.3, 0.8),
-                name: String::new(),
-            },
-            arms: None,
-            grasps: None,
-            held: None,
-            sees: true,
-            distances: Distances::default(),
-            from: [0.0, 0.0],
-        };
-        let yaws = (1..=HEADINGS).map(|turn| pose::yaw(&heading_to(&query, [0.0, 0.0], turn)));
-        let mut steps: Vec<i32> = yaws
-            .map(|yaw| ((yaw / (TAU / 24.0)).round() as i32).rem_euclid(24))
-            .collect();
-        assert_eq!(&steps[..3], [1, 2, 0]);
-        steps.sort_unstable();
-        assert!(steps.into_iter().eq(0..24));
-    }
 }

@@ -32,12 +32,22 @@ impl Costmap {
     /// The product of the factors over the cells whose centres are within the limits (m).
     pub(super) fn product(
         resolution: f64,
+        limits: [[f64; 2]; 2],
+        factors: &[Factor<'_>],
+    ) -> Result<Self, Emptied> {
+        Self::shifted_product(resolution, 0.0, limits, factors)
+    }
+
+    /// The same over cells that lie shifted by a part of a cell along x and y.
+    pub(super) fn shifted_product(
+        resolution: f64,
+        shift: f64,
         [min, max]: [[f64; 2]; 2],
         factors: &[Factor<'_>],
     ) -> Result<Self, Emptied> {
         let mut cells: Vec<([f64; 2], f64)> = Vec::new();
-        let columns = centres(resolution, min[0], max[0]);
-        let rows = centres(resolution, min[1], max[1]);
+        let columns = centres(resolution, shift, min[0], max[0]);
+        let rows = centres(resolution, shift, min[1], max[1]);
         for x in columns {
             cells.extend(rows.iter().map(|y| ([x, *y], 1.0)));
         }
@@ -82,13 +92,14 @@ impl Emptied {
     }
 }
 
-/// Centres (m) of the cells between the limits (m) of one coordinate.
-fn centres(resolution: f64, min: f64, max: f64) -> Vec<f64> {
+/// Centres (m) of the cells, shifted by a part of a cell, between the limits (m) of one coordinate.
+fn centres(resolution: f64, shift: f64, min: f64, max: f64) -> Vec<f64> {
+    let centre = shift + 0.5;
     // The limits are those of a room.
-    let first = ((min - ORIGIN) / resolution - 0.5).ceil() as i64;
-    let last = ((max - ORIGIN) / resolution - 0.5).floor() as i64;
+    let first = ((min - ORIGIN) / resolution - centre).ceil() as i64;
+    let last = ((max - ORIGIN) / resolution - centre).floor() as i64;
     (first..=last)
-        .map(|i| ORIGIN + (i as f64 + 0.5) * resolution)
+        .map(|i| ORIGIN + (i as f64 + centre) * resolution)
         .collect()
 }
 

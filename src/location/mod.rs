@@ -9,6 +9,7 @@
 
 mod base_query;
 mod base_search;
+mod base_walk;
 mod constraint;
 mod costmap;
 mod draw;

@@ -161,6 +161,16 @@ impl<'a> Reach<'a> {
         is_near.then_some(()).ok_or(NoReach::TooFar)
     }
 
+    /// Number of postures of the arms that have been checked for collisions, as far as they are counted.
+    pub(super) fn postures(&self) -> u32 {
+        match self {
+            Self::Grasp(chooser, _) => chooser.postures(),
+            Self::Put(put) => put.postures(),
+            Self::Point(reach, ..) => reach.postures(),
+            Self::Open(_) | Self::Nothing => 0,
+        }
+    }
+
     /// Whether the target can be reached with the base at a pose (map frame).
     pub(super) fn test(&self, base: &Pose, effort: Effort) -> Result<(), NoReach> {
         match self {

@@ -147,6 +147,11 @@ impl<'w> GraspChooser<'w> {
         }
     }
 
+    /// Number of postures that have been checked for collisions.
+    pub(crate) fn postures(&self) -> u32 {
+        self.reach.postures()
+    }
+
     /// Whether the object may be near enough to the base at a pose in the map frame. Cheap.
     pub(crate) fn is_near(&self, base: &Pose) -> bool {
         let object = base.inverse_transform_point(&self.question.in_map.translation.vector.into());

@@ -3,6 +3,8 @@
 //! Cheap tests come first: inverse kinematics for all poses of the hand, then collisions. The
 //! answers agree with those of the motions; whether a path leads there is another question.
 
+use std::cell::Cell;
+
 use serde::{Deserialize, Serialize};
 
 use super::configuration_checker::ConfigurationChecker;
@@ -128,6 +130,8 @@ pub(crate) struct GraspReach<'w> {
     object: Option<&'w str>,
     hands: [Hand<'w>; 2],
     heights: Vec<f64>,
+    /// Number of postures that have been checked for collisions.
+    postures: Cell<u32>,
 }
 
 /// One hand.
@@ -171,7 +175,14 @@ impl<'w> GraspReach<'w> {
             object,
             hands,
             heights,
+            postures: Cell::new(0),
         }
+    }
+
+    /// Number of postures that have been checked for collisions, for all base poses: most of the time
+    /// goes there.
+    pub(crate) fn postures(&self) -> u32 {
+        self.postures.get()
     }
 
     /// Names of the links of a hand.
@@ -315,6 +326,7 @@ impl<'w> GraspReachFrom<'w> {
                 return Err(Met::Hand(GraspObstacle::NotTried));
             }
             self.checks += 1;
+            self.reach.postures.set(self.reach.postures() + 1);
             let positions: Vec<f64> = std::iter::once(height).chain(posture).collect();
             let checker = self.checker(open);
             let Some(hit) = checker.blocked(&positions) else {

@@ -161,6 +161,11 @@ impl<'w> PutReach<'w> {
         })
     }
 
+    /// Number of postures that have been checked for collisions.
+    pub(crate) fn postures(&self) -> u32 {
+        self.reach.postures()
+    }
+
     /// Whether the place may be near enough to the base at a pose in the map frame. Cheap.
     pub(crate) fn is_near(&self, base: &Pose) -> bool {
         let place = base.inverse_transform_point(&self.target.translation.vector.into());
