@@ -18,7 +18,7 @@ pub(crate) enum What {
 /// Which board of something that has several; boards are counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
-    /// Any, from below.
+    /// Any.
     Any,
     /// The highest.
     Topmost,

@@ -260,9 +260,14 @@ impl PlaceSearch {
             // The order consists of indices of this list.
             let (point, _) = self.map.cells[*cell];
             let poses = query.orientation.poses(point, &self.extent, draw);
+            // One board is as good as another.
+            let first = match self.starts.len() {
+                0 | 1 => 0,
+                count => (draw.unit() * count as f64) as usize,
+            };
             let mut found = None;
             for pose in poses.iter().filter(|pose| !offered.has(pose)) {
-                match self.try_at(query, &room, pose) {
+                match self.try_at(query, &room, pose, first) {
                     Ok(pose) => {
                         found = Some(pose);
                         break;
@@ -279,15 +284,18 @@ impl PlaceSearch {
         }
     }
 
-    /// The thing at the pose, at the height where it stands or is held.
+    /// The thing at the pose, at the height where it stands or is held: on the first of the boards from
+    /// that one on where there is room, those below the first one last.
     fn try_at(
         &self,
         query: &PlaceQuery,
         room: &StandingRoom<'_>,
         pose: &Pose,
+        first: usize,
     ) -> Result<Pose, NoRoom> {
         let mut cause = NoRoom::NoSupport;
-        for start in &self.starts {
+        let (later, sooner) = self.starts.split_at(first);
+        for start in sooner.iter().chain(later) {
             match self.lower(query, room, pose, *start) {
                 Ok(pose) => return Ok(pose),
                 Err(reason) => cause = reason,
@@ -359,7 +367,13 @@ impl PlaceSearch {
             return Ok(());
         }
         let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
-        let stands = self.try_at(query, &room, pose);
+        let depth = self.load.as_ref().map_or(0.0, |load| load.depth(pose));
+        let off = |[start, _]: &[f64; 2]| (start - SLACK + depth - t.z).abs();
+        let board = self.starts.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let stands = match board {
+            Some(board) => self.lower(query, &room, pose, *board),
+            None => Err(NoRoom::NoSupport),
+        };
         let stands = stands.map_err(|cause| cause_text(&cause))?;
         let off = (stands.translation.z - t.z).abs();
         if off > 0.01 {

@@ -17,6 +17,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::grasp_reach::{Effort, GraspObstacle, GraspPart, GraspReach, GraspReachFrom, Station};
 use super::hold::held_objects;
 use super::no_grasp::{NoGrasp, TriedGrasp};
+use super::overhead::Overhead;
 use super::shoulder::Shoulder;
 use crate::robot::Side;
 use crate::spatial::{Pose, pose};
@@ -115,6 +116,8 @@ pub(crate) struct GraspChooser<'w> {
     held: [Option<String>; 2],
     /// How far (m) from the object a wrist is at most when it grasps it.
     span: f64,
+    /// What is above the object.
+    overhead: Option<Overhead<'w>>,
 }
 
 impl<'w> GraspChooser<'w> {
@@ -144,6 +147,7 @@ impl<'w> GraspChooser<'w> {
             shoulders: Side::BOTH.map(|side| Shoulder::of(world, side, question.torso_moves)),
             held: Side::BOTH.map(held),
             span: spans.fold(0.0, f64::max),
+            overhead: Overhead::of(world, &question.object, &question.in_map).ok(),
         }
     }
 
@@ -186,7 +190,7 @@ impl<'w> GraspChooser<'w> {
                 tried.push(candidate.tried(obstacle));
                 continue;
             }
-            let Some(poses) = self.poses(candidate, &object) else {
+            let Some(poses) = self.poses(candidate, base, &object) else {
                 continue;
             };
             let shoulder = &self.shoulders[candidate.side.index()];
@@ -286,13 +290,15 @@ impl<'w> GraspChooser<'w> {
         obstacle
     }
 
-    fn poses(&self, candidate: &Candidate, object: &Pose) -> Option<ToolPoses> {
+    fn poses(&self, candidate: &Candidate, base: &Pose, object: &Pose) -> Option<ToolPoses> {
         let arm = self.world.models().description.arm(candidate.side);
         let turned = object * about_z(candidate.turn);
-        candidate
-            .definition
-            .tool_poses(&turned, &arm.tool_axes)
-            .ok()
+        let poses = candidate.definition.tool_poses(&turned, &arm.tool_axes);
+        let poses = poses.ok()?;
+        Some(match &self.overhead {
+            Some(overhead) => overhead.picking(base, poses),
+            None => poses,
+        })
     }
 
     fn no_grasp(&self, tried: Vec<TriedGrasp>, missed: Option<(Side, Pose)>) -> Box<NoGrasp> {
@@ -350,14 +356,19 @@ impl Candidate {
     }
 }
 
-/// The poses that the hand has to take.
-pub(crate) fn needed(poses: &ToolPoses) -> [Station; 3] {
+/// The poses that the hand has to take. A second lift straight above the first may be left out.
+pub(crate) fn needed(poses: &ToolPoses) -> Vec<Station> {
+    let aside = poses.second_lift.translation.vector - poses.lift.translation.vector;
+    let out = (aside.xy().norm() > SAME.0).then_some((GraspPart::Lift, poses.second_lift));
     [
         (GraspPart::Approach, poses.second_pregrasp),
         (GraspPart::Grasp, poses.grasp),
         (GraspPart::Lift, poses.lift),
     ]
+    .into_iter()
+    .chain(out)
     .map(|(part, tool)| Station { part, tool })
+    .collect()
 }
 
 /// A turn (rad) about the vertical axis.

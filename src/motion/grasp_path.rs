@@ -6,7 +6,7 @@ use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::CollisionMode;
 use super::grasp_reach::{GraspPart, Station};
 use super::hand::gripper_of;
-use super::hold::press;
+use super::hold::{held_objects, press};
 use super::joint_follower::with_joints;
 use super::joint_motion::JointGoal;
 use super::move_tcp::{HandGoal, PoseGoal, TcpPath};
@@ -47,7 +47,7 @@ pub(crate) fn plan_grasp(
             GraspPart::Approach => (TcpPath::Free, CollisionMode::AvoidAll),
             GraspPart::Grasp | GraspPart::Lift => (TcpPath::Straight, CollisionMode::AllowHand),
         };
-        if station.part == GraspPart::Lift {
+        if station.part == GraspPart::Lift && held_objects(&world, side).is_empty() {
             let effort = gripper_of(&world, side).effort;
             press(&mut world, side, object, effort)?;
         }

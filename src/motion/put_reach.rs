@@ -7,6 +7,7 @@ use nalgebra::{Translation3, Vector3};
 
 use super::grasp_chooser::{TURNS, about_z};
 use super::grasp_reach::{Effort, GraspObstacle, GraspPart, GraspReach, Station};
+use super::overhead::Overhead;
 use super::shoulder::Shoulder;
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -145,6 +146,7 @@ pub(crate) struct PutReach<'w> {
     shoulder: Shoulder,
     /// How far (m) the wrist is from the object.
     span: f64,
+    overhead: Overhead<'w>,
 }
 
 impl<'w> PutReach<'w> {
@@ -152,10 +154,12 @@ impl<'w> PutReach<'w> {
     pub(crate) fn new(world: &'w World, grip: &'w HeldGrip) -> Result<Self, WorldError> {
         let arm = world.models().description.arm(grip.side);
         let wrist = arm.wrist_for_tool(&grip.tool_in_object);
+        let target = world.object_pose(&grip.object)?;
         Ok(Self {
             span: wrist.translation.vector.norm(),
+            overhead: Overhead::of(world, &grip.object, &target)?,
             grip,
-            target: world.object_pose(&grip.object)?,
+            target,
             reach: GraspReach::new(world, Some(&grip.object), true),
             shoulder: Shoulder::of(world, grip.side, true),
         })
@@ -180,6 +184,7 @@ impl<'w> PutReach<'w> {
         let mut nearest = None;
         for heading in self.grip.headings() {
             let poses = self.grip.poses(&(object * about_z(heading)));
+            let poses = self.overhead.putting(base, poses);
             // Things come to stand a little farther away than planned.
             let poses = poses.into_iter().flat_map(|tool| [tool, farther(&tool)]);
             // The hand may touch the object all the time.

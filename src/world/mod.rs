@@ -18,6 +18,7 @@ mod frame;
 pub(crate) mod grasp_library;
 pub(crate) mod handle_hold;
 pub(crate) mod hash;
+mod headroom;
 pub(crate) mod holding;
 mod kitchen_motion;
 mod link_geometry;

@@ -433,20 +433,30 @@ pub(super) fn drop_onto(
     at: &ParryPose,
     neighbours: &[Neighbour],
 ) -> Option<(f64, PartKey)> {
+    let bottom = solids.iter().map(|s| lowest_point(&(at * s.pose), s).z);
+    let floor = bottom.reduce(f64::min)?.max(0.0);
+    match way_along(solids, at, -Vector::Z, neighbours) {
+        Some((gap, key)) if gap < floor => Some((gap, key)),
+        _ => Some((floor, PartKey::Floor)),
+    }
+}
+
+/// How far (m) the solids can move from the pose in a direction until they meet one of the neighbours,
+/// and which; `None` if they meet none of them.
+pub(super) fn way_along(
+    solids: &[Solid],
+    at: &ParryPose,
+    direction: Vector,
+    neighbours: &[Neighbour],
+) -> Option<(f64, PartKey)> {
     let mut nearest: Option<(f64, PartKey)> = None;
-    let mut keep = |gap: f64, key| {
-        if nearest.is_none_or(|(best, _)| gap < best) {
-            nearest = Some((gap, key));
-        }
-    };
     for solid in solids {
         let pose = at * solid.pose;
-        keep(lowest_point(&pose, solid).z.max(0.0), PartKey::Floor);
         for other in neighbours {
             let options = ShapeCastOptions::with_max_time_of_impact(LIFT_LIMIT);
             let hit = cast_shapes(
                 &pose,
-                -Vector::Z,
+                direction,
                 &*solid.shape,
                 &other.pose,
                 Vector::ZERO,
@@ -454,8 +464,10 @@ pub(super) fn drop_onto(
                 options,
             );
             // All shapes are convex, so that the cast is supported.
-            if let Ok(Some(hit)) = hit {
-                keep(hit.time_of_impact, other.key);
+            if let Ok(Some(hit)) = hit
+                && nearest.is_none_or(|(best, _)| hit.time_of_impact < best)
+            {
+                nearest = Some((hit.time_of_impact, other.key));
             }
         }
     }

@@ -95,6 +95,86 @@ fn a_drawer_is_opened_and_closed_with_what_is_in_it() {
     cook.assert_no_overlap();
 }
 
+/// Lifted as on a table, it would hit the board above.
+#[test]
+fn something_between_two_boards_is_taken_out_and_put_back() {
+    let mut cook = cook();
+    cook.done(
+        "(defvar *board* (let ((?in (an object (urdf-name oven-area-area-right-drawer-main)
+                                               (part-of kitchen))))
+                           (a location (in ?in) (level 3))))
+         (defvar *milk* (an object (type milk)))
+         (btr-utils:spawn-object 'milk-1 :milk
+                                 :pose (let ((?in (an object
+                                                      (urdf-name oven-area-area-right-drawer-main)
+                                                      (part-of kitchen)))
+                                             (?for *milk*))
+                                         (desig:reference
+                                          (a location (in ?in) (level 3) (for ?for)))))",
+    );
+    let stood = cook.pose("MILK-1").translation.z;
+    cook.done(
+        "(with-simulated-robot
+           (let* ((?milk *milk*)
+                  (?board *board*)
+                  (?island (an object (urdf-name kitchen-island-surface) (part-of kitchen)))
+                  (?to (a location (on ?island) (for ?milk))))
+             (perform (an action (type transporting) (object ?milk) (location ?board)
+                          (target ?to)))))",
+    );
+    assert_eq!(
+        cook.done("(pp-plans::support-of 'milk-1)").trim(),
+        "\"kitchen_island_surface\""
+    );
+    assert!(cook.joint("oven_area_area_right_drawer_joint").abs() < 0.01);
+    cook.done(
+        "(with-simulated-robot
+           (let* ((?milk *milk*)
+                  (?drawer (an object (urdf-name oven-area-area-right-drawer-main)
+                                      (part-of kitchen)))
+                  (?to (a location (in ?drawer) (level 3) (for ?milk))))
+             (perform (an action (type transporting) (object ?milk) (target ?to)))))",
+    );
+    assert!((cook.pose("MILK-1").translation.z - stood).abs() < 0.005);
+    assert!(cook.joint("oven_area_area_right_drawer_joint").abs() < 0.01);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_hand_lifts_only_as_high_as_there_is_room() {
+    let mut cook = cook();
+    let lifts = |cook: &mut Cook, z: f64| {
+        cook.done(&format!(
+            "(btr-utils:kill-all-objects)
+             (move-kitchen-joint :joint-name \"oven_area_area_right_drawer_joint\"
+                                 :joint-angle 0.48)
+             (btr-utils:spawn-object 'milk-1 :milk :pose '((1.0 1.48 {z}) (0 0 0 1)))"
+        ));
+        let shown = cook.done(
+            "(destructuring-bind (pregrasp second-pregrasp grasp lift second-lift)
+                 (pp-plans::grasping-poses
+                  (desig:make-designator :object
+                    `((:type :milk) (:name milk-1)
+                      (:pose ((:pose-in-map ,(btr-utils:object-pose 'milk-1))))))
+                  :left :left-side)
+               (declare (ignore second-pregrasp))
+               (flet ((z (pose) (cl-tf:z (cl-tf:origin pose)))
+                      (y (pose) (cl-tf:y (cl-tf:origin pose))))
+                 (mapcar (lambda (metres) (round (* 100 metres)))
+                         (list (- (z pregrasp) (z grasp)) (- (z lift) (z grasp))
+                               (- (z second-lift) (z grasp)) (- (y second-lift) (y grasp))))))",
+        );
+        let numbers = shown.split(['(', ')', ' ', '\n']);
+        let numbers = numbers.filter_map(|n| n.parse::<i64>().ok());
+        numbers.collect::<Vec<_>>()
+    };
+    // Between boards 6 cm up and straight out to its left, else as high as always.
+    let [between, above] = [0.93, 1.26].map(|z| lifts(&mut cook, z));
+    assert_eq!(above, [15, 15, 15, 0]);
+    assert_eq!(between[..3], [6, 6, 6]);
+    assert!((20..35).contains(&between[3]), "{between:?}");
+}
+
 #[test]
 fn the_fridge_is_opened_wide_and_closed() {
     let mut cook = cook();

@@ -1,5 +1,7 @@
 //! Symbolic locations: where things and the robot could be.
 
+use std::collections::BTreeSet;
+
 use super::cook::Cook;
 use crate::spatial::{Pose, pose};
 
@@ -259,6 +261,20 @@ fn things_are_put_into_drawers_and_onto_boards() {
     assert!((top - 1.15).abs() < 0.03, "{top}");
     assert!((second - 0.49).abs() < 0.03, "{second}");
     assert!((bottom - 0.19).abs() < 0.04, "{bottom}");
+    // Without a level it may be any of them, and each is one of the places.
+    let offered = cook.done(&format!(
+        "(loop repeat 12 for l = (a location {boards}) then (next-solution l)
+               collect (cl-tf:z (cl-tf:origin (reference l))))"
+    ));
+    let heights = offered.split(['(', ')', ' ', '\n']);
+    let heights = heights.filter_map(|z| z.trim_end_matches("d0").parse::<f64>().ok());
+    let different: BTreeSet<i64> = heights.map(|z| (z / 0.1) as i64).collect();
+    assert_eq!(different.len(), 4, "{offered}");
+    let is_place = format!(
+        "(let ((place (reference (a location {boards} (level 3)))))
+           (coe::fulfils-p (a location {boards}) place))"
+    );
+    assert_eq!(cook.done(&is_place), "T\n");
     let why = refusal(&mut cook, &format!("(a location {boards} (level 7))"));
     assert!(why.ends_with("levels."), "{why}");
     let tall = "(for (an object (type cereal)))";

@@ -12,6 +12,8 @@ use crate::spatial::{pose, trig};
 struct Store {
     kind: &'static str,
     furniture: &'static str,
+    /// On which of the boards, if there are several.
+    level: Option<u32>,
     joint: &'static str,
     /// The joint's position (m, rad) when it is open.
     open: f64,
@@ -20,10 +22,11 @@ struct Store {
     wanted: u64,
 }
 
-const STORES: [Store; 4] = [
+const STORES: [Store; 6] = [
     Store {
         kind: "spoon",
         furniture: "sink-area-left-upper-drawer-main",
+        level: None,
         joint: "sink_area_left_upper_drawer_main_joint",
         open: 0.48,
         worlds: 100,
@@ -32,6 +35,7 @@ const STORES: [Store; 4] = [
     Store {
         kind: "milk",
         furniture: "iai-fridge-main",
+        level: None,
         joint: "iai_fridge_door_joint",
         open: 1.3,
         worlds: 40,
@@ -40,6 +44,7 @@ const STORES: [Store; 4] = [
     Store {
         kind: "cup",
         furniture: "kitchen-island-left-upper-drawer-main",
+        level: None,
         joint: "kitchen_island_left_upper_drawer_main_joint",
         open: 0.48,
         worlds: 40,
@@ -48,7 +53,27 @@ const STORES: [Store; 4] = [
     Store {
         kind: "bowl",
         furniture: "sink-area-left-middle-drawer-main",
+        level: None,
         joint: "sink_area_left_middle_drawer_main_joint",
+        open: 0.48,
+        worlds: 40,
+        wanted: 90,
+    },
+    // The boards at the height of a table and above it; the upper one has nothing above it.
+    Store {
+        kind: "milk",
+        furniture: "oven-area-area-right-drawer-main",
+        level: Some(3),
+        joint: "oven_area_area_right_drawer_joint",
+        open: 0.48,
+        worlds: 40,
+        wanted: 90,
+    },
+    Store {
+        kind: "milk",
+        furniture: "oven-area-area-right-drawer-main",
+        level: Some(4),
+        joint: "oven_area_area_right_drawer_joint",
         open: 0.48,
         worlds: 40,
         wanted: 90,
@@ -58,12 +83,18 @@ const STORES: [Store; 4] = [
 const PLAN: &str = "
     (in-package :pp-tut)
     (defvar *thing*)
+    (defvar *level* nil)
     (defun in-furniture (?name)
-      (a location (in (an object (urdf-name ?name) (part-of kitchen)))))
+      (let ((?level *level*))
+        (a location (in (an object (urdf-name ?name) (part-of kitchen)))
+           (desig:when ?level (level ?level)))))
     (defun put-somewhere-in (?type ?name)
       (let* ((?for (an object (type ?type)))
+             (?level *level*)
              (?in (an object (urdf-name ?name) (part-of kitchen))))
-        (spawn-object (desig:reference (a location (in ?in) (for ?for))) ?type 'thing)))
+        (spawn-object (desig:reference (a location (in ?in) (for ?for)
+                                          (desig:when ?level (level ?level))))
+                      ?type 'thing)))
     (defun on-island (?thing)
       (let ((?island (an object (urdf-name kitchen-island-surface) (part-of kitchen))))
         (a location (on ?island) (for ?thing))))
@@ -77,8 +108,9 @@ const PLAN: &str = "
                        (target ?to))))))
     (defun bring-back (?name)
       (let* ((?thing *thing*)
+             (?level *level*)
              (?to (a location (in (an object (urdf-name ?name) (part-of kitchen)))
-                     (for ?thing))))
+                     (for ?thing) (desig:when ?level (level ?level)))))
         (with-simulated-robot
           (perform (an action (type transporting) (object ?thing) (target ?to))))))
     (defun in-reach-p (type joint open)
@@ -133,6 +165,9 @@ fn how_often_things_are_brought_out_of_containers() {
             let mut cook = Cook::with_seed(seed);
             cook.done(REACHABLE_P);
             cook.done(PLAN);
+            if let Some(level) = store.level {
+                cook.done(&format!("(setf *level* {level})"));
+            }
             let mut rng = Pcg64::seed_from_u64(seed);
             let [x, y, yaw] = somewhere(&cook, &mut rng);
             let (s, c) = trig::sin_cos(yaw / 2.0);

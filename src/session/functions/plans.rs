@@ -10,7 +10,9 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, releasing_opening, take_hold};
+use crate::motion::{
+    Effort, HeldGrip, LetGo, Overhead, PutReach, about_z, releasing_opening, take_hold,
+};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
@@ -356,6 +358,10 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let poses = definition
         .tool_poses(&object.in_base, axes)
         .map_err(|error| Raise::simple(format!("{error}.")))?;
+    let base = simulation.base();
+    let overhead = Overhead::of(&simulation.world, &object.name, &(base * object.in_base))
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    let poses = overhead.picking(&base, poses);
     done(Value::list(
         [
             poses.pregrasp,
@@ -508,8 +514,14 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         .grip_on(&name, side)
         .map_err(|error| Raise::simple(format!("{error}.")))?;
     let headings = grip.headings();
-    let turned = |heading: f64| target * about_z(heading);
-    let with_poses = |heading: &f64| (*heading, grip.poses(&turned(*heading)));
+    let base = simulation.base();
+    let overhead = Overhead::of(&simulation.world, &name, &(base * target))
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    let poses_at = |heading: f64| {
+        let turned = target * about_z(heading);
+        overhead.putting(&base, grip.poses(&turned))
+    };
+    let with_poses = |heading: &f64| (*heading, poses_at(*heading));
     // Prefer a heading at which the hand can also open and retract, ideally without touching
     // anything; a pose that cannot be reached at any heading fails later, with a reason.
     let reachable = |count: usize| {
@@ -521,7 +533,7 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let (heading, poses) = free
         .or_else(|| reachable(4))
         .or_else(|| reachable(2))
-        .unwrap_or_else(|| (0.0, grip.poses(&target)));
+        .unwrap_or_else(|| (0.0, poses_at(0.0)));
     if heading != 0.0 {
         let heading = heading.to_degrees().round();
         let text = format!("{name} is round: it is put down turned by {heading} degrees.");

@@ -7,7 +7,9 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
-use crate::motion::{Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, can_reach};
+use crate::motion::{
+    Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, Overhead, can_reach,
+};
 use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
@@ -79,6 +81,10 @@ impl Simulation {
         let Ok(poses) = definition.tool_poses(&in_base, axes) else {
             return false;
         };
+        let Ok(overhead) = Overhead::of(&self.world, &wanted.name, &wanted.in_map) else {
+            return false;
+        };
+        let poses = overhead.picking(base, poses);
         // Poses out of the arm's reach are ruled out without checking the surroundings.
         if !self.is_reachable(arm, &[poses.pregrasp, poses.second_pregrasp, poses.grasp]) {
             return false;
@@ -111,6 +117,8 @@ impl Simulation {
         let poses = grasp
             .tool_poses(&object, axes)
             .map_err(|error| Raise::simple(format!("{error}.")))?;
+        let overhead = Overhead::of(&world, imagined.object, &(base * object)).map_err(raise)?;
+        let poses = overhead.picking(&base, poses);
         // As in the plans for picking up and placing: the hand approaches without contact, and
         // may touch the object from then on.
         let way = [
