@@ -11,7 +11,7 @@ use super::reach::{Goal, NoReach, Reach, imagined};
 use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
-use crate::motion::{BaseChecker, Effort, interruption};
+use crate::motion::{BaseChecker, Effort, LEAST_MARGIN, interruption};
 use crate::spatial::{Pose, pose};
 use crate::world::{World, WorldError};
 
@@ -238,7 +238,7 @@ impl<'a> Test<'a> {
         }
         let t = base.translation;
         let place = [t.x, t.y, pose::yaw(base)];
-        if let Some(hit) = self.checker.blocked(&place, 0.0) {
+        if let Some(hit) = self.checker.blocked(&place, LEAST_MARGIN) {
             let cause = format!("in collision with {}", hit.other);
             return Ok(Err(Rejection::of(cause)));
         }

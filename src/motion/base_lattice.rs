@@ -232,7 +232,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
 
     /// Whether it is kept what can be reached: not if that depends on the goal.
     fn keeps_reached(&self) -> bool {
-        !self.through && !self.search.keeps_margin()
+        !self.through && !self.search.spares_goal()
     }
 
     /// Keeps that cells of the first grid cannot be reached from the start.

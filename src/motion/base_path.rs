@@ -3,7 +3,7 @@
 //! The base may move in any direction and turn in place. The straight path is tried
 //! first, then A* on a lattice of positions and headings ([`Lattice`]). The result is shortened.
 //! Paths keep a distance from obstacles where they can: the search first requires a margin, then
-//! none. The caller's closure checks for collisions, so the robot's present posture and what its
+//! one that is just large enough that nothing is pushed between two checked poses. The caller's closure checks for collisions, so the robot's present posture and what its
 //! arms hold are taken into account.
 
 use super::base_lattice::Lattice;
@@ -39,12 +39,15 @@ pub(crate) enum BasePathFailure<P> {
 
 /// Clearance (m) that a path keeps where it can.
 pub(super) const MARGIN: f64 = 0.04;
-/// No margin is required this close (m) to the start or the goal.
+/// Clearance (m) that it keeps wherever else: with less than half the resolution, the robot could push
+/// something between two checked poses.
+pub(crate) const LEAST_MARGIN: f64 = RESOLUTION / 2.0;
+/// No margin is required this close (m) to the start, nor to the goal on the first lattice.
 const NO_MARGIN_WITHIN: f64 = 0.35;
 /// Between two checked poses no part of the robot moves by more than this (m).
 const RESOLUTION: f64 = 0.01;
-/// Lattice spacings (m), in the order in which they are tried.
-const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, 0.0)];
+/// Lattice spacings (m) with the clearance (m) that is kept, in the order in which they are tried.
+const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, LEAST_MARGIN)];
 /// Cost of a radian of turning, in metres of driving.
 pub(super) const TURN_COST: f64 = 0.5;
 
@@ -111,7 +114,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     /// What blocks the pose.
     pub(super) fn place(&mut self, p: &BasePlace) -> Option<P> {
         interruption::look();
-        let margin = if is_near(p, &self.start) || is_near(p, &self.goal) {
+        let margin = if is_near(p, &self.start) || self.depends_on_goal(p) {
             0.0
         } else {
             self.margin
@@ -119,14 +122,14 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
         (self.blocked)(p, margin)
     }
 
-    /// Whether a margin is kept where there is room.
-    pub(super) fn keeps_margin(&self) -> bool {
-        self.margin > 0.0
+    /// Whether it may depend on the goal what blocks a pose.
+    pub(super) fn spares_goal(&self) -> bool {
+        self.margin > LEAST_MARGIN
     }
 
     /// Whether it depends on the goal what blocks the pose.
     pub(super) fn depends_on_goal(&self, p: &BasePlace) -> bool {
-        self.keeps_margin() && is_near(p, &self.goal)
+        self.spares_goal() && is_near(p, &self.goal)
     }
 
     /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.

@@ -61,6 +61,7 @@ mod trajectory_follower;
 pub(crate) mod unreachable;
 
 pub(crate) use base_checker::BaseChecker;
+pub(crate) use base_path::LEAST_MARGIN;
 pub(crate) use detect::{Detect, DetectQuery};
 pub(crate) use drive::Drive;
 pub(crate) use expected_contacts::CollisionMode;
