@@ -286,6 +286,24 @@ mod tests {
         assert!(path.len() < 9, "{path:?}");
     }
 
+    /// Between two poses that are checked it moves by a centimetre.
+    #[test]
+    fn a_gap_in_which_things_would_be_pushed_is_not_taken() {
+        // A gap at x = 0 for a robot that is 0.4 m long and goes through sideways.
+        let gap = |half: f64| {
+            move |x: f64, y: f64, r: f64| x.abs() < 0.3 + r && (y - 1.0).abs() > half - r
+        };
+        let path = find([2.0, 0.0, 0.0], gap(0.206)).unwrap();
+        for leg in path.windows(2) {
+            for i in 0..=1000 {
+                let place = between(&leg[0], &leg[1], f64::from(i) / 1000.0);
+                assert!(!touches(&place, 0.0, gap(0.206)), "{place:?}");
+            }
+        }
+        let result = find([2.0, 0.0, 0.0], gap(0.203));
+        assert!(matches!(result, Err(BasePathFailure::Enclosed { .. })));
+    }
+
     #[test]
     fn an_occupied_goal_names_what_is_there() {
         let result = find([2.0, 0.0, 0.0], |x, _, _| x > 1.5);

@@ -306,14 +306,62 @@ fn a_cup_in_the_corner_is_fetched_from_beside_what_stands_in_the_best_places() {
 
 /// Transports an object of a type from anywhere on the counter to the island.
 fn from_the_counter(kind: &str) -> String {
+    transporting(kind, "sink-area-surface", "kitchen-island-surface")
+}
+
+fn transporting(kind: &str, from: &str, to: &str) -> String {
     format!(
         "(with-simulated-robot
            (perform (an action (type transporting)
                       (object (an object (type {kind})))
-                      (location (a location (on (an object (urdf-name sink-area-surface)
+                      (location (a location (on (an object (urdf-name {from})
                                                            (part-of kitchen)))))
-                      (target (a location (on (an object (urdf-name kitchen-island-surface)
+                      (target (a location (on (an object (urdf-name {to})
                                                          (part-of kitchen)))
                                           (for (an object (type {kind}))))))))"
     )
+}
+
+/// A spoon and five boxes on the floor, around a point.
+fn with_boxes(spoon: &str, [x, y]: [f64; 2]) -> Cook {
+    let mut cook = Cook::new();
+    cook.done(&format!("(spawn-object '({spoon}) :spoon 'spoon-1)"));
+    let around = [
+        [0.0, 0.0],
+        [0.15, 0.15],
+        [0.15, -0.15],
+        [-0.15, 0.15],
+        [-0.15, -0.15],
+    ];
+    for (number, [dx, dy]) in (1..).zip(around) {
+        let (x, y) = (x + dx, y + dy);
+        cook.done(&format!(
+            "(spawn-object '(({x} {y} 0.15) (0 0 0 1)) :breakfast-cereal 'box-{number})"
+        ));
+    }
+    cook
+}
+
+/// Only between the poses that are tried first does the robot fit there.
+#[test]
+fn a_spoon_is_fetched_from_between_the_usual_places_to_stand() {
+    let spoon = "(1.65732 -0.11157 0.86159) (0.00086 0.00487 0.15402 -0.98805)";
+    let mut cook = with_boxes(spoon, [0.775, -0.125]);
+    let said = cook.done(&from_the_counter("spoon"));
+    assert!(cook.pose("SPOON-1").translation.x < -0.6, "{said}");
+}
+
+/// The way leads through gaps that are hardly wider than the robot.
+#[test]
+fn boxes_beside_the_way_are_not_pushed() {
+    let spoon = "(-1.26937 0.75627 0.86558) (0.00310 -0.00391 0.58329 0.81225)";
+    let mut cook = with_boxes(spoon, [-1.525, 0.225]);
+    let names = (1..=5).map(|i| format!("BOX-{i}"));
+    let stood: Vec<_> = names.map(|name| (cook.pose(&name), name)).collect();
+    let form = transporting("spoon", "kitchen-island-surface", "table-area-main");
+    let said = cook.done(&form);
+    assert!(cook.pose("SPOON-1").translation.y < -0.6, "{said}");
+    for (pose, name) in stood {
+        assert!(cook.distance(&name, &pose) < 1e-3, "{name}");
+    }
 }
