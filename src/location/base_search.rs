@@ -28,8 +28,8 @@ const MOST_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again when all
 /// others have been tried.
 const MOST_AGAIN: usize = 1000;
-/// When so many postures of the arms have been checked for collisions, the search does not go on
-/// between the base poses that it has tried: that is about a second.
+/// The search between the base poses of the first lattice ends when so many postures of the arms have
+/// been checked for collisions: most of the time goes there.
 const MOST_POSTURES: u32 = 100_000;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
@@ -45,7 +45,7 @@ pub(super) struct BaseSearch {
     goal: Goal,
     /// Number of base poses for which it was checked in vain whether the target can be reached.
     checks: u32,
-    /// Number of postures that have been checked.
+    /// Number of postures that have been checked between those of the first lattice.
     postures: u32,
     walk: Walk,
     /// Base poses that are to be examined again.
@@ -125,19 +125,21 @@ impl BaseSearch {
             ..
         } = self;
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
-        let before = *postures;
+        let mut counted = 0;
         loop {
             interruption::look();
-            *postures = before + test.reach.postures();
-            let has_to_end = *postures >= MOST_POSTURES;
-            if has_to_end && !walk.is_first() {
+            let count = test.reach.postures();
+            if !walk.is_first() {
+                *postures += count - counted;
+            }
+            counted = count;
+            if *postures >= MOST_POSTURES {
                 tally.give_up();
                 return Ok(None);
             }
             if *is_second_look {
                 let Some(base) = again.pop_front() else {
-                    let more = between(query, scene.world, walk, draw);
-                    let Some(between) = more.filter(|_| !has_to_end) else {
+                    let Some(between) = between(query, scene.world, walk, draw) else {
                         return Ok(None);
                     };
                     (*walk, *is_second_look, *checks) = (between, false, 0);

@@ -3,8 +3,8 @@
 //! The base may move in any direction and turn in place. The straight path is tried
 //! first, then A* on a lattice of positions and headings ([`Lattice`]). The result is shortened.
 //! Paths keep a distance from obstacles where they can: the search first requires a margin, then
-//! one that is just large enough that nothing is pushed between two checked poses. The caller's closure checks for collisions, so the robot's present posture and what its
-//! arms hold are taken into account.
+//! one that is just large enough that nothing is pushed between two checked poses. The caller's closure
+//! checks for collisions, so the robot's present posture and what its arms hold are taken into account.
 
 use super::base_lattice::Lattice;
 use super::interruption;

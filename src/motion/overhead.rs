@@ -1,6 +1,8 @@
 //! How a hand takes something out from under a shelf board or whatever else is above it, and puts it
 //! there: a little up, and straight back out.
 
+use std::cell::RefCell;
+
 use nalgebra::{Translation3, Vector3};
 
 use crate::spatial::Pose;
@@ -15,9 +17,10 @@ const GAP: f64 = 0.02;
 const BACK: f64 = 0.4;
 /// Step (m) between distances at which it may be out.
 const STEP: f64 = 0.05;
+/// Directions (unit vectors) that differ so little are the same.
+const SAME: f64 = 1e-6;
 
 /// What is above the place of an object.
-#[derive(Clone, Copy)]
 pub(crate) struct Overhead<'w> {
     world: &'w World,
     object: &'w str,
@@ -25,6 +28,8 @@ pub(crate) struct Overhead<'w> {
     at: Pose,
     /// How far (m) the object could rise there.
     headroom: f64,
+    /// Directions in the map, and how far (m) out it is in them. There are as many as grasps.
+    ways: RefCell<Vec<(Vector3<f64>, f64)>>,
 }
 
 impl<'w> Overhead<'w> {
@@ -37,6 +42,7 @@ impl<'w> Overhead<'w> {
             object,
             at,
             headroom,
+            ways: RefCell::default(),
         })
     }
 
@@ -85,16 +91,28 @@ impl<'w> Overhead<'w> {
         }
         let up = (self.headroom - GAP).clamp(0.0, UP);
         let back = back.normalize();
-        let in_map = base.rotation * back;
+        let way = self.way_along(base.rotation * back);
+        Some([Vector3::z() * up, back * way].map(Translation3::from))
+    }
+
+    /// How far (m) the object has to move in a direction of the map until nothing is above it any more;
+    /// at most so far that it does not matter.
+    fn way_along(&self, direction: Vector3<f64>) -> f64 {
+        let mut ways = self.ways.borrow_mut();
+        let known = ways.iter().find(|(d, _)| (d - direction).norm() < SAME);
+        if let Some((_, way)) = known {
+            return *way;
+        }
         let is_out = |way: f64| {
-            let there = Translation3::from(in_map * way) * self.at;
+            let there = Translation3::from(direction * way) * self.at;
             let headroom = self.world.headroom(self.object, &there);
-            headroom.is_ok_and(|headroom| headroom >= rise + GAP)
+            headroom.is_ok_and(|headroom| headroom > self.headroom + UP)
         };
         let steps = (BACK / STEP).round() as u32;
-        let ways = (1..=steps).map(|i| f64::from(i) * STEP);
-        let way = ways.into_iter().find(|way| is_out(*way)).unwrap_or(BACK);
-        Some([Vector3::z() * up, back * way].map(Translation3::from))
+        let mut distances = (1..=steps).map(|i| f64::from(i) * STEP);
+        let way = distances.find(|way| is_out(*way)).unwrap_or(BACK);
+        ways.push((direction, way));
+        way
     }
 }
 
