@@ -267,3 +267,49 @@ fn a_file_has_its_own_binding_of_a_file_local_variable() {
     assert_eq!(said(&mut session, "(asdf:load-system :locals)"), "T");
     assert_eq!(said(&mut session, "(list *seen* *suite*)"), "(:MINE :NONE)");
 }
+
+#[test]
+fn the_tests_of_a_system_are_run_as_its_description_says() {
+    let folder = Folder::new(
+        "tests",
+        &[
+            (
+                "cup.asd",
+                "(asdf:defsystem :cup :components ((:file \"cup\"))
+                   :in-order-to ((asdf:test-op (test-op \"cup/tests\"))))
+                 (defsystem cup/tests :depends-on (cup) :components ((:file \"cup-tests\"))
+                   :perform (test-op (o c) (uiop:symbol-call :cup-tests '#:run \"a:b\" :c)))",
+            ),
+            (
+                "mug.asd",
+                "(defsystem \"mug\" :components ((:file \"cup\")))
+                 (defmethod perform ((o test-op) (c (eql (find-system :mug))))
+                   (push :mug cl-user::*ran*))",
+            ),
+            (
+                "pan.asd",
+                "(defsystem :pan :components ((:file \"cup\"))
+                   :perform (test-op (o c) (no-such-package:run)))",
+            ),
+            ("cup.lisp", "(defvar cl-user::*ran* '())"),
+            (
+                "cup-tests.lisp",
+                "(defpackage :cup-tests (:use :cl))
+                 (cl-user::in-package :cup-tests)
+                 (defun run (&rest arguments) (push arguments cl-user::*ran*))",
+            ),
+        ],
+    );
+    let mut session = folder.session();
+    assert_eq!(said(&mut session, "(asdf:test-system :cup)"), "T");
+    assert_eq!(said(&mut session, "cl-user::*ran*"), "((\"a:b\" :C))");
+    assert_eq!(said(&mut session, "(asdf:test-system :mug)"), "T");
+    assert_eq!(said(&mut session, "(first cl-user::*ran*)"), ":MUG");
+    let wrong = said(&mut session, "(asdf:test-system :pan)");
+    assert!(
+        wrong.contains("there is no package NO-SUCH-PACKAGE"),
+        "{wrong}"
+    );
+    let none = said(&mut session, "(asdf:test-system \"cram_language\")");
+    assert!(none.contains("is built in; its tests are not"), "{none}");
+}

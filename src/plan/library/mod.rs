@@ -26,6 +26,7 @@ static UTILITY_FILES: &[File] = &[
     library_file!("src/plan/library", "locations.lisp"),
     library_file!("src/plan/library", "systems.lisp"),
     library_file!("src/plan/library", "system-files.lisp"),
+    library_file!("src/plan/library", "system-tests.lisp"),
 ];
 
 /// Files that need designators; installed after those.
