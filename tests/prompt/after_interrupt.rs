@@ -139,3 +139,51 @@ fn an_interrupted_form_can_be_edited_or_retried() {
     assert!(talk.say("7").contains("Type 0 to continue"));
     assert!(talk.say("q").contains("; Evaluation aborted"));
 }
+
+/// A class of streams whose methods take long.
+const SLOW_STREAM: &str = "(progn
+  (defclass slow-stream (gray-streams:fundamental-character-output-stream
+                         gray-streams:fundamental-character-input-stream)
+    ((text :initform '()) (rest :initform (coerce \"ab\" 'list))))
+  (defun wait-a-little () (let ((n 0)) (dotimes (i 3000 n) (incf n i))))
+  (defmethod gray-streams:stream-write-char ((s slow-stream) c)
+    (wait-a-little)
+    (push c (slot-value s 'text))
+    c)
+  (defmethod gray-streams:stream-read-char ((s slow-stream))
+    (wait-a-little)
+    (or (pop (slot-value s 'rest)) :eof))
+  t)";
+
+const USE_OF_SLOW_STREAM: &str = "(let ((s (make-instance 'slow-stream)))
+  (format s \"~a-~s\" 12 :cup)
+  (write '(1 2) :stream s)
+  (list (read-line s) (coerce (reverse (slot-value s 'text)) 'string)))";
+
+#[test]
+fn an_interrupt_in_a_method_of_a_stream_leaves_the_session_whole() {
+    let mut talk = Talk::new();
+    talk.say(SLOW_STREAM);
+    let whole = talk.say(USE_OF_SLOW_STREAM);
+    assert_eq!(whole, "(\"ab\" \"12-:CUP(1 2)\")\n");
+    let mut stopped = 0;
+    for at in (1..60).step_by(3) {
+        talk.session.interrupt_next_at(at);
+        let (shown, outcome) = talk.take(USE_OF_SLOW_STREAM);
+        if outcome != Outcome::Stopped {
+            assert_eq!(shown, whole);
+            continue;
+        }
+        stopped += 1;
+        // Other streams, this class and the printer work meanwhile.
+        assert_eq!(talk.say("(format nil \"~a\" '(1 2))"), "\"(1 2)\"\n");
+        assert_eq!(talk.say(USE_OF_SLOW_STREAM), whole);
+        if at % 2 == 0 {
+            assert_eq!(talk.say("0"), whole, "at {at}");
+        } else {
+            talk.say("q");
+            assert_eq!(talk.say(USE_OF_SLOW_STREAM), whole, "at {at}");
+        }
+    }
+    assert!(stopped > 5, "{stopped} interrupts");
+}
