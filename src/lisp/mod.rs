@@ -24,6 +24,5 @@ pub(crate) mod vm;
 
 #[cfg(test)]
 pub(crate) use image::Image;
-pub(crate) use value::Value;
 pub(crate) use value::raise::Raise;
 pub(crate) use value::symbol::Sym;

@@ -74,3 +74,22 @@ fn pathnames_are_objects() {
         ),
     ]);
 }
+
+#[test]
+fn loading_tells_what_it_loads_if_asked() {
+    check(&[
+        (
+            "(with-output-to-string (*standard-output*) (with-input-from-string (s \"(+ 1 2)\") (load s :verbose t :print t)))",
+            "\"; Loading stream ; 3 \"",
+        ),
+        (
+            "(with-output-to-string (*standard-output*) (let ((*load-print* t)) (with-input-from-string (s \"(+ 1 2)\") (load s))))",
+            "\"; 3 \"",
+        ),
+        (
+            "(with-output-to-string (*standard-output*) (with-input-from-string (s \"(+ 1 2)\") (load s)))",
+            "\"\"",
+        ),
+        ("(pathname-device \"a.lisp\")", "NIL"),
+    ]);
+}

@@ -3,6 +3,8 @@
 mod array_elements;
 mod arrays;
 mod builtin_robustness;
+mod classes_by_name;
+mod complex_types;
 mod cram_utilities;
 mod debugger_and_packages;
 mod examples;
@@ -25,3 +27,4 @@ mod redefined_classes;
 mod restarts;
 mod standard;
 mod type_specifiers;
+mod weak_pointers;

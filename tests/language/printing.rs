@@ -160,3 +160,25 @@ fn characters_and_tabs_of_format_follow_the_standard() {
         ),
     ]);
 }
+
+#[test]
+fn an_unreadable_object_without_contents_has_its_blanks() {
+    check(&[
+        (
+            "(with-output-to-string (s) (print-unreadable-object (nil s :type t)))",
+            "\"#<NULL >\"",
+        ),
+        (
+            "(with-output-to-string (s) (print-unreadable-object (nil s :type t) (princ 1 s)))",
+            "\"#<NULL 1>\"",
+        ),
+        (
+            "(let ((text (with-output-to-string (s) (print-unreadable-object ((list 1) s :identity t))))) (list (subseq text 0 4) (char text (1- (length text)))))",
+            "(\"#< {\" #\\>)",
+        ),
+        (
+            "(subseq (with-output-to-string (s) (print-unreadable-object ((list 1) s :type t :identity t))) 0 8)",
+            "\"#<CONS {\"",
+        ),
+    ]);
+}

@@ -72,3 +72,37 @@ fn what_is_left_out_needs_no_numbers() {
         ),
     ]);
 }
+
+#[test]
+fn a_dot_that_is_left_out_is_a_form() {
+    check(&[
+        (
+            "(let ((*read-suppress* t)) (read-from-string \".\"))",
+            "NIL ; 1",
+        ),
+        (
+            "(let ((*read-suppress* t)) (read-from-string \"#'. 1\"))",
+            "NIL ; 4",
+        ),
+        ("'(1 #+nowhere (2 . 3) . 4)", "(1 . 4)"),
+    ]);
+}
+
+#[test]
+fn characters_have_the_names_that_are_told() {
+    check(&[
+        (
+            "(loop for code below 256 for c = (code-char code) always (eql c (read-from-string (format nil \"#\\\\~a\" (char-name c)))))",
+            "T",
+        ),
+        ("'#\\latin_small_letter_a", "#\\a"),
+    ]);
+}
+
+#[test]
+fn a_comment_cannot_begin_with_what_escapes() {
+    check(&[(
+        "(set-syntax-from-char #\\\\ #\\; (copy-readtable nil))",
+        "!! #\\\\ cannot mean what #\\; means: it escapes other characters, or is a letter.",
+    )]);
+}

@@ -359,7 +359,7 @@ fn what_is_printed_readably_leaves_nothing_out() {
         ),
         (
             "(list (upgraded-complex-part-type '(integer 0 1)) (upgraded-complex-part-type nil))",
-            "(RATIONAL NIL)",
+            "((INTEGER 0 1) NIL)",
         ),
         (
             "(progn (deftype between (a b) (declare (type integer a b)) `(integer ,a ,b)) (typep 3 '(between 1 4)))",

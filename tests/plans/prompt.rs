@@ -2,7 +2,7 @@
 
 use crate::lisp::reader;
 use crate::lisp::value::known;
-use crate::lisp::{Image, Value, evaluator::nested, print};
+use crate::lisp::{Image, evaluator::nested, print, value::Value};
 use crate::plan::{self, Evaluation, NullHost, Scheduler};
 
 /// An image with the plan language, in a package that uses it.

@@ -2,6 +2,7 @@
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::reader::ascii_name::ascii_name;
 use crate::lisp::reader::char_name::{char_name as special_name, char_named};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -12,74 +13,9 @@ type Outcome = Result<Value, Box<Raise>>;
 
 /// The name of a character.
 fn name_of(c: char) -> String {
-    let ascii = || {
-        let index = usize::try_from(u32::from(c)).ok()?.checked_sub(33)?;
-        ASCII.get(index).map(|name| (*name).to_owned())
-    };
     special_name(c)
-        .or_else(ascii)
-        .or_else(|| letter_name(c))
+        .or_else(|| ascii_name(c))
         .unwrap_or_else(|| format!("U{:X}", u32::from(c)))
-}
-
-/// The character with this name, in any case.
-fn named(name: &str) -> Option<char> {
-    char_named(name).or_else(|| ('!'..='~').find(|c| name_of(*c).eq_ignore_ascii_case(name)))
-}
-
-/// Unicode names of the printing ASCII characters that are not letters, from `!` on.
-const ASCII: &[&str] = &[
-    "EXCLAMATION_MARK",
-    "QUOTATION_MARK",
-    "NUMBER_SIGN",
-    "DOLLAR_SIGN",
-    "PERCENT_SIGN",
-    "AMPERSAND",
-    "APOSTROPHE",
-    "LEFT_PARENTHESIS",
-    "RIGHT_PARENTHESIS",
-    "ASTERISK",
-    "PLUS_SIGN",
-    "COMMA",
-    "HYPHEN-MINUS",
-    "FULL_STOP",
-    "SOLIDUS",
-    "DIGIT_ZERO",
-    "DIGIT_ONE",
-    "DIGIT_TWO",
-    "DIGIT_THREE",
-    "DIGIT_FOUR",
-    "DIGIT_FIVE",
-    "DIGIT_SIX",
-    "DIGIT_SEVEN",
-    "DIGIT_EIGHT",
-    "DIGIT_NINE",
-    "COLON",
-    "SEMICOLON",
-    "LESS-THAN_SIGN",
-    "EQUALS_SIGN",
-    "GREATER-THAN_SIGN",
-    "QUESTION_MARK",
-    "COMMERCIAL_AT",
-];
-
-fn letter_name(c: char) -> Option<String> {
-    let rest = match c {
-        'A'..='Z' => return Some(format!("LATIN_CAPITAL_LETTER_{c}")),
-        'a'..='z' => return Some(format!("LATIN_SMALL_LETTER_{}", c.to_ascii_uppercase())),
-        '[' => "LEFT_SQUARE_BRACKET",
-        '\\' => "REVERSE_SOLIDUS",
-        ']' => "RIGHT_SQUARE_BRACKET",
-        '^' => "CIRCUMFLEX_ACCENT",
-        '_' => "LOW_LINE",
-        '`' => "GRAVE_ACCENT",
-        '{' => "LEFT_CURLY_BRACKET",
-        '|' => "VERTICAL_LINE",
-        '}' => "RIGHT_CURLY_BRACKET",
-        '~' => "TILDE",
-        _ => return None,
-    };
-    Some(rest.to_owned())
 }
 
 /// The upper-case form, where that is one character.
@@ -159,7 +95,7 @@ fn char_name(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn name_char(image: &mut Image, args: &[Value]) -> Outcome {
     let name = super::strings::designated(image, &args[0])?;
-    Ok(named(&name).map_or(Value::NIL, Value::Char))
+    Ok(char_named(&name).map_or(Value::NIL, Value::Char))
 }
 
 fn char_upcase(_: &mut Image, args: &[Value]) -> Outcome {

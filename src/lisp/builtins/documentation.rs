@@ -46,7 +46,10 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
         (Value::Cons(_), Some(known::FUNCTION)) => image
             .named_function(&args[0])
             .and_then(|f| of_function(image, &f)),
-        (Value::Function(function), _) => of_function(image, function),
+        (Value::Function(function), _) => match name_of(image, function) {
+            Some(name) => of_name(image, name),
+            None => of_function(image, function),
+        },
         (Value::Class(class), _) => class.doc.borrow().clone(),
         (other, _) => other
             .as_foreign::<MethodObject>()
@@ -66,6 +69,30 @@ fn of_name(image: &Image, name: Sym) -> Option<Rc<str>> {
         }
         FunctionCell::Builtin => image.entry(name).map(|entry| entry.doc().into()),
         FunctionCell::Unbound => None,
+    }
+}
+
+/// The symbol whose function or macro a function is, if that is its name.
+fn name_of(image: &Image, function: &Rc<Function>) -> Option<Sym> {
+    let name = match &function.body {
+        Body::Closure { code, .. } => code.name.shown().as_symbol()?,
+        Body::Native(native) => native.name,
+        Body::Generic(_) | Body::Deferred(_) => return None,
+    };
+    match &image.symbol(name).function {
+        FunctionCell::Function(own) | FunctionCell::Macro(own) => {
+            Rc::ptr_eq(own, function).then_some(name)
+        }
+        FunctionCell::Builtin | FunctionCell::Unbound => None,
+    }
+}
+
+/// Keeps the documentation of a function that is generic or has a name. That of others is discarded.
+fn document_function(image: &mut Image, function: &Rc<Function>, text: Option<Rc<str>>) {
+    if let Some(generic) = function.as_generic() {
+        *generic.doc.borrow_mut() = text;
+    } else if let Some(name) = name_of(image, function) {
+        image.symbols.get_mut(name).function_doc = text;
     }
 }
 
@@ -97,11 +124,7 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
             image.symbols.get_mut(*name).function_doc = text;
         }
         (Value::Class(class), _) => *class.doc.borrow_mut() = text,
-        (Value::Function(function), _) => {
-            if let Some(generic) = function.as_generic() {
-                *generic.doc.borrow_mut() = text;
-            }
-        }
+        (Value::Function(function), _) => document_function(image, function, text),
         (other, _) => {
             if let Some(method) = other.as_foreign::<MethodObject>() {
                 *method.0.doc.borrow_mut() = text;

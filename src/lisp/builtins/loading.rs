@@ -10,7 +10,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::pathname::{Pathname, file_name};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::run;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -28,6 +28,16 @@ pub(crate) static TABLE: &[Builtin] = &[control(
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
 pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+    load_and_tell(machine, name, text, false)
+}
+
+/// The same; the values of the forms are printed if wanted.
+fn load_and_tell(
+    machine: &mut Machine<'_>,
+    name: &str,
+    text: &str,
+    shows_values: bool,
+) -> Result<Step> {
     let source = machine.image.sources.add(name, text);
     let mut reader = Reader::new(machine.image, source);
     // The file may change these variables; the caller's values are restored afterwards.
@@ -58,7 +68,12 @@ pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Re
                 .await;
             supplied = match outcome.map_err(|error| error.raise())? {
                 Outcome::Form(form, _) => {
-                    calls.call1(&eval, form).await;
+                    let value = calls.call1(&eval, form).await;
+                    if shows_values {
+                        let arguments = vec![Value::T, Value::string("~&; ~s~%"), value];
+                        let format = Value::from(known::FORMAT);
+                        calls.call(&format, Args::Many(arguments)).await;
+                    }
                     None
                 }
                 Outcome::Evaluate(form) => Some(calls.call1(&eval, form).await),
@@ -97,7 +112,8 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         let (text, from) = crate::lisp::stream::rest(machine.image, &args[0])?;
         let text = text.get(from..).unwrap_or_default();
         crate::lisp::stream::advance(machine.image, &args[0], text.len())?;
-        return load_text(machine, &name, text);
+        let shows_values = announce(machine, &name, &args[1..])?;
+        return load_and_tell(machine, &name, text, shows_values);
     }
     let Some(path) = file_name(&args[0]) else {
         return Err(Raise::type_error(&args[0], known::STRING));
@@ -107,7 +123,27 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
         result => result?,
     };
-    load_text(machine, &path, &text)
+    let shows_values = announce(machine, &path, &args[1..])?;
+    load_and_tell(machine, &path, &text, shows_values)
+}
+
+/// Says what is loaded, if that is wanted. Are the values of its forms wanted, too?
+fn announce(machine: &mut Machine<'_>, name: &str, args: &[Value]) -> Result<bool> {
+    let wanted = |key: Sym, variable: Sym| {
+        let mut pairs = args.chunks(2);
+        let given = pairs.find(|pair| pair[0].as_symbol() == Some(key));
+        let given = given.and_then(|pair| pair.get(1).cloned());
+        given.unwrap_or_else(|| machine.image.special(variable).clone())
+    };
+    // The variables have no values before somebody uses them.
+    let is_wanted = |value: Value| value.is_true() && !matches!(value, Value::Unbound);
+    let shows_name = is_wanted(wanted(known::K_VERBOSE, known::V_LOAD_VERBOSE));
+    let shows_values = is_wanted(wanted(known::K_PRINT, known::V_LOAD_PRINT));
+    if shows_name {
+        let text = format!("; Loading {name}\n");
+        crate::lisp::stream::write(machine.image, &Value::NIL, &text)?;
+    }
+    Ok(shows_values)
 }
 
 /// Do the arguments say that LOAD returns NIL if there is no such file?

@@ -61,3 +61,4 @@ pub(crate) mod structures;
 pub(crate) mod symbols;
 pub(crate) mod transcendental;
 pub(crate) mod types;
+pub(crate) mod weak_pointers;

@@ -120,7 +120,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The name of a class.",
         &["(class-name (find-class 'list)) => LIST"],
         |_, args| match &args[0] {
-            Value::Class(class) => Ok(class.name.into()),
+            Value::Class(class) => Ok(class.class_name()),
             other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
         },
     ),
@@ -244,6 +244,13 @@ pub(crate) static SETTERS: &[Builtin] = &[
         &[],
         set_find_class,
     ),
+    pure(
+        "CLASS-NAME",
+        "name class",
+        "Changes what `class-name` returns; `find-class` goes on finding the class under its old name.",
+        &[],
+        set_class_name,
+    ),
 ];
 
 fn set_slot_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
@@ -289,6 +296,16 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
         Some(class) if class.is_defined.get() => Ok(Value::Class(class.clone())),
         _ if args.get(1).is_some_and(Value::is_nil) => Ok(Value::NIL),
         _ => Err(no_class(image, name)),
+    }
+}
+
+fn set_class_name(_: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    match &args[1] {
+        Value::Class(class) => {
+            *class.given_name.borrow_mut() = Some(args[0].clone());
+            Ok(args[0].clone())
+        }
+        other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
 }
 

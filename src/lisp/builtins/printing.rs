@@ -475,22 +475,24 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         let name = crate::lisp::object::class_of(image, object).name;
         start.push_str(&print::to_string(image, &name.into(), true));
     }
-    let end = if with_identity.is_true() {
-        format!("{}>", print::identity(image, object))
-    } else {
-        ">".to_owned()
-    };
-    let is_first = start.len() == 2;
-    if body.is_nil() {
-        let blank = if is_first || end == ">" { "" } else { " " };
-        stream::write(image, target, &format!("{start}{blank}{end}"))?;
-        return Ok(Step::Return(Value::NIL));
-    }
-    if !is_first {
+    // A blank follows the type and comes before the identity, also if nothing stands between; one is
+    // enough for both then.
+    if with_type.is_true() {
         start.push(' ');
     }
+    let end = match (
+        with_identity.is_true(),
+        body.is_nil() && with_type.is_true(),
+    ) {
+        (false, _) => ">".to_owned(),
+        (true, true) => format!("{}>", print::identity(image, object)),
+        (true, false) => format!(" {}>", print::identity(image, object)),
+    };
     stream::write(image, target, &start)?;
-    let end = if end == ">" { end } else { format!(" {end}") };
+    if body.is_nil() {
+        stream::write(image, target, &end)?;
+        return Ok(Step::Return(Value::NIL));
+    }
     let (body, target) = (body.clone(), target.clone());
     run(machine, "PRINT-UNREADABLE-OBJECT", |calls| async move {
         calls.call(&body, Args::Many(Vec::new())).await;

@@ -71,6 +71,7 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     restarts::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
+    weak_pointers::SYSTEM_TABLE,
     hash_tables::SYSTEM_TABLE,
     loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,

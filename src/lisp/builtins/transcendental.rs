@@ -1,7 +1,7 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::value::number;
+use crate::lisp::value::{Value, number};
 
 /// Builtins of package `COMMON-LISP`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -137,7 +137,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(complex 1 2) => #C(1 2)", "(complex 1 0) => 1"],
         |_, args| match args.get(1) {
             Some(imaginary) => number::complex(&args[0], imaginary),
-            None => number::complex(&args[0], &number::imaginary_part(&args[0])?),
+            None => number::complex(&args[0], &Value::Int(0)),
         },
     ),
     pure(

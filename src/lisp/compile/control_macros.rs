@@ -214,17 +214,21 @@ pub(super) fn dolist(image: &mut Image, form: &Value) -> Expansion {
         Value::from(known::LET),
         form![form![var.clone(), form![known::CAR, list.clone()]]],
     ];
-    let_form.extend(split.declarations);
+    let_form.extend(split.declarations.clone());
     let_form.push(Value::cons(known::TAGBODY.into(), split.forms));
     let result = if result.is_nil() {
         Value::NIL
     } else {
-        form![
-            known::LET,
+        // The declarations hold for the result, too, except for what is said of the elements.
+        let mut let_result = vec![
+            known::LET.into(),
             form![form![var.clone(), Value::NIL]],
             form![known::DECLARE, form![known::IGNORABLE, var]],
-            result.car_or_nil()
-        ]
+        ];
+        let declarations = split.declarations.iter();
+        let_result.extend(declarations.filter_map(without_types));
+        let_result.push(result.car_or_nil());
+        Value::list(let_result)
     };
     let statements = form![
         known::TAGBODY,
@@ -246,6 +250,17 @@ pub(super) fn dolist(image: &mut Image, form: &Value) -> Expansion {
         result
     ];
     Ok(form![known::BLOCK, Value::NIL, loop_form])
+}
+
+/// What a declaration says of special variables.
+fn without_types(declaration: &Value) -> Option<Value> {
+    let specifiers = declaration.cdr_or_nil();
+    let special = specifiers
+        .iter_list()
+        .filter(|specifier| specifier.car_or_nil().as_symbol() == Some(known::SPECIAL));
+    let special: Vec<Value> = special.collect();
+    (!special.is_empty())
+        .then(|| Value::list_with_tail([known::DECLARE.into()], Value::list(special)))
 }
 
 pub(super) fn dotimes(image: &mut Image, form: &Value) -> Expansion {

@@ -40,8 +40,46 @@ pub(super) fn defun(image: &mut Image, form: &Value) -> Expansion {
             "DEFUN takes a name, a list of parameters and a body.",
         ));
     }
+    let warning = warning_of_text_alone(image, form, &name, &rest);
     let lambda = Value::list_with_tail([known::NAMED_LAMBDA.into(), name.clone()], rest);
-    Ok(form![known::DEFINE_FUNCTION, quote(name), lambda])
+    let definition = form![known::DEFINE_FUNCTION, quote(name), lambda];
+    Ok(match warning {
+        Some(warning) => form![known::PROGN, warning, definition],
+        None => definition,
+    })
+}
+
+/// The form that warns of a function with parameters that only returns a text, where a documentation
+/// string stands. That is what is left of a library's function if it has forms for other
+/// implementations only.
+fn warning_of_text_alone(
+    image: &Image,
+    form: &Value,
+    name: &Value,
+    lambda_list_and_body: &Value,
+) -> Option<Value> {
+    let forms = lambda_list_and_body.cdr_or_nil();
+    let is_alone = matches!(forms.car_or_nil(), Value::Str(_)) && forms.cdr_or_nil().is_nil();
+    if !is_alone || lambda_list_and_body.car_or_nil().is_nil() {
+        return None;
+    }
+    let place = match form {
+        Value::Cons(cons) => image.sources.locate(cons.place()),
+        _ => None,
+    };
+    let place = place.map_or_else(String::new, |place| format!("{place}: "));
+    let report = format!(
+        "{place}{} only returns its documentation string: no form follows it, perhaps since #+ or #- leaves all out.",
+        print::qualified(image, name)
+    );
+    Some(form![
+        known::WARN,
+        quote(known::SIMPLE_STYLE_WARNING),
+        known::K_FORMAT_CONTROL,
+        Value::string("~a"),
+        known::K_FORMAT_ARGUMENTS,
+        form![known::LIST, Value::string(report)],
+    ])
 }
 
 pub(super) fn defmacro(image: &mut Image, form: &Value) -> Expansion {

@@ -116,7 +116,7 @@ const TABLE: &[Entry] = &[
         &["SIMPLE-CONDITION", "FILE-ERROR"],
         &[],
     ),
-    entry("%ARG-COUNT-ERROR", &["ERROR"], &[]),
+    entry("%ARG-COUNT-ERROR", &["PROGRAM-ERROR"], &[]),
     entry(
         "%CASE-TYPE-ERROR",
         &["TYPE-ERROR"],

@@ -257,31 +257,38 @@
       :report (lambda (stream) (format stream "Supply a new value for ~S." place))
       value)))
 
-(defmacro ccase (place &rest clauses)
+(defmacro ccase (place &rest clauses &environment environment)
   "Like ECASE, with a restart STORE-VALUE that stores another value in the place and tries again.
   Examples:
   (let ((x 3)) (handler-bind ((type-error (lambda (c) (store-value 1 c)))) (ccase x (1 :one) (2 :two)))) => :ONE"
   (%correctable-case 'case place (mapcar #'%with-key-list clauses) 'ccase
                      (mapcan (lambda (clause) (copy-list (car (%with-key-list clause))))
-                             clauses)))
+                             clauses)
+                     environment))
 
-(defmacro ctypecase (place &rest clauses)
+(defmacro ctypecase (place &rest clauses &environment environment)
   "Like ETYPECASE, with a restart STORE-VALUE that stores another value in the place and tries
   again.
   Examples:
   (let ((x 1)) (ctypecase x (string :string) (integer :integer))) => :INTEGER"
-  (%correctable-case 'typecase place clauses 'ctypecase (mapcar #'car clauses)))
+  (%correctable-case 'typecase place clauses 'ctypecase (mapcar #'car clauses) environment))
 
 (defun %with-key-list (clause)
   "A clause of CASE with its keys as a list."
   (cons (if (listp (car clause)) (car clause) (list (car clause)))
         (cdr clause)))
 
-(defun %correctable-case (operator place clauses name wanted)
-  "The form of CCASE and CTYPECASE."
+(defun %correctable-case (operator place clauses name wanted environment)
+  "The form of CCASE and CTYPECASE. In a constant no other value can be stored."
   (let ((value (gensym "VALUE"))
         (again (gensym "AGAIN"))
         (block (gensym "BLOCK")))
+    (if (constantp (macroexpand place environment))
+        (return-from %correctable-case
+          `(let ((,value ,place))
+             (,operator ,value
+               ,@clauses
+               (t (case-failed ,value ',name ',wanted))))))
     `(block ,block
        (let (,value)
          (tagbody

@@ -30,7 +30,7 @@
         (environment (gensym "ENVIRONMENT"))
         (bindings '())
         (parameters '()))
-    (%name name "a function")
+    (check-type name (or symbol (cons (eql setf) (cons symbol null))) "the name of a function")
     (when (eq (car lambda-list) '&whole)
       (push (list (second lambda-list) form) bindings)
       (setq lambda-list (cddr lambda-list)))

@@ -72,6 +72,22 @@
   (declare (ignore file))
   (error "DRIBBLE is not there: what a session prints is not written to a file from inside."))
 
+(defmacro step (form)
+  "The values of the form. Nothing stops in between: forms are compiled before they are evaluated. TRACE shows calls, BREAK stops.
+  Examples:
+  (handler-bind ((warning #'muffle-warning)) (eval '(step (+ 1 2)))) => 3"
+  `(progn
+     (warn 'simple-style-warning
+           :format-control "STEP stops nowhere; (trace …) shows calls and (break) stops at a place.")
+     ,form))
+
+(defun ed (&optional file)
+  "Signals that there is no editor.
+  Examples:
+  (handler-case (ed \"a.lisp\") (error () 'cannot)) => CANNOT"
+  (declare (ignore file))
+  (error "There is no editor here; planwright works with Emacs."))
+
 (defun compile-file (file &key output-file verbose print external-format)
   "Signals that there are no compiled files: LOAD compiles what it reads.
   Examples:

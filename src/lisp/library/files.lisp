@@ -3,10 +3,10 @@
 (in-package :common-lisp)
 
 (defvar *load-verbose* nil
-  "Whether LOAD tells what it does, for programs that ask; it never does.")
+  "Whether LOAD tells what it loads.")
 
 (defvar *load-print* nil
-  "Whether LOAD prints values, for programs that ask; it never does.")
+  "Whether LOAD prints the values of forms.")
 
 (defvar *compile-verbose* nil
   "Whether COMPILE-FILE tells what it does, for programs that ask; it never does.")

@@ -76,6 +76,7 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "objects.lisp"),
     library_file!("src/lisp/library", "method-combinations.lisp"),
     library_file!("src/lisp/library", "metaobjects.lisp"),
+    library_file!("src/lisp/library", "trivial-garbage.lisp"),
     library_file!("src/lisp/library", "control.lisp"),
     library_file!("src/lisp/library", "places.lisp"),
     library_file!("src/lisp/library", "conditions.lisp"),

@@ -78,12 +78,11 @@
   (%in-case (nth-value 4 (%pathname-parts (pathname file))) case))
 
 (defun pathname-device (file &key (case :local))
-  "The device of a file: NIL, since there are none.
+  "The device of a file: NIL, since there are none; of a logical pathname, :UNSPECIFIC.
   Examples:
   (pathname-device \"a.lisp\") => NIL"
   (declare (ignore case))
-  (pathname file)
-  nil)
+  (if (typep (pathname file) 'logical-pathname) :unspecific nil))
 
 (defun pathname-directory (file &key (case :local))
   "The directory of a file as a list.

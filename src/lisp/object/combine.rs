@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use super::method::method_value;
+use super::effective::applicable_methods;
+use super::method::{generic_named, method_value};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::dispatch::{Effective, Shape};
@@ -126,13 +127,57 @@ fn invocation(
 /// The function behind `call-next-method`: without arguments it uses those of the call.
 fn next_function(effective: Rc<Effective>, stage: Stage, args: Vec<Value>) -> Rc<Function> {
     Function::made_control(known::CALL_NEXT_METHOD, (0, None), move |machine, given| {
-        let args = if given.is_empty() {
-            args.clone()
-        } else {
-            given
-        };
-        run(machine, &effective, stage, args)
+        if given.is_empty() {
+            return run(machine, &effective, stage, args.clone());
+        }
+        check_same_methods(machine.image, &effective, &args, &given)?;
+        run(machine, &effective, stage, given)
     })
+}
+
+/// Checks that the methods for other arguments are those for the ones of the call, in the same order.
+fn check_same_methods(
+    image: &Image,
+    effective: &Effective,
+    args: &[Value],
+    others: &[Value],
+) -> Result<(), Box<Raise>> {
+    let Shape::Combined {
+        around, primary, ..
+    } = &effective.shape
+    else {
+        return Ok(());
+    };
+    let Some(method) = around.first().or(primary.first()) else {
+        return Ok(());
+    };
+    let required = method.specializers.len();
+    if others.len() < required {
+        return Err(Raise::program(format!(
+            "CALL-NEXT-METHOD takes no arguments or those of the generic function, at least {required}, not {}.",
+            others.len()
+        )));
+    }
+    let mut pairs = args.iter().zip(others).take(required);
+    if pairs.all(|(one, other)| one.is_eq(other)) {
+        return Ok(());
+    }
+    let Some(function) = generic_named(image, &method.name) else {
+        return Ok(());
+    };
+    let Some(generic) = function.as_generic() else {
+        return Ok(());
+    };
+    let before = applicable_methods(image, generic, args);
+    let after = applicable_methods(image, generic, others);
+    let is_same = |(one, other): (&Rc<Method>, &Rc<Method>)| Rc::ptr_eq(one, other);
+    if before.len() == after.len() && before.iter().zip(&after).all(is_same) {
+        return Ok(());
+    }
+    Err(Raise::simple(format!(
+        "CALL-NEXT-METHOD is called with arguments for which {} has other methods than for those of the call.",
+        crate::lisp::print::qualified(image, &method.name)
+    )))
 }
 
 /// Runs before methods, the primary method, after methods; the values are those of the

@@ -38,6 +38,8 @@ struct Definition {
     default_initargs: Vec<Value>,
     report: Option<Value>,
     doc: Option<Rc<str>>,
+    /// Warnings of options without effect.
+    ignored: Vec<Value>,
 }
 
 impl Definition {
@@ -74,6 +76,7 @@ impl Definition {
             default_initargs: Vec::new(),
             report: None,
             doc: None,
+            ignored: Vec::new(),
         };
         let mut seen: Vec<Value> = Vec::new();
         for slot in &slots {
@@ -130,7 +133,11 @@ impl Definition {
             Some(known::K_REPORT) if definer == "DEFINE-CONDITION" => {
                 self.report = Some(values.car_or_nil());
             }
-            Some(known::K_METACLASS) if definer == "DEFCLASS" => {}
+            Some(known::K_METACLASS) if definer == "DEFCLASS" => {
+                if values.car_or_nil().as_symbol() != Some(known::STANDARD_CLASS) {
+                    self.ignored.push(super::warning_of_ignored(image, option));
+                }
+            }
             _ => {
                 return Err(Raise::program(format!(
                     "Invalid option {} of {definer}.",
@@ -160,7 +167,8 @@ impl Definition {
     }
 
     fn form(self, definer: Sym, last: Value) -> Value {
-        form![
+        let ignored = Value::list(self.ignored);
+        let definition = form![
             definer,
             quote(self.name),
             quote(self.superclasses),
@@ -168,7 +176,11 @@ impl Definition {
             form![known::LIST; Value::list(self.default_initargs)],
             doc_form(self.doc.as_ref()),
             last,
-        ]
+        ];
+        if ignored.is_nil() {
+            return definition;
+        }
+        form![known::PROG1, definition; ignored]
     }
 }
 

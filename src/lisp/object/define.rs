@@ -53,7 +53,7 @@ impl Image {
         let name = definition.name;
         let supers = self.superclasses(&definition);
         let class = match self.classes.get(&name) {
-            Some(class) if class.kind == definition.kind => class.clone(),
+            Some(class) if class.kind == definition.kind && has_name(class, name) => class.clone(),
             _ => Rc::new(Class::new(name, definition.kind)),
         };
         if supers.iter().any(|s| depends_on(s, &class)) {
@@ -121,6 +121,11 @@ pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
     let shown = crate::lisp::print::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
+}
+
+/// Is a name the proper name of a class?
+fn has_name(class: &Class, name: Sym) -> bool {
+    class.class_name().as_symbol() == Some(name)
 }
 
 /// Is `other` the class itself or, directly or not, among its superclasses?

@@ -250,6 +250,7 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
     let mut combination = Value::list([known::STANDARD.into()]);
     let mut methods = Vec::new();
     let mut order = Value::NIL;
+    let mut ignored = Vec::new();
     for option in options {
         let rest = option.cdr_or_nil();
         match option.car_or_nil().as_symbol() {
@@ -265,7 +266,14 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
                 form![known::DEFMETHOD, name.clone(); rest],
             ]),
             Some(known::K_ARGUMENT_PRECEDENCE_ORDER) => order = rest,
-            Some(known::DECLARE | known::K_GENERIC_FUNCTION_CLASS | known::K_METHOD_CLASS) => {}
+            Some(known::DECLARE) => {}
+            Some(known::K_GENERIC_FUNCTION_CLASS)
+                if rest.car_or_nil().as_symbol() == Some(known::STANDARD_GENERIC_FUNCTION) => {}
+            Some(known::K_METHOD_CLASS)
+                if rest.car_or_nil().as_symbol() == Some(known::STANDARD_METHOD) => {}
+            Some(known::K_GENERIC_FUNCTION_CLASS | known::K_METHOD_CLASS) => {
+                ignored.push(super::warning_of_ignored(image, option));
+            }
             _ => {
                 return Err(Raise::program(format!(
                     "Invalid option {} of DEFGENERIC.",
@@ -294,11 +302,11 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
         quote(order),
         Value::NIL,
     ];
-    if methods.is_empty() {
+    if methods.is_empty() && ignored.is_empty() {
         return Ok(ensure);
     }
-    let body = Value::list_with_tail(methods, Value::NIL);
-    Ok(form![known::PROG1, ensure; body])
+    ignored.extend(methods);
+    Ok(form![known::PROG1, ensure; Value::list(ignored)])
 }
 
 /// The builtin behind `defgeneric`: returns the generic function.

@@ -82,12 +82,14 @@ fn make(
     let instance = Rc::new(Instance::new(class.clone()));
     let object = Value::Instance(instance.clone());
     if class.kind != ClassKind::Condition {
+        let of_class = [Value::Class(class.clone()), Value::T];
+        let of_instance = [object.clone(), Value::T];
         let protocol = [
-            known::MAKE_INSTANCE,
-            known::INITIALIZE_INSTANCE,
-            known::SHARED_INITIALIZE,
+            (known::MAKE_INSTANCE, of_class.clone()),
+            (known::ALLOCATE_INSTANCE, of_class),
+            (known::INITIALIZE_INSTANCE, of_instance.clone()),
+            (known::SHARED_INITIALIZE, of_instance),
         ];
-        let protocol = protocol.map(|name| (name, [object.clone(), Value::T]));
         check_initargs(machine.image, &object, &protocol, &initargs)?;
     }
     let initialize = extended_function(machine.image, known::INITIALIZE_INSTANCE);

@@ -111,6 +111,7 @@ const PACKAGES: &[(&str, &[&str], &[Row])] = &[
             ("EQL-SPECIALIZER", &["STANDARD-OBJECT"], &["OBJECT"]),
         ],
     ),
+    ("TRIVIAL-GARBAGE", &["TG"], &[]),
 ];
 
 impl Image {

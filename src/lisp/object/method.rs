@@ -35,6 +35,7 @@ const EXTENSIBLE: &[Sym] = &[
     known::UPDATE_INSTANCE_FOR_REDEFINED_CLASS,
     known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS,
     known::MAKE_LOAD_FORM,
+    known::CLASS_NAME,
     known::DOCUMENTATION,
     known::CLOSE,
     known::OPEN_STREAM_P,
@@ -148,6 +149,14 @@ pub(crate) fn ensure_generic(
     };
     set_named_function(image, name, function.clone());
     Ok(function)
+}
+
+/// The generic function of a name, though its calls may be shown.
+pub(crate) fn generic_named(image: &Image, name: &Value) -> Option<Rc<Function>> {
+    let function = image.named_function(name);
+    function
+        .filter(|function| function.as_generic().is_some())
+        .or_else(|| traced_generic(image, name))
 }
 
 /// The generic function whose calls are shown by the function that has its name: see `trace`.

@@ -47,7 +47,7 @@ pub(super) fn has_print_method(image: &Image, instance: &Instance) -> bool {
     generic.methods.borrow().iter().any(|method| {
         !method.is_builtin
             && match method.specializers.first() {
-                Some(Specializer::Class(specializer)) => class.is_subclass_of(specializer.name),
+                Some(Specializer::Class(specializer)) => class.is_within(specializer),
                 _ => false,
             }
     })

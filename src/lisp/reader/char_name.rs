@@ -1,5 +1,7 @@
 //! Names of characters, as used by `#\Newline` and `char-name`.
 
+use super::ascii_name::ascii_named;
+
 /// Names of the control characters and of space and delete, the printed one first.
 const NAMES: &[(u32, &[&str])] = &[
     (0, &["Nul", "Null"]),
@@ -216,6 +218,9 @@ pub(crate) fn char_named(name: &str) -> Option<char> {
         {
             return char::from_u32(start + u32::try_from(index).ok()?);
         }
+    }
+    if let Some(c) = ascii_named(name) {
+        return Some(c);
     }
     let hex = upper
         .strip_prefix("U+")

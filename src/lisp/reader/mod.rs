@@ -5,6 +5,7 @@
 //! interns symbols and registers places; it never evaluates: `#.` hands its form to the caller and
 //! continues with the value.
 
+pub(crate) mod ascii_name;
 pub(crate) mod char_name;
 mod completeness;
 mod error;

@@ -3,7 +3,7 @@
 //! combinations, or of what is not in such a type.
 
 use crate::lisp::image::Image;
-use crate::lisp::types::specifier::{Answers, Bound, CharacterKind, RealKind, Type};
+use crate::lisp::types::specifier::{Answers, Bound, RealKind, Type};
 use crate::lisp::types::subtype::{
     Verdict, are_disjoint, covers, ends_after, is_gap, is_subset, starts_before,
 };
@@ -139,9 +139,10 @@ impl Intersection {
         match first {
             Type::Real(kind, ..) => self.is_range_empty(image, *kind),
             Type::Cons(..) => self.are_pairs_missing(image),
-            Type::Characters(_) => self.are_characters_missing(),
+            Type::StandardCharacters => self.are_characters_missing(),
             Type::Class(class) if class.name == known::CHARACTER => self.are_characters_missing(),
-            Type::Class(_) | Type::Complex => self.is_one_certain(image),
+            Type::Complex(_) => self.are_complex_numbers_missing(image),
+            Type::Class(_) => self.is_one_certain(image),
             // Several of these may have all of another together.
             _ if self.rivals(image, first).count() < 2 => self.is_one_certain(image),
             _ => Unknown,
@@ -236,19 +237,35 @@ impl Intersection {
         }
     }
 
+    fn are_complex_numbers_missing(&self, image: &Image) -> Verdict {
+        let parts = self.within.iter().filter_map(|part| match part {
+            Type::Complex(part) => Some((**part).clone()),
+            _ => None,
+        });
+        let part = Type::And(parts.collect());
+        // Of two zeros, no complex number is made.
+        let zero = Type::Member(vec![Value::Int(0)]);
+        match is_subtype(image, &part, &zero) {
+            No if self.within.len() == 1 && self.without.is_empty() => No,
+            // Several may have together what none of them has.
+            No if self.rivals(image, &self.within[0]).count() > 1 => Unknown,
+            No => self.is_one_certain(image),
+            verdict => verdict,
+        }
+    }
+
     fn are_characters_missing(&self) -> Verdict {
-        // Standard ones, other base characters, and the rest.
+        // Standard ones, and the rest.
         let set = |part: &Type| match part {
-            Type::Characters(CharacterKind::Standard) => 0b001_u8,
-            Type::Characters(CharacterKind::Base) => 0b011,
-            Type::Characters(CharacterKind::Extended) => 0b100,
-            _ => 0b111,
+            Type::StandardCharacters => 0b01_u8,
+            _ => 0b11,
         };
-        let kept = self
-            .within
-            .iter()
-            .fold(0b111, |kept, part| kept & set(part));
-        let is_of_characters = |part: &&Type| matches!(part, Type::Characters(_));
+        let kept = self.within.iter().fold(0b11, |kept, part| kept & set(part));
+        let is_of_characters = |part: &&Type| match part {
+            Type::StandardCharacters => true,
+            Type::Class(class) => class.name == known::CHARACTER,
+            _ => false,
+        };
         let without = self.without.iter().filter(is_of_characters);
         let kept = without.fold(kept, |kept, part| kept & !set(part));
         if kept == 0 { Yes } else { No }

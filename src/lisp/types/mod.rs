@@ -6,6 +6,7 @@
 
 pub(crate) mod asking;
 pub(crate) mod coerce;
+mod complex_numbers;
 pub(crate) mod emptiness;
 pub(crate) mod parse;
 pub(crate) mod sequence_types;

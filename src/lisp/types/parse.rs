@@ -1,6 +1,11 @@
 //! Reading type specifiers.
 
-use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use std::rc::Rc;
+
+use super::complex_numbers;
+use super::emptiness::is_subtype;
+use super::specifier::{Answers, Bound, RealKind, Stop, Type};
+use super::subtype::Verdict;
 use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types;
@@ -53,9 +58,16 @@ impl Parser<'_> {
                 Some(found) => Ok(found),
                 None => Err(unknown(self.image, specifier)),
             },
-            Value::Class(class) => Ok(self
-                .named(class.name, &[])?
-                .unwrap_or_else(|| Type::Class(class.clone()))),
+            Value::Class(class) => {
+                // Another class may have the name meanwhile.
+                let named = self.image.class(class.name);
+                if named.is_some_and(|named| Rc::ptr_eq(named, class))
+                    && let Some(found) = self.named(class.name, &[])?
+                {
+                    return Ok(found);
+                }
+                Ok(Type::Class(class.clone()))
+            }
             Value::Cons(_) => {
                 let items = specifier.list_to_vec().unwrap_or_default();
                 match items.split_first() {
@@ -89,6 +101,8 @@ impl Parser<'_> {
             return Ok(Some(array));
         }
         Ok(simple(name).or_else(|| {
+            let is_base_char = name == known::BASE_CHAR;
+            let name = if is_base_char { known::CHARACTER } else { name };
             let class = self.image.class(name)?;
             class.is_defined.get().then(|| Type::Class(class.clone()))
         }))
@@ -139,9 +153,17 @@ impl Parser<'_> {
             (known::RATIO, []) => range(&[Ratio])?,
             (known::NUMBER, []) => Type::Or(vec![
                 range(&[Integer, Ratio, Single, Double])?,
-                Type::Complex,
+                complex_numbers::of_parts(&complex_numbers::all_reals()),
             ]),
-            (known::COMPLEX, _) => Type::Complex,
+            (known::COMPLEX, []) => complex_numbers::of_parts(&complex_numbers::all_reals()),
+            (known::COMPLEX, [part]) if is_star(part) => {
+                complex_numbers::of_parts(&complex_numbers::all_reals())
+            }
+            (known::COMPLEX, [part]) => {
+                let of = self.parse(part)?;
+                complex_numbers::check_parts(self.image, &of, part)?;
+                complex_numbers::of_parts(&of)
+            }
             (known::FIXNUM, []) => integers(Some(-FIXNUM_LIMIT), Some(FIXNUM_LIMIT - 1)),
             (known::BIGNUM, []) => Type::Or(vec![
                 integers(None, Some(-FIXNUM_LIMIT - 1)),
@@ -172,10 +194,28 @@ impl Parser<'_> {
         let known = expanded(self.image, specifier, self.answers)?;
         let upgraded = sequence_types::upgraded(&known);
         // Only what nothing is known of is looked at more closely.
-        if upgraded == ElementType::T {
-            self.parse(&known)?;
+        if upgraded != ElementType::T {
+            return Ok(upgraded);
         }
-        Ok(upgraded)
+        let parsed = self.parse(&known)?;
+        match parsed {
+            Type::Member(_) | Type::Or(_) | Type::And(_) | Type::Real(..) => {
+                self.smallest_element_type(&parsed)
+            }
+            Type::Nothing => Ok(ElementType::Nil),
+            _ => Ok(upgraded),
+        }
+    }
+
+    /// The smallest element type that contains a type.
+    fn smallest_element_type(&mut self, of: &Type) -> Result<ElementType, Stop> {
+        for element in ElementType::specialized() {
+            let whole = self.parse(&element.specifier())?;
+            if is_subtype(self.image, of, &whole) == Verdict::Yes {
+                return Ok(element);
+            }
+        }
+        Ok(ElementType::T)
     }
 
     fn array(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
@@ -233,9 +273,9 @@ fn simple(name: Sym) -> Option<Type> {
                 dimensions: Some(vec![None]),
             },
         ]),
-        known::STANDARD_CHAR => Type::Characters(CharacterKind::Standard),
-        known::BASE_CHAR => Type::Characters(CharacterKind::Base),
-        known::EXTENDED_CHAR => Type::Characters(CharacterKind::Extended),
+        known::STANDARD_CHAR => Type::StandardCharacters,
+        // All characters are base characters.
+        known::EXTENDED_CHAR => Type::Nothing,
         known::COMPILED_FUNCTION => Type::CompiledFunction,
         _ => return None,
     })
@@ -297,7 +337,7 @@ fn power_of_two(exponent: i64) -> Value {
         Ok(exponent) if exponent < 63 => Value::Int(1 << exponent),
         Ok(exponent) => {
             let one = num_bigint::BigInt::from(1);
-            Value::Big(std::rc::Rc::new(one << exponent.min(1 << 20)))
+            Value::Big(Rc::new(one << exponent.min(1 << 20)))
         }
         Err(_) => Value::Int(0),
     }
@@ -306,7 +346,7 @@ fn power_of_two(exponent: i64) -> Value {
 fn negated(value: Value) -> Value {
     match value {
         Value::Int(n) => Value::Int(-n),
-        Value::Big(n) => Value::Big(std::rc::Rc::new(-n.as_ref())),
+        Value::Big(n) => Value::Big(Rc::new(-n.as_ref())),
         other => other,
     }
 }

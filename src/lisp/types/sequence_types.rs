@@ -93,7 +93,7 @@ impl SequenceType {
                 ),
             )
             .with(known::K_DATUM, specifier.clone())
-            .with(known::K_EXPECTED_TYPE, known::SEQUENCE.into())
+            .with(known::K_EXPECTED_TYPE, kinds_of_sequences())
             .into()
         })
     }
@@ -121,10 +121,23 @@ impl SequenceType {
                 ),
             )
             .with(known::K_DATUM, length.into())
-            .with(known::K_EXPECTED_TYPE, self.specifier.clone())),
+            .with(
+                known::K_EXPECTED_TYPE,
+                Value::list([known::EQL.into(), expected.into()]),
+            )),
             _ => Ok(()),
         }
     }
+}
+
+/// The type of names of kinds of sequences, which a specifier of another type is not of.
+fn kinds_of_sequences() -> Value {
+    Value::list([
+        known::MEMBER.into(),
+        known::LIST.into(),
+        known::VECTOR.into(),
+        known::STRING.into(),
+    ])
 }
 
 /// The actual element type of an array that is made for elements of a type, given by a specifier

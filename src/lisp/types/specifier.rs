@@ -20,8 +20,9 @@ pub(crate) enum Type {
     Member(Vec<Value>),
     /// Real numbers of one representation between two bounds.
     Real(RealKind, Bound, Bound),
-    /// Complex numbers.
-    Complex,
+    /// Complex numbers whose parts are both of the type, which has numbers of one representation, or
+    /// integers and ratios.
+    Complex(Box<Type>),
     /// Values of all the types.
     And(Vec<Type>),
     /// Values of any of the types.
@@ -39,8 +40,8 @@ pub(crate) enum Type {
         /// The dimensions; any if none.
         dimensions: Option<Vec<Option<usize>>>,
     },
-    /// Some characters.
-    Characters(CharacterKind),
+    /// The 96 characters of the standard.
+    StandardCharacters,
     /// Functions that are not generic.
     CompiledFunction,
     /// Values for which the function returns true.
@@ -82,17 +83,6 @@ pub(crate) enum Bound {
     Inclusive(Value),
     /// The number itself does not.
     Exclusive(Value),
-}
-
-/// A set of characters.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum CharacterKind {
-    /// The 96 characters of the standard.
-    Standard,
-    /// Characters of ASCII.
-    Base,
-    /// All others.
-    Extended,
 }
 
 /// Why an operation on types stops early.

@@ -3,10 +3,11 @@
 use std::cmp::Ordering;
 
 use super::compare;
-use super::specifier::{Answers, Bound, CharacterKind, RealKind, Type};
+use super::complex_numbers;
+use super::specifier::{Answers, Bound, RealKind, Type};
 use super::test::contains;
 use crate::lisp::image::Image;
-use crate::lisp::value::known;
+use crate::lisp::value::{Value, known};
 
 /// An answer, which may be unknown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -80,6 +81,15 @@ pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
             let verdict = Verdict::any(parts.iter().map(|p| is_subset(image, a, p)));
             match (verdict, a) {
                 (No, Type::Real(kind, low, high)) => covers(*kind, low, high, parts),
+                (No, Type::Complex(_)) => {
+                    let shared = |p: &&Type| are_disjoint(image, a, p) != Yes;
+                    // Several may have together what none of them has.
+                    if parts.iter().filter(shared).count() > 1 {
+                        Unknown
+                    } else {
+                        No
+                    }
+                }
                 _ => verdict,
             }
         }
@@ -93,11 +103,11 @@ pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
 /// The same for types that are not combinations.
 fn is_atomic_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     Verdict::from_bool(match (a, b) {
-        (Type::Class(x), Type::Class(y)) => x.is_subclass_of(y.name),
+        (Type::Class(x), Type::Class(y)) => x.is_within(y),
         (Type::Real(kind, low, high), Type::Real(other, from, to)) => {
             kind == other && !starts_before(low, from) && !ends_after(high, to)
         }
-        (Type::Complex, Type::Complex) => true,
+        (Type::Complex(x), Type::Complex(y)) => return is_subset(image, x, y),
         (Type::Cons(a1, d1), Type::Cons(a2, d2)) => {
             return Verdict::all([is_subset(image, a1, a2), is_subset(image, d1, d2)].into_iter());
         }
@@ -117,10 +127,8 @@ fn is_atomic_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
                 && (wanted_element.is_none() || element == wanted_element)
                 && is_within(dimensions.as_deref(), wanted.as_deref())
         }
-        (Type::Characters(x), Type::Characters(y)) => {
-            x == y || (*x, *y) == (CharacterKind::Standard, CharacterKind::Base)
-        }
-        (Type::Characters(_), Type::Class(y)) => y.name == known::CHARACTER,
+        (Type::StandardCharacters, Type::StandardCharacters) => true,
+        (Type::StandardCharacters, Type::Class(y)) => y.name == known::CHARACTER,
         (Type::CompiledFunction, Type::CompiledFunction) => true,
         (Type::CompiledFunction, Type::Class(y)) => y.name == known::FUNCTION,
         _ => false,
@@ -154,9 +162,7 @@ pub(super) fn are_disjoint(image: &Image, a: &Type, b: &Type) -> Verdict {
             }
         }
         (Type::Satisfies(_), _) | (_, Type::Satisfies(_)) => Unknown,
-        (Type::Class(x), Type::Class(y)) => {
-            Verdict::from_bool(!x.is_subclass_of(y.name) && !y.is_subclass_of(x.name))
-        }
+        (Type::Class(x), Type::Class(y)) => Verdict::from_bool(!x.is_within(y) && !y.is_within(x)),
         (Type::Real(kind, low, high), Type::Real(other, from, to)) => {
             Verdict::from_bool(kind != other || is_gap(high, from) || is_gap(to, low))
         }
@@ -172,16 +178,15 @@ pub(super) fn are_disjoint(image: &Image, a: &Type, b: &Type) -> Verdict {
             },
         ) if x != y => Yes,
         (Type::Array { .. }, Type::Array { .. }) => No,
-        (Type::Characters(x), Type::Characters(y)) => Verdict::from_bool(
-            x != y && (*x == CharacterKind::Extended || *y == CharacterKind::Extended),
-        ),
-        (Type::Characters(_), Type::Class(c)) | (Type::Class(c), Type::Characters(_)) => {
+        (Type::StandardCharacters, Type::StandardCharacters) => No,
+        (Type::StandardCharacters, Type::Class(c)) | (Type::Class(c), Type::StandardCharacters) => {
             Verdict::from_bool(c.name != known::CHARACTER)
         }
         (Type::CompiledFunction, Type::Class(c)) | (Type::Class(c), Type::CompiledFunction) => {
             Verdict::from_bool(c.name != known::FUNCTION)
         }
-        (Type::Complex, Type::Complex) | (Type::CompiledFunction, Type::CompiledFunction) => No,
+        (Type::Complex(x), Type::Complex(y)) => complex_numbers::have_disjoint_parts(image, x, y),
+        (Type::CompiledFunction, Type::CompiledFunction) => No,
         _ => Yes,
     }
 }
@@ -202,7 +207,7 @@ fn is_nonempty(image: &Image, parts: &[Type]) -> Verdict {
 }
 
 /// The bound's number, and whether it belongs to the range.
-fn limit(bound: &Bound) -> Option<(&crate::lisp::Value, bool)> {
+fn limit(bound: &Bound) -> Option<(&Value, bool)> {
     match bound {
         Bound::None => None,
         Bound::Inclusive(n) => Some((n, true)),
@@ -255,7 +260,8 @@ pub(super) fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) 
         match part {
             Type::Real(k, lo, hi) if *k == kind => ranges.push((lo.clone(), hi.clone())),
             Type::Member(values) => {
-                for value in values.iter().filter(|value| kind.has(value)) {
+                let counts = |value: &&Value| kind.has(value) && has_both_zeros(value, parts);
+                for value in values.iter().filter(counts) {
                     let point = Bound::Inclusive(value.clone());
                     ranges.push((point.clone(), point));
                 }
@@ -280,8 +286,8 @@ pub(super) fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) 
         }
         let following = match reached {
             Bound::None => return Yes,
-            Bound::Inclusive(crate::lisp::Value::Int(n)) if kind == RealKind::Integer => {
-                Bound::Inclusive(crate::lisp::Value::Int(n.saturating_add(1)))
+            Bound::Inclusive(Value::Int(n)) if kind == RealKind::Integer => {
+                Bound::Inclusive(Value::Int(n.saturating_add(1)))
             }
             Bound::Inclusive(n) => Bound::Exclusive(n.clone()),
             Bound::Exclusive(n) => Bound::Inclusive(n.clone()),
@@ -289,6 +295,27 @@ pub(super) fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) 
         if starts_before(&from, &following) {
             from = following;
         }
+    }
+}
+
+/// Have the types the other zero, too, if a number is a zero with a sign? A range has both.
+fn has_both_zeros(number: &Value, parts: &[Type]) -> bool {
+    let other = match number {
+        Value::Single(0.0) => Value::Single(if is_negative(number) { 0.0 } else { -0.0 }),
+        Value::Double(0.0) => Value::Double(if is_negative(number) { 0.0 } else { -0.0 }),
+        _ => return true,
+    };
+    parts.iter().any(|part| match part {
+        Type::Member(values) => values.iter().any(|value| value.is_eql(&other)),
+        _ => false,
+    })
+}
+
+fn is_negative(number: &Value) -> bool {
+    match number {
+        Value::Single(x) => x.is_sign_negative(),
+        Value::Double(x) => x.is_sign_negative(),
+        _ => false,
     }
 }
 

@@ -1,8 +1,9 @@
 //! `typep`.
 
 use super::compare;
+use super::complex_numbers;
 use super::parse::{is_plain_class, parse};
-use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use super::specifier::{Answers, Bound, RealKind, Stop, Type};
 use crate::lisp::image::Image;
 use crate::lisp::object::class_of;
 use crate::lisp::value::Value;
@@ -76,7 +77,7 @@ fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
         known::HASH_TABLE => matches!(value, Value::Hash(_)),
         _ if is_plain_class(image, name) => {
             let class = class_of(image, value);
-            class.is_subclass_of(name)
+            class.is_within(image.class(name)?)
         }
         _ => return None,
     })
@@ -103,7 +104,7 @@ pub(crate) fn contains(
         Type::Real(kind, low, high) => {
             is_of_kind(value, *kind) && is_above(value, low) && is_below(value, high)
         }
-        Type::Complex => class_of(image, value).name == known::COMPLEX,
+        Type::Complex(part) => complex_numbers::has_parts(image, value, part, answers)?,
         Type::And(types) => {
             for each in types {
                 if !contains(image, each, value, answers)? {
@@ -133,7 +134,7 @@ pub(crate) fn contains(
             element,
             dimensions,
         } => is_array(value, *simple, *element, dimensions.as_deref()),
-        Type::Characters(kind) => is_character(value, *kind),
+        Type::StandardCharacters => matches!(value, Value::Char(c) if is_standard_char(*c)),
         Type::CompiledFunction => {
             matches!(value, Value::Function(f) if !matches!(f.body, Body::Generic(_)))
         }
@@ -187,17 +188,6 @@ fn is_array(
                     .zip(&sizes)
                     .all(|(wanted, size)| wanted.is_none_or(|w| w == *size))
         })
-}
-
-fn is_character(value: &Value, kind: CharacterKind) -> bool {
-    let Value::Char(c) = value else {
-        return false;
-    };
-    match kind {
-        CharacterKind::Standard => is_standard_char(*c),
-        CharacterKind::Base => c.is_ascii(),
-        CharacterKind::Extended => !c.is_ascii(),
-    }
 }
 
 /// Is the character one of the 96 of the standard?

@@ -1,13 +1,18 @@
 //! `type-of`.
 
+use std::rc::Rc;
+
+use super::complex_numbers;
 use super::test::is_standard_char;
 use crate::lisp::image::Image;
 use crate::lisp::object::class_of::builtin_class_name;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
+use crate::lisp::value::class::Class;
 use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
+use crate::lisp::value::number::is_complex;
 
 /// The largest fixnum.
 const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
@@ -19,7 +24,6 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
         Value::Int(0 | 1) => known::BIT.into(),
         Value::Int(_) | Value::Big(_) => integer_type(image, value),
         Value::Char(c) if is_standard_char(*c) => known::STANDARD_CHAR.into(),
-        Value::Char(c) if c.is_ascii() => known::BASE_CHAR.into(),
         Value::Str(s) => array_type(s.is_simple(), ElementType::Character, &[s.capacity()]),
         Value::Vector(v) => vector_type(v),
         Value::Array(a) => array_type(a.is_simple(), a.element_type, &a.dimensions.borrow()),
@@ -27,7 +31,20 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
             Body::Generic(_) => known::STANDARD_GENERIC_FUNCTION.into(),
             _ => known::COMPILED_FUNCTION.into(),
         },
+        Value::Instance(instance) => name_or_class(image, instance.class()),
+        other if is_complex(other) => complex_numbers::type_of(other).unwrap_or(Value::T),
         other => builtin_class_name(image, other).into(),
+    }
+}
+
+/// The name of a class that has one; else the class itself.
+fn name_or_class(image: &Image, class: Rc<Class>) -> Value {
+    let name = class.class_name();
+    let named = name.as_symbol().and_then(|name| image.class(name));
+    if named.is_some_and(|named| Rc::ptr_eq(named, &class)) {
+        name
+    } else {
+        Value::Class(class)
     }
 }
 
@@ -63,14 +80,8 @@ fn array_type(simple: bool, element: ElementType, sizes: &[usize]) -> Value {
     if simple {
         return Value::list([known::SIMPLE_ARRAY.into(), element.specifier(), all]);
     }
-    let array = match sizes {
+    Value::list(match sizes {
         [size] => [known::VECTOR.into(), element.specifier(), (*size).into()],
         _ => [known::ARRAY.into(), element.specifier(), all],
-    };
-    let not_simple = [known::NOT.into(), known::SIMPLE_ARRAY.into()];
-    Value::list([
-        known::AND.into(),
-        Value::list(array),
-        Value::list(not_simple),
-    ])
+    })
 }

@@ -121,6 +121,8 @@ pub(crate) struct Class {
     pub(crate) old_layouts: RefCell<Vec<Vec<OldSlot>>>,
     /// False while the class is only named as a superclass.
     pub(crate) is_defined: Cell<bool>,
+    /// What `(setf class-name)` has set; the class keeps the name under which it was defined if none.
+    pub(crate) given_name: RefCell<Option<Value>>,
 }
 
 impl Class {
@@ -143,6 +145,7 @@ impl Class {
             generation: Cell::new(0),
             old_layouts: RefCell::default(),
             is_defined: Cell::new(false),
+            given_name: RefCell::default(),
         }
     }
 
@@ -159,6 +162,22 @@ impl Class {
         );
         let _accessors = self.accessors.take();
         let _report = self.report.take();
+    }
+
+    /// What `class-name` returns.
+    pub(crate) fn class_name(&self) -> Value {
+        let given = self.given_name.borrow().clone();
+        given.unwrap_or_else(|| self.name.into())
+    }
+
+    /// Is this class the other one, or a subclass of it?
+    pub(crate) fn is_within(&self, other: &Class) -> bool {
+        std::ptr::eq(self, other)
+            || self
+                .precedence
+                .borrow()
+                .iter()
+                .any(|class| std::ptr::eq(class.as_ref(), other))
     }
 
     /// Is this class the named one, or a subclass of it?

@@ -77,6 +77,22 @@ pub(crate) fn note_foreign(object: &Rc<ForeignBox>) {
     }
 }
 
+/// Notes an object that gets a weak reference: without this it would be taken for one that is noted.
+pub(super) fn note_watched(object: &Value) {
+    macro_rules! note_unless_noted {
+        ($($kind:ident)*) => {
+            match object {
+                $(Value::$kind(object) if Rc::weak_count(object) == 0 => {
+                    let suspect = Suspect::from(object);
+                    let _ = SUSPECTS.try_with(|suspects| suspects.borrow_mut().push(suspect));
+                })*
+                _ => {}
+            }
+        };
+    }
+    note_unless_noted!(Cons Cell Vector Array Hash Instance);
+}
+
 /// Notes the copy of an object if the object itself may be noted.
 pub(super) fn note_copy(original: &Value, copy: &Value) {
     macro_rules! note_if_noted {

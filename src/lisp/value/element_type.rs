@@ -56,6 +56,12 @@ const INTEGERS: [ElementType; 17] = [
 ];
 
 impl ElementType {
+    /// All types but `T`, each after those that it contains.
+    pub(crate) fn specialized() -> impl Iterator<Item = ElementType> {
+        let others = [Single, Double, Character];
+        std::iter::once(Nil).chain(INTEGERS).chain(others)
+    }
+
     /// The smallest type that has all integers from a lowest to a highest one; `T` if none has.
     pub(crate) fn of_integers(low: &Value, high: &Value) -> ElementType {
         match (whole(low), whole(high)) {

@@ -35,6 +35,7 @@ mod spare;
 pub(crate) mod stream;
 pub(crate) mod string;
 pub(crate) mod symbol;
+pub(crate) mod weak;
 
 use std::rc::Rc;
 

@@ -98,12 +98,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Systems that are built in and have no package of their name.
-const OTHER_SYSTEMS: [&str; 6] = [
+const OTHER_SYSTEMS: [&str; 7] = [
     "alexandria",
     "closer_mop",
     "cram_common_failures",
     "cram_language",
     "cram_pr2_description",
+    "trivial_garbage",
     "trivial_gray_streams",
 ];
 

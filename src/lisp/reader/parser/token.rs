@@ -47,7 +47,8 @@ impl Reader {
                 return self.dispatch(argument, letter, start);
             }
             _ if self.skips > 0 && self.features == 0 => {
-                if slice(start, token.end) == "." {
+                let is_in_list = matches!(self.frames.last().map(|f| f.kind), Some(Kind::List(_)));
+                if is_in_list && slice(start, token.end) == "." {
                     return Ok(None);
                 }
                 Value::NIL

@@ -134,6 +134,8 @@ impl Copier {
         let layouts = layouts.collect();
         copy.old_layouts.replace(layouts);
         copy.is_defined.set(original.is_defined.get());
+        let name = original.given_name.borrow().clone();
+        copy.given_name.replace(name.map(|name| self.value(&name)));
     }
 
     pub(super) fn fill_generic(&mut self, original: &GenericFunction, copy: &GenericFunction) {

@@ -2,6 +2,7 @@
 
 use num_bigint::BigInt;
 
+use super::compare::is_zero;
 use super::complex;
 use super::convert::{fraction_of, from_big, is_rational, is_real, ratio, to_big, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_a_number, overflow};
@@ -246,6 +247,7 @@ pub(crate) fn signum(a: &Value) -> NumberResult {
         Value::Double(x) => Ok(Value::Double(x.signum())),
         Value::Single(x) if *x == 0.0 => Ok(a.clone()),
         Value::Single(x) => Ok(Value::Single(x.signum())),
+        z if complex::is_complex(z) && is_zero(z)? => Ok(a.clone()),
         z if complex::is_complex(z) => div(z, &complex::magnitude(z)?),
         other => {
             let zero = Value::Int(0);

@@ -186,21 +186,29 @@ pub(crate) fn cis(angle: &Value) -> NumberResult {
 /// The square root of a negative or complex number: that in the right half of the plane.
 pub(crate) fn square_root(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
-    let radius = libm::hypot(re, im);
-    let root_re = ((radius + re) / 2.0).max(0.0).sqrt();
-    let root_im = ((radius - re) / 2.0).max(0.0).sqrt();
-    let root_im = if im.is_sign_negative() && im != 0.0 {
-        -root_im
+    let im = if is_complex(value) { im } else { 0.0 };
+    // Numbers whose magnitude would overflow are made smaller by a square.
+    let (re, im, scale) = if re.abs().max(im.abs()) > f64::MAX / 4.0 {
+        (re / 16.0, im / 16.0, 4.0)
     } else {
-        root_im
+        (re, im, 1.0)
     };
-    float(root_re, root_im, is_double)
+    // The larger part of the root; the other follows from it without losing digits.
+    let larger = (re.abs() / 2.0 + libm::hypot(re, im) / 2.0).sqrt();
+    let (root_re, root_im) = if larger == 0.0 {
+        (0.0, im)
+    } else if re >= 0.0 {
+        (larger, im / (2.0 * larger))
+    } else {
+        (im.abs() / (2.0 * larger), larger.copysign(im))
+    };
+    float(scale * root_re, scale * root_im, is_double)
 }
 
 /// The natural logarithm of a negative or complex number.
 pub(crate) fn logarithm(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
-    let angle = libm::atan2(if im == 0.0 { 0.0 } else { im }, re);
+    let angle = libm::atan2(if is_complex(value) { im } else { 0.0 }, re);
     float(libm::log(libm::hypot(re, im)), angle, is_double)
 }
 
