@@ -182,3 +182,37 @@ fn an_unreadable_object_without_contents_has_its_blanks() {
         ),
     ]);
 }
+
+#[test]
+fn arrays_printed_readably_keep_their_element_types() {
+    let printed = |array: &str| format!("(let ((*print-readably* t)) (prin1-to-string {array}))");
+    check(&[
+        (
+            &printed("(make-array 2 :element-type '(unsigned-byte 8))"),
+            "\"#A((2) (UNSIGNED-BYTE 8) 0 0)\"",
+        ),
+        (
+            &printed("(make-array '(2 1) :element-type 'double-float :initial-element 1d0)"),
+            "\"#A((2 1) DOUBLE-FLOAT (1.0d0) (1.0d0))\"",
+        ),
+        (
+            &printed("(make-array nil :element-type 'bit)"),
+            "\"#A(NIL BIT . 0)\"",
+        ),
+        (&printed("(vector 1 2)"), "\"#(1 2)\""),
+        (
+            "(let ((*print-base* 16) (*read-base* 16) (*print-readably* t)) (let ((a (read-from-string (prin1-to-string (make-array '(12 1) :element-type 'fixnum :initial-element 31))))) (list (array-dimensions a) (array-element-type a) (aref a 0 0))))",
+            "((12 1) FIXNUM 31)",
+        ),
+        ("#A((2) (unsigned-byte 8) 1 2)", "#(1 2)"),
+        (
+            "(type-of #A((2) (unsigned-byte 8) 1 2))",
+            "(SIMPLE-ARRAY (UNSIGNED-BYTE 8) (2))",
+        ),
+        ("#A((2) character #\\a #\\b)", "\"ab\""),
+        (
+            "(read-from-string \"#A((2) bit 1 2)\")",
+            "!! #A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): it has elements of another type",
+        ),
+    ]);
+}

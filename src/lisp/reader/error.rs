@@ -187,6 +187,9 @@ pub(crate) enum ReadErrorKind {
     /// `#C` of something other than two real numbers.
     #[error("#C: {0}")]
     BadComplex(&'static str),
+    /// `#A` without a number, and not before what it needs.
+    #[error("#A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): {0}")]
+    BadArray(&'static str),
     /// A quotation mark of a word processor.
     #[error("{mark} is a typographic quotation mark; Lisp text uses {instead}")]
     SmartQuote {

@@ -141,7 +141,7 @@ fn fill(mut items: Vec<Value>, length: Option<u32>) -> Result<Vec<Value>, ReadEr
 }
 
 /// The elements of a list, vector or string.
-fn elements(sequence: &Value) -> Option<Vec<Value>> {
+pub(super) fn elements(sequence: &Value) -> Option<Vec<Value>> {
     match sequence {
         Value::Vector(vector) => Some(vector.to_vec()),
         Value::Str(string) => Some(string.borrow().chars().map(Value::Char).collect()),

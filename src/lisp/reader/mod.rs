@@ -18,6 +18,7 @@ mod parser;
 pub(crate) mod readtable;
 mod suggest;
 mod symbol;
+mod typed_array;
 
 pub(crate) use completeness::{Completeness, is_complete};
 pub(crate) use error::ReadError;

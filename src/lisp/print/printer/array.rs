@@ -39,6 +39,11 @@ impl Printer<'_> {
             self.document.text(&text);
             return;
         }
+        if self.settings.readably && vector.element_type != ElementType::T {
+            let size = items.len();
+            self.typed_array(&[size], vector.element_type, Value::list(items), depth);
+            return;
+        }
         if self.is_too_deep(depth) {
             return;
         }
@@ -94,6 +99,11 @@ impl Printer<'_> {
         if self.settings.readably && hidden.clone().any(|size| *size > 0) {
             self.calls.note_unreadable(value);
         }
+        if self.settings.readably && array.element_type != ElementType::T {
+            let contents = nested(array, 0, 0);
+            self.typed_array(&dimensions, array.element_type, contents, depth);
+            return;
+        }
         self.document.text(&format!("#{rank}A"));
         self.tasks.push(Task::Rows {
             array: array.clone(),
@@ -102,6 +112,20 @@ impl Printer<'_> {
             offset: 0,
             depth,
         });
+    }
+
+    /// Prints an array with its dimensions and element type: `#A((2) (UNSIGNED-BYTE 8) 1 2)`.
+    fn typed_array(
+        &mut self,
+        dimensions: &[usize],
+        element: ElementType,
+        contents: Value,
+        depth: usize,
+    ) {
+        let sizes = Value::list(dimensions.iter().map(|size| Value::from(*size)));
+        let parts = Value::list_with_tail([sizes, element.specifier()], contents);
+        self.document.text("#A");
+        self.tasks.push(Task::Value(parts, Style::Auto, depth));
     }
 
     pub(super) fn rows(
@@ -163,4 +187,14 @@ impl Printer<'_> {
             depth: depth + 1,
         });
     }
+}
+
+/// The elements of an array from an offset on, as lists inside lists from a dimension on.
+fn nested(array: &Array, dimension: usize, offset: usize) -> Value {
+    let dimensions = array.dimensions.borrow();
+    let Some(length) = dimensions.get(dimension) else {
+        return array.items.get(offset).unwrap_or(Value::NIL);
+    };
+    let step: usize = dimensions.iter().skip(dimension + 1).product();
+    Value::list((0..*length).map(|row| nested(array, dimension + 1, offset + row * step)))
 }

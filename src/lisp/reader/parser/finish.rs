@@ -7,6 +7,7 @@ use crate::lisp::reader::error::ReadErrorKind;
 use crate::lisp::reader::feature;
 use crate::lisp::reader::label::Labels;
 use crate::lisp::reader::literal;
+use crate::lisp::reader::typed_array;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::pathname::Pathname;
@@ -126,6 +127,7 @@ impl Reader {
                     None => return Ok(Some(Outcome::Evaluate(value))),
                 },
                 Kind::Array(rank) => value = literal::array(&value, rank)?,
+                Kind::TypedArray => value = typed_array::read(&value)?,
                 Kind::Structure => match literal::structure(image, &value)? {
                     literal::Structure::Made(made) => value = made,
                     literal::Structure::ToEvaluate(form) => {

@@ -33,6 +33,8 @@ pub(super) enum Kind {
     Suppressed,
     Evaluate,
     Array(u32),
+    /// `#A` without a number.
+    TypedArray,
     Structure,
     Complex,
     Pathname,
@@ -53,7 +55,7 @@ impl Kind {
             Kind::Suppressed => "a form that is left out",
             Kind::Skip => "the form that a feature expression leaves out",
             Kind::Evaluate => "the form after #.",
-            Kind::Array(_) => "the array after #A",
+            Kind::Array(_) | Kind::TypedArray => "the array after #A",
             Kind::Structure => "the structure after #S",
             Kind::Complex => "the number after #C",
             Kind::Pathname => "the pathname after #P",

@@ -133,7 +133,7 @@ impl Reader {
             '+' => Kind::Feature(true),
             '-' => Kind::Feature(false),
             '.' => Kind::Evaluate,
-            'A' => Kind::Array(needed("the number of dimensions")?),
+            'A' => argument.or(skipped).map_or(Kind::TypedArray, Kind::Array),
             'S' => Kind::Structure,
             'C' => Kind::Complex,
             'P' => Kind::Pathname,
