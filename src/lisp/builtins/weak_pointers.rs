@@ -55,14 +55,10 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%WEAK-POINTER-VALUE",
         "weak-pointer",
-        "The object to which a weak pointer refers, and whether it is still there.",
+        "The object to which a weak pointer refers; NIL if it is gone.",
         &[],
         |_, args| match args[0].as_foreign::<WeakPointer>() {
-            Some(pointer) => {
-                let value = pointer.value();
-                let is_there = Value::bool(value.is_some());
-                Ok(Value::values(vec![value.unwrap_or(Value::NIL), is_there]))
-            }
+            Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
             None => Err(Raise::type_error(&args[0], known::WEAK_POINTER)),
         },
     ),

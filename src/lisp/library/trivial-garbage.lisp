@@ -13,15 +13,15 @@
 (defun make-weak-pointer (object)
   "An object that refers to another one without keeping it.
   Examples:
-  (let ((cup (list 1))) (tg:weak-pointer-value (tg:make-weak-pointer cup))) => (1) ; T
-  (tg:weak-pointer-value (tg:make-weak-pointer (list 1))) => NIL ; NIL"
+  (let ((cup (list 1))) (tg:weak-pointer-value (tg:make-weak-pointer cup))) => (1)
+  (tg:weak-pointer-value (tg:make-weak-pointer (list 1))) => NIL"
   (assert (not (null object)))
   (system::%make-weak-pointer object))
 
 (defun weak-pointer-value (weak-pointer)
-  "The object to which a weak pointer refers, and T; if it is gone, NIL and NIL.
+  "The object to which a weak pointer refers; NIL if it is gone.
   Examples:
-  (tg:weak-pointer-value (tg:make-weak-pointer 'cup)) => CUP ; T"
+  (tg:weak-pointer-value (tg:make-weak-pointer 'cup)) => CUP"
   (system::%weak-pointer-value weak-pointer))
 
 (defun weak-pointer-p (object)
