@@ -23,12 +23,8 @@ impl World {
         for solid in object.solids.iter() {
             bounds.merge(&solid.shape.compute_aabb(&(place * solid.pose)));
         }
-        let mut held = Vec::new();
-        held.extend(
-            self.objects()
-                .filter(|o| o.attachment().is_some())
-                .map(|o| o.key()),
-        );
+        let held = self.objects().filter(|o| o.attachment().is_some());
+        let held: Vec<PartKey> = held.map(|o| o.key()).collect();
         let mut above = self.neighbours(Some(object.key()), &bounds);
         above.retain(|other| {
             other.bounds.mins.z > bounds.maxs.z - OVERLAP

@@ -59,26 +59,23 @@ const STORES: [Store; 6] = [
         worlds: 40,
         wanted: 90,
     },
-    // The boards at the height of a table and above it; the upper one has nothing above it.
-    Store {
-        kind: "milk",
-        furniture: "oven-area-area-right-drawer-main",
-        level: Some(3),
-        joint: "oven_area_area_right_drawer_joint",
-        open: 0.48,
-        worlds: 40,
-        wanted: 90,
-    },
-    Store {
-        kind: "milk",
-        furniture: "oven-area-area-right-drawer-main",
-        level: Some(4),
-        joint: "oven_area_area_right_drawer_joint",
-        open: 0.48,
-        worlds: 40,
-        wanted: 90,
-    },
+    milk_on_board(3),
+    // Nothing is above this one.
+    milk_on_board(4),
 ];
+
+/// Milk on a board of the tall drawer, counted from below.
+const fn milk_on_board(level: u32) -> Store {
+    Store {
+        kind: "milk",
+        furniture: "oven-area-area-right-drawer-main",
+        level: Some(level),
+        joint: "oven_area_area_right_drawer_joint",
+        open: 0.48,
+        worlds: 40,
+        wanted: 90,
+    }
+}
 
 const PLAN: &str = "
     (in-package :pp-tut)
