@@ -4,7 +4,7 @@
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::form::{doc_form, form, quoted as quote, split_body};
+use crate::lisp::value::form::{doc_form, form, quoted as quote, split_body, style_warning};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -68,18 +68,10 @@ fn warning_of_text_alone(
         _ => None,
     };
     let place = place.map_or_else(String::new, |place| format!("{place}: "));
-    let report = format!(
+    Some(style_warning(format!(
         "{place}{} only returns its documentation string: no form follows it, perhaps since #+ or #- leaves all out.",
         print::qualified(image, name)
-    );
-    Some(form![
-        known::WARN,
-        quote(known::SIMPLE_STYLE_WARNING),
-        known::K_FORMAT_CONTROL,
-        Value::string("~a"),
-        known::K_FORMAT_ARGUMENTS,
-        form![known::LIST, Value::string(report)],
-    ])
+    )))
 }
 
 pub(super) fn defmacro(image: &mut Image, form: &Value) -> Expansion {

@@ -25,8 +25,8 @@ pub(crate) mod update;
 pub(crate) use class_of::class_of;
 
 use super::image::Image;
-use super::value::form::{form, quote};
-use super::value::{Value, known};
+use super::value::Value;
+use super::value::form::style_warning;
 
 /// A value as `prin1` prints it, for messages.
 pub(crate) fn text(image: &Image, value: &Value) -> String {
@@ -35,18 +35,10 @@ pub(crate) fn text(image: &Image, value: &Value) -> String {
 
 /// The form that warns of an option of a definition that has no effect.
 fn warning_of_ignored(image: &Image, option: &Value) -> Value {
-    let report = format!(
+    style_warning(format!(
         "The option {} has no effect: there are only the standard metaclasses.",
         text(image, option)
-    );
-    form![
-        known::WARN,
-        quote(known::SIMPLE_STYLE_WARNING),
-        known::K_FORMAT_CONTROL,
-        Value::string("~a"),
-        known::K_FORMAT_ARGUMENTS,
-        form![known::LIST, Value::string(report)],
-    ]
+    ))
 }
 
 #[cfg(test)]

@@ -41,6 +41,18 @@ pub(crate) fn quote(value: impl Into<Value>) -> Value {
     }
 }
 
+/// The form that signals a style warning with a report.
+pub(crate) fn style_warning(report: String) -> Value {
+    form![
+        known::WARN,
+        quote(known::SIMPLE_STYLE_WARNING),
+        known::K_FORMAT_CONTROL,
+        Value::string("~a"),
+        known::K_FORMAT_ARGUMENTS,
+        form![known::LIST, Value::string(report)],
+    ]
+}
+
 /// A body without its declarations and documentation.
 pub(crate) struct Body {
     /// The `(declare …)` forms.
