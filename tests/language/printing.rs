@@ -204,6 +204,23 @@ fn arrays_printed_readably_keep_their_element_types() {
             "(let ((*print-base* 16) (*read-base* 16) (*print-readably* t)) (let ((a (read-from-string (prin1-to-string (make-array '(12 1) :element-type 'fixnum :initial-element 31))))) (list (array-dimensions a) (array-element-type a) (aref a 0 0))))",
             "((12 1) FIXNUM 31)",
         ),
+        // Without elements, all dimensions show, and their product does not matter.
+        (
+            "(with-standard-io-syntax (prin1-to-string (make-array '(0 33554432 33554432 33554432) :element-type 'bit)))",
+            "\"#A((0 33554432 33554432 33554432) BIT)\"",
+        ),
+        (
+            "(array-dimensions (read-from-string \"#A((0 2) bit)\"))",
+            "(0 2)",
+        ),
+        (
+            "(read-from-string \"#A((0 33554433) bit)\")",
+            "!! #A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): its dimensions are not a list of natural numbers in the limits",
+        ),
+        (
+            "(read-from-string \"#A 5\")",
+            "!! #A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): it is not such a list",
+        ),
         ("#A((2) (unsigned-byte 8) 1 2)", "#(1 2)"),
         (
             "(type-of #A((2) (unsigned-byte 8) 1 2))",

@@ -68,7 +68,7 @@ fn what_is_left_out_needs_no_numbers() {
         ("'(1 #+nowhere #a(1) 2)", "(1 2)"),
         (
             "(read-from-string \"#a(1 2)\")",
-            "!! #A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): its dimensions are not a list of natural numbers",
+            "!! #A without the number of dimensions needs (DIMENSIONS TYPE . CONTENTS): its dimensions are not a list of natural numbers in the limits",
         ),
     ]);
 }

@@ -5,12 +5,16 @@ use std::rc::Rc;
 
 use super::error::ReadErrorKind;
 use super::literal::elements;
+use crate::lisp::guard::MOST_ELEMENTS;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::element_type::ElementType;
 
 /// The array from the list after `#A`.
 pub(super) fn read(parts: &Value) -> Result<Value, ReadErrorKind> {
+    if !matches!(parts, Value::Cons(_)) {
+        return Err(ReadErrorKind::BadArray("it is not such a list"));
+    }
     let dimensions = dimensions(&parts.car_or_nil())?;
     let rest = parts.cdr_or_nil();
     let element = element_type(&rest.car_or_nil())?;
@@ -40,10 +44,12 @@ pub(super) fn read(parts: &Value) -> Result<Value, ReadErrorKind> {
 }
 
 fn dimensions(list: &Value) -> Result<Vec<usize>, ReadErrorKind> {
-    let bad = || ReadErrorKind::BadArray("its dimensions are not a list of natural numbers");
+    let bad = || {
+        ReadErrorKind::BadArray("its dimensions are not a list of natural numbers in the limits")
+    };
     let sizes = list.list_to_vec().ok_or_else(bad)?;
     let size = |value: &Value| match value {
-        Value::Int(n) => usize::try_from(*n).ok(),
+        Value::Int(n) => usize::try_from(*n).ok().filter(|n| *n <= MOST_ELEMENTS),
         _ => None,
     };
     sizes

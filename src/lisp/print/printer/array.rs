@@ -93,16 +93,16 @@ impl Printer<'_> {
             return;
         }
         let dimensions = array.dimensions.borrow();
+        if self.settings.readably && array.element_type != ElementType::T {
+            let contents = nested(array, 0, 0);
+            self.typed_array(&dimensions, array.element_type, contents, depth);
+            return;
+        }
         let rank = dimensions.len();
         // Dimensions after an empty one do not show.
         let hidden = dimensions.iter().skip_while(|size| **size > 0).skip(1);
         if self.settings.readably && hidden.clone().any(|size| *size > 0) {
             self.calls.note_unreadable(value);
-        }
-        if self.settings.readably && array.element_type != ElementType::T {
-            let contents = nested(array, 0, 0);
-            self.typed_array(&dimensions, array.element_type, contents, depth);
-            return;
         }
         self.document.text(&format!("#{rank}A"));
         self.tasks.push(Task::Rows {
@@ -195,6 +195,8 @@ fn nested(array: &Array, dimension: usize, offset: usize) -> Value {
     let Some(length) = dimensions.get(dimension) else {
         return array.items.get(offset).unwrap_or(Value::NIL);
     };
-    let step: usize = dimensions.iter().skip(dimension + 1).product();
+    let inner = dimensions.iter().skip(dimension + 1);
+    // An array without elements may have dimensions whose product is larger than any number.
+    let step = inner.fold(1usize, |step, size| step.saturating_mul(*size));
     Value::list((0..*length).map(|row| nested(array, dimension + 1, offset + row * step)))
 }
