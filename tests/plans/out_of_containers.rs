@@ -22,6 +22,16 @@ struct Store {
     wanted: u64,
 }
 
+impl Store {
+    /// Whether it is in the list: its kind, or its furniture, or all are asked for.
+    fn is_asked_for(&self, list: &str) -> bool {
+        list.is_empty()
+            || list
+                .split(',')
+                .any(|name| name == self.kind || name == self.furniture)
+    }
+}
+
 const STORES: [Store; 6] = [
     Store {
         kind: "spoon",
@@ -144,7 +154,7 @@ fn is_out_of_reach(cook: &mut Cook, store: &Store) -> bool {
 }
 
 /// `cargo test --release --lib -- --ignored --nocapture how_often_things_are_brought_out_of_containers`;
-/// `KINDS`, separated by commas, for some of the things, and `WORLDS=FROM..TO` for some of the worlds.
+/// `KINDS`, separated by commas, for some of the things or pieces of furniture, and `WORLDS=FROM..TO` for some of the worlds.
 #[test]
 #[ignore = "takes minutes; prints how often things are brought out of containers"]
 fn how_often_things_are_brought_out_of_containers() {
@@ -153,7 +163,7 @@ fn how_often_things_are_brought_out_of_containers() {
         "| thing | out of | brought to the island | and back | out of reach |\n|---|---|---|---|---|"
     );
     for store in &STORES {
-        if !kinds.is_empty() && !kinds.split(',').any(|kind| kind == store.kind) {
+        if !store.is_asked_for(&kinds) {
             continue;
         }
         let worlds = super::demos::range("WORLDS", 0..store.worlds);
@@ -176,15 +186,17 @@ fn how_often_things_are_brought_out_of_containers() {
             let stood = cook.pose("THING");
             let form = format!("(bring :{} :{})", store.kind, store.furniture);
             if let Some(why) = flaw(&mut cook, store, &form, "kitchen_island") {
+                let (t, yaw) = (stood.translation, pose::yaw(&stood));
+                let at = format!(
+                    "{} {seed} at {:.3} {:.3}, yaw {yaw:.2}",
+                    store.kind, t.x, t.y
+                );
                 if why.contains("could not be fetched") && is_out_of_reach(&mut cook, store) {
                     out_of_reach += 1;
+                    println!("  {at}: out of reach");
                 } else {
                     all += 1;
-                    let (t, yaw) = (stood.translation, pose::yaw(&stood));
-                    println!(
-                        "  {} {seed} at {:.3} {:.3}, yaw {yaw:.2}: {why}",
-                        store.kind, t.x, t.y
-                    );
+                    println!("  {at}: {why}");
                 }
                 continue;
             }
