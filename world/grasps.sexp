@@ -22,6 +22,11 @@
 ; The rim of a plate, from its left or right, 30 degrees off the vertical.
 (rotation left-rim ((0 1 0) (0.5 0 -0.8660254037844386) (-0.8660254037844386 0 -0.5)))
 (rotation right-rim ((0 -1 0) (-0.5 0 0.8660254037844386) (-0.8660254037844386 0 -0.5)))
+; From above a side, 45 degrees off the vertical.
+(rotation above-back ((0 0.7071067811865476 0.7071067811865476) (1 0 0) (0 0.7071067811865476 -0.7071067811865476)))
+(rotation above-front ((0 -0.7071067811865476 -0.7071067811865476) (-1 0 0) (0 0.7071067811865476 -0.7071067811865476)))
+(rotation above-left ((1 0 0) (0 -0.7071067811865476 -0.7071067811865476) (0 0.7071067811865476 -0.7071067811865476)))
+(rotation above-right ((-1 0 0) (0 0.7071067811865476 0.7071067811865476) (0 0.7071067811865476 -0.7071067811865476)))
 ; From a side, with one finger above and one below.
 (rotation flat-from-back ((0 0 1) (0 1 0) (-1 0 0)))
 (rotation flat-from-front ((0 0 -1) (0 -1 0) (-1 0 0)))
@@ -466,4 +471,21 @@
 (grasp top-around-left :types (cup) :arms (left right)
        :translation (0 0 0.01) :rotation top-across-x
        :pregrasp (0 0 0.15) :second-pregrasp (0 0 0.15)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+; A carton from above a side, over its upper edge: where a hand has no room beside it.
+(grasp back-above :types (milk) :arms (left right)
+       :translation (0 0 0.06) :rotation above-back
+       :pregrasp (-0.1 0 0.1) :second-pregrasp (-0.1 0 0.1)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side-above :types (milk) :arms (left right)
+       :translation (0 0 0.06) :rotation above-left
+       :pregrasp (0 0.1 0.1) :second-pregrasp (0 0.1 0.1)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side-above :types (milk) :arms (left right)
+       :translation (0 0 0.06) :rotation above-right
+       :pregrasp (0 -0.1 0.1) :second-pregrasp (0 -0.1 0.1)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front-above :types (milk) :arms (left right)
+       :translation (0 0 0.06) :rotation above-front
+       :pregrasp (0.1 0 0.1) :second-pregrasp (0.1 0 0.1)
        :lift (0 0 0.15) :second-lift (0 0 0.15))

@@ -21,6 +21,10 @@ pub(crate) const GRASPS: &str = include_str!("../../world/grasps.sexp");
 /// for hand-written matrices with entries such as 0.707.
 const ROTATION_SLACK: f64 = 0.01;
 
+/// The third component of the direction in which a hand approaches from above, 45 degrees off the
+/// vertical at most.
+const LEAST_DOWN: f64 = -0.7;
+
 /// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GraspDefinition {
@@ -210,13 +214,13 @@ impl GraspLibrary {
         self.order.get(object_type).map_or(&[], Vec::as_slice)
     }
 
-    /// The grasps of a type by which a hand comes from above, in the order in which they are
-    /// defined: also those that are not tried unless they are asked for.
+    /// The grasps of a type by which a hand comes from above, straight or at up to 45 degrees, in the
+    /// order in which they are defined: also those that are not tried unless they are asked for.
     pub(crate) fn grasps_from_above(&self, object_type: &str) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for ((kind, _, name), definition) in &self.grasps {
             // The hand approaches along the third column.
-            let is_downward = definition.rotation[2][2] < -0.99;
+            let is_downward = definition.rotation[2][2] < LEAST_DOWN;
             if kind == object_type && is_downward && !names.contains(&name.as_str()) {
                 names.push(name);
             }
@@ -415,7 +419,16 @@ mod tests {
         );
         assert_eq!(library.grasps("spoon"), ["top"]);
         assert_eq!(library.grasps_from_above("bowl"), ["top"]);
-        assert!(library.grasps_from_above("milk").is_empty());
+        assert_eq!(
+            library.grasps_from_above("milk"),
+            [
+                "back-above",
+                "left-side-above",
+                "right-side-above",
+                "front-above"
+            ]
+        );
+        assert!(library.grasps_from_above("tray-base").is_empty());
     }
 
     #[test]

@@ -47,7 +47,7 @@ const STORES: [Store; 6] = [
         furniture: "iai-fridge-main",
         level: None,
         joint: "iai_fridge_door_joint",
-        open: 1.3,
+        open: 1.57,
         worlds: 40,
         wanted: 90,
     },
@@ -214,4 +214,35 @@ fn how_often_things_are_brought_out_of_containers() {
         );
         assert!(brought * 100 >= all * store.wanted, "{}", store.kind);
     }
+}
+
+/// Beside it, there is no room for a hand: its sides face the corners of the fridge.
+#[test]
+fn milk_that_stands_askew_at_the_back_of_the_fridge_is_taken_over_its_edge() {
+    let fridge = &STORES[1];
+    let mut cook = Cook::new();
+    cook.done(PLAN);
+    cook.done(
+        "(spawn-object (list '(1.62 -0.98 0.68) (list 0 0 (sin 0.5) (cos 0.5))) :milk 'thing)",
+    );
+    let form = format!("(bring :milk :{})", fridge.furniture);
+    assert_eq!(flaw(&mut cook, fridge, &form, "kitchen_island"), None);
+}
+
+/// Most headings at which it might stand there ask for a hand that comes from the back of the fridge.
+#[test]
+fn milk_is_grasped_for_a_place_in_the_fridge_where_it_can_be_put_down() {
+    let fridge = &STORES[1];
+    let mut cook = Cook::with_seed(1);
+    cook.done(PLAN);
+    cook.done(
+        "(let ((?for (an object (type milk))))
+           (spawn-object (desig:reference (on-island ?for)) :milk 'thing)
+           (setf *thing* ?for))",
+    );
+    let printed = cook.done(&format!("(bring-back :{})", fridge.furniture));
+    assert!(printed.contains("for the next place"), "{printed}");
+    assert!(!printed.contains("new placing location"), "{printed}");
+    let support = cook.done("(pp-plans::support-of 'thing)");
+    assert!(support.contains("iai_fridge"), "{support}");
 }
