@@ -176,7 +176,7 @@ fn how_often_things_are_brought_out_of_containers() {
                 cook.done(&format!("(setf *level* {level})"));
             }
             let mut rng = Pcg64::seed_from_u64(seed);
-            let [x, y, yaw] = somewhere(&cook, &mut rng);
+            let place @ [x, y, yaw] = somewhere(&cook, &mut rng);
             let (s, c) = trig::sin_cos(yaw / 2.0);
             cook.done(&format!(
                 "(btr-utils:move-robot '(({x} {y} 0) (0 0 {s} {c})))
@@ -188,7 +188,7 @@ fn how_often_things_are_brought_out_of_containers() {
             if let Some(why) = flaw(&mut cook, store, &form, "kitchen_island") {
                 let (t, yaw) = (stood.translation, pose::yaw(&stood));
                 let at = format!(
-                    "{} {seed} at {:.3} {:.3}, yaw {yaw:.2}",
+                    "{} {seed} at {:.3} {:.3}, yaw {yaw:.2}, the robot at {place:?}",
                     store.kind, t.x, t.y
                 );
                 if why.contains("could not be fetched") && is_out_of_reach(&mut cook, store) {
