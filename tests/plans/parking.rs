@@ -50,3 +50,38 @@ fn arms_are_parked_beside_a_counter_with_the_torso_higher() {
     assert_eq!(base(&cook), stood);
     cook.assert_no_overlap();
 }
+
+/// Nothing leads out from between an open drawer and the oven with a hand that has been lowered behind
+/// the drawer's front.
+#[test]
+fn the_torso_is_put_back_when_no_height_helps_to_park_the_arms() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(init-projection)
+         (with-simulated-robot
+           (pp-plans::park-arms)
+           (perform (a motion (type moving-torso) (joint-angle 0.19)))
+           (let ((?tucked '(0.171 1.147 1.912 -1.667 -0.028 -0.075 -2.142))
+                 (?over-drawer '(0.333 -0.286 -2.938 -0.157 -0.2 -1.713 -0.476)))
+             (perform (an action (type positioning-arm) (left-configuration ?tucked)
+                          (right-configuration ?over-drawer)))))
+         (move-kitchen-joint :joint-name \"sink_area_left_upper_drawer_main_joint\"
+                             :joint-angle 0.48)
+         (btr-utils:move-robot '((0.775 1.575 0) (0 0 -0.61203 0.79083)))",
+    );
+    let parked = "(pp-plans::parked-p :right)";
+    let printed = cook.done("(with-simulated-robot (pp-plans::park-arms-at-other-heights))");
+    assert!(printed.contains("Ignoring"), "{printed}");
+    assert_eq!(cook.done(parked), "NIL\n");
+    let height =
+        cook.done("(values (round (* 100 (rob-int::joint-position \"torso_lift_joint\"))))");
+    assert_eq!(height, "19\n");
+    cook.done("(with-simulated-robot (pp-plans::park-arms-nearby))");
+    cook.done(
+        "(let ((?pose (make-pose \"map\" '((-0.3 1.5 0) (0 0 0 1)))))
+           (with-simulated-robot
+             (perform (an action (type navigating) (location (a location (pose ?pose)))))))",
+    );
+    assert_ne!(cook.done(parked), "NIL\n");
+    cook.assert_no_overlap();
+}
