@@ -156,6 +156,32 @@ fn what_cannot_be_delivered_is_put_back() {
     assert!(told.contains("bottle-1 could not be delivered"), "{told}");
 }
 
+/// Nobody knows where it was taken from.
+#[test]
+fn what_was_held_before_stays_in_the_hand_if_it_cannot_be_delivered() {
+    let mut cook = cook();
+    cook.done(
+        "(with-simulated-robot
+           (let ((?object (an object (type bottle)))
+                 (?at *on-the-counter*))
+             (perform (an action (type searching) (object ?object)
+                          (location (a location (pose ?at)))))
+             (perform (an action (type fetching) (object ?object)))))",
+    );
+    let report = cook.fails(
+        "DELIVERING-FAILED",
+        "(let* ((?object (an object (type bottle) (name bottle-1)))
+                (?there (pose -0.8 1.6 2.5))
+                (?target (a location (pose ?there))))
+           (perform (an action (type transporting) (object ?object) (target ?target))))",
+    );
+    assert!(
+        report.starts_with("bottle-1 could not be delivered"),
+        "{report}"
+    );
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+}
+
 #[test]
 fn a_goal_of_the_users_own_skips_the_action() {
     let mut cook = cook();
