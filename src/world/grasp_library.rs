@@ -21,8 +21,8 @@ pub(crate) const GRASPS: &str = include_str!("../../world/grasps.sexp");
 /// for hand-written matrices with entries such as 0.707.
 const ROTATION_SLACK: f64 = 0.01;
 
-/// The third component of the direction in which a hand approaches from above, 45 degrees off the
-/// vertical at most.
+/// Above all third components of the directions in which a hand approaches from above, 45 degrees off
+/// the vertical at most (-0.707).
 const LEAST_DOWN: f64 = -0.7;
 
 /// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.

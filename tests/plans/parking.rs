@@ -23,20 +23,26 @@ fn a_hand_that_cannot_be_parked_is_taken_straight_back_first() {
     assert_eq!(cook.done(PLACES), "((-14 -14) (-28 -28))\n");
 }
 
+/// A robot with the torso at a height (m) and the right arm at seven angles (rad).
+fn reaching_out(height: f64, angles: &str) -> Cook {
+    let mut cook = Cook::new();
+    cook.done(&format!(
+        "(init-projection)
+         (with-simulated-robot
+           (pp-plans::park-arms)
+           (perform (a motion (type moving-torso) (joint-angle {height})))
+           (let ((?angles '({angles})))
+             (perform (an action (type positioning-arm) (right-configuration ?angles)))))"
+    ));
+    cook
+}
+
 /// With the torso where it is, a shoulder would touch the edge of the counter. Nothing leads out of
 /// there with an arm that is stretched out.
 #[test]
 fn arms_are_parked_beside_a_counter_with_the_torso_higher() {
-    let mut cook = Cook::new();
-    cook.done(
-        "(init-projection)
-         (with-simulated-robot
-           (pp-plans::park-arms)
-           (perform (a motion (type moving-torso) (joint-angle 0.09)))
-           (let ((?over-drawer '(-0.033 0.078 -1.345 -0.65 -1.798 -1.644 -1.313)))
-             (perform (an action (type positioning-arm) (right-configuration ?over-drawer)))))
-         (btr-utils:move-robot '((0.825 0.325 0) (0 0 0.67219 0.74038)))",
-    );
+    let mut cook = reaching_out(0.09, "-0.033 0.078 -1.345 -0.65 -1.798 -1.644 -1.313");
+    cook.done("(btr-utils:move-robot '((0.825 0.325 0) (0 0 0.67219 0.74038)))");
     let base = |cook: &Cook| {
         let world = cook.session.simulation().world();
         world.robot_configuration().base
@@ -55,16 +61,11 @@ fn arms_are_parked_beside_a_counter_with_the_torso_higher() {
 /// the drawer's front.
 #[test]
 fn the_torso_is_put_back_when_no_height_helps_to_park_the_arms() {
-    let mut cook = Cook::new();
+    let mut cook = reaching_out(0.19, "0.333 -0.286 -2.938 -0.157 -0.2 -1.713 -0.476");
     cook.done(
-        "(init-projection)
-         (with-simulated-robot
-           (pp-plans::park-arms)
-           (perform (a motion (type moving-torso) (joint-angle 0.19)))
-           (let ((?tucked '(0.171 1.147 1.912 -1.667 -0.028 -0.075 -2.142))
-                 (?over-drawer '(0.333 -0.286 -2.938 -0.157 -0.2 -1.713 -0.476)))
-             (perform (an action (type positioning-arm) (left-configuration ?tucked)
-                          (right-configuration ?over-drawer)))))
+        "(let ((?tucked '(0.171 1.147 1.912 -1.667 -0.028 -0.075 -2.142)))
+           (with-simulated-robot
+             (perform (an action (type positioning-arm) (left-configuration ?tucked)))))
          (move-kitchen-joint :joint-name \"sink_area_left_upper_drawer_main_joint\"
                              :joint-angle 0.48)
          (btr-utils:move-robot '((0.775 1.575 0) (0 0 -0.61203 0.79083)))",
