@@ -10,13 +10,12 @@ use nalgebra::Point3;
 
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
-use super::open::open_session;
 use super::paint::Paint;
 use super::run::run_in;
 use crate::picture::View;
 use crate::picture::animation::{Shot, write_gif};
 use crate::picture::view::FIELD_OF_VIEW;
-use crate::session::Filming;
+use crate::session::{Filming, Session};
 
 /// What to draw, from which viewpoint, and to which file.
 #[derive(Args, Debug)]
@@ -90,8 +89,7 @@ pub(crate) fn picture(
     let (width, height) = (wanted.width.into(), wanted.height.into());
     let view = wanted.view();
     let is_film = wanted.gif.is_some() || wanted.frames.is_some();
-    let open = || {
-        let mut session = open_session(options)?;
+    let begin = |session: &mut Session| {
         if is_film {
             session.start_film(Filming {
                 view,
@@ -100,9 +98,9 @@ pub(crate) fn picture(
                 every: wanted.every,
             })?;
         }
-        Ok(session)
+        Ok(())
     };
-    let (status, mut session) = run_in(options, &wanted.files, &wanted.eval, open)?;
+    let (status, mut session) = run_in(options, &wanted.files, &wanted.eval, begin)?;
     let shots = session.end_film();
     if let Some(folder) = &wanted.frames {
         write_frames(folder, &shots)?;

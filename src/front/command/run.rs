@@ -6,9 +6,10 @@ use std::path::PathBuf;
 use super::arguments::{Options, WatchArguments};
 use super::check::described;
 use super::failure::{CommandError, Status, read};
-use super::open::{open, open_session};
+use super::open::open_session;
 use super::paint::Paint;
 use super::watching::{self, Writing};
+use crate::session::Session;
 use crate::session::dialogue::{
     Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort,
 };
@@ -23,13 +24,12 @@ pub(crate) fn run(
 ) -> Result<Status, CommandError> {
     let mut has_browser = false;
     let mut writing = Writing::default();
-    let open = || {
-        let mut session = open_session(options)?;
-        has_browser = watching::begin(&mut session, watch)?;
-        writing = watching::finish_at_interrupt(&session, watch);
-        Ok(session)
+    let begin = |session: &mut Session| {
+        has_browser = watching::begin(session, watch)?;
+        writing = watching::finish_at_interrupt(session, watch);
+        Ok(())
     };
-    let (status, mut session) = run_in(options, files, forms, open)?;
+    let (status, mut session) = run_in(options, files, forms, begin)?;
     let recorded = session.end_recording();
     session.write_kept_run()?;
     recorded?;
@@ -38,13 +38,13 @@ pub(crate) fn run(
     Ok(status)
 }
 
-/// Like [`run`], in the evaluator that `open` makes, which is returned.
-pub(crate) fn run_in<E: Evaluate>(
+/// Like [`run`], in a session that `begin` prepares, and that is returned.
+pub(crate) fn run_in(
     options: &Options,
     files: &[PathBuf],
     forms: &[String],
-    open: impl FnOnce() -> Result<E, CommandError>,
-) -> Result<(Status, E), CommandError> {
+    begin: impl FnOnce(&mut Session) -> Result<(), CommandError>,
+) -> Result<(Status, Session), CommandError> {
     // Report a file that cannot be read before the robot moves.
     let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
     let forms = forms
@@ -52,8 +52,9 @@ pub(crate) fn run_in<E: Evaluate>(
         .enumerate()
         .map(|(at, form)| Text::of_form(at, form));
     let paint = Paint::new(options.color, &io::stderr());
-    warn(options, &files, paint)?;
-    let mut session = open()?;
+    let mut session = open_session(options)?;
+    warn(&session, &files, paint)?;
+    begin(&mut session)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     for text in files.into_iter().chain(forms) {
         match text.evaluate(&mut session, &mut screen)? {
@@ -74,12 +75,14 @@ pub(crate) fn run_in<E: Evaluate>(
 /// Prints warnings about the files to standard error before any of them is evaluated. Whatever
 /// cannot be read or compiled is reported when its turn comes.
 ///
-/// The files are checked in a separate world, because their definitions take effect.
-fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandError> {
+/// The files are checked in a copy of the session, because their definitions take effect.
+fn warn(session: &Session, files: &[Text], paint: Paint) -> Result<(), CommandError> {
     if files.is_empty() {
         return Ok(());
     }
-    let mut session = open(options)?;
+    let mut session = session
+        .copied()
+        .map_err(|cause| CommandError::Open(format!("a session cannot be copied: {cause}")))?;
     for file in files {
         for finding in session.check(&file.name, &file.text) {
             if finding.severity == Severity::Warning {
