@@ -12,6 +12,7 @@ pub(crate) mod library;
 pub(crate) mod loop_macro;
 pub(crate) mod native;
 pub(crate) mod object;
+pub(crate) mod precompiled;
 pub(crate) mod print;
 pub(crate) mod reader;
 mod setup;

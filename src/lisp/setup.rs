@@ -6,6 +6,7 @@ use super::builtins::{implementation, number_theory, numbers, reading, registry}
 use super::condition;
 use super::image::Image;
 use super::library;
+use super::precompiled;
 use super::stream;
 use super::value::Value;
 use super::value::hash_table::{HashTable, HashTest};
@@ -17,20 +18,34 @@ impl Image {
     /// The image that sessions start with, in `COMMON-LISP-USER`.
     pub(crate) fn new() -> Image {
         let mut image = Image::bare();
+        image.library.precompiled = precompiled::provided();
+        image.set_up();
+        image
+    }
+
+    /// The same, made of the texts of the library; it keeps what they are compiled to.
+    pub(crate) fn precompiling() -> Image {
+        let mut image = Image::bare();
+        image.library.precompiler = Some(Box::default());
+        image.set_up();
+        image
+    }
+
+    fn set_up(&mut self) {
+        let image = self;
         image.define_constant(known::NIL, Value::NIL);
         image.define_constant(known::T, Value::T);
         image.define_constant(known::PI, Value::Double(std::f64::consts::PI));
         image.define_standard_classes();
-        condition::classes::define(&mut image);
+        condition::classes::define(image);
         image.define_library_classes();
-        registry::install(&mut image);
-        define_variables(&mut image);
-        numbers::define_constants(&mut image);
-        number_theory::define_constants(&mut image);
-        implementation::define_constants(&mut image);
-        reading::define_variables(&mut image);
-        library::install(&mut image, &library::LIBRARY);
-        image
+        registry::install(image);
+        define_variables(image);
+        numbers::define_constants(image);
+        number_theory::define_constants(image);
+        implementation::define_constants(image);
+        reading::define_variables(image);
+        library::install(image, &library::LIBRARY);
     }
 }
 

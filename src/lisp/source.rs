@@ -118,6 +118,15 @@ impl Sources {
             .map(|source| (&*source.name, &*source.text))
     }
 
+    /// The first text with a name.
+    pub(crate) fn named(&self, name: &str) -> Option<SourceId> {
+        let at = self
+            .sources
+            .iter()
+            .position(|source| &*source.name == name)?;
+        Some(SourceId(offset(at)))
+    }
+
     /// The source text.
     pub(crate) fn get(&self, id: SourceId) -> Option<&Source> {
         self.sources.get(id.0 as usize)
@@ -151,6 +160,12 @@ impl Sources {
         let span = self.span(place)?;
         let (source, first) = (span.source, span.start as usize);
         Some(self.place(source, first + start, first + end))
+    }
+
+    /// The source of a place, and its first byte there and the byte after it.
+    pub(crate) fn bytes_of(&self, place: Place) -> Option<(SourceId, u32, u32)> {
+        let span = self.span(place)?;
+        Some((span.source, span.start, span.end))
     }
 
     fn span(&self, place: Place) -> Option<&Span> {

@@ -38,6 +38,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::defect;
 use crate::lisp::image::Image;
+use crate::lisp::library;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::{PackageId, PackageTable};
@@ -96,7 +97,31 @@ impl Session {
         options: &SessionOptions,
         models: Arc<Models>,
     ) -> Result<Session, SessionError> {
-        let mut image = Image::new();
+        Session::of_image(options, models, Image::new())
+    }
+
+    /// What the library and the built-in plans are compiled to, for [`precompiled::provide`]: sessions
+    /// then start in a small part of the time.
+    ///
+    /// # Errors
+    ///
+    /// What cannot be compiled.
+    pub(crate) fn precompile() -> Result<Vec<u8>, SessionError> {
+        let options = SessionOptions::default();
+        let models = Arc::new(options.models()?);
+        let mut session = Session::of_image(&options, models, Image::precompiling())?;
+        let compiled = library::precompile(&mut session.image);
+        compiled.map_err(|raise| SessionError::Plan {
+            name: "library".to_owned(),
+            report: session.raised(raise).report,
+        })
+    }
+
+    fn of_image(
+        options: &SessionOptions,
+        models: Arc<Models>,
+        mut image: Image,
+    ) -> Result<Session, SessionError> {
         image.seed(options.seed);
         crate::plan::install(&mut image);
         crate::plan::pose::install(&mut image);

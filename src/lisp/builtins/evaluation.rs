@@ -6,6 +6,7 @@ use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::compile;
 use crate::lisp::guard::descend;
 use crate::lisp::image::Image;
+use crate::lisp::precompiled::is_executed;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
@@ -187,12 +188,7 @@ pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> 
             Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr()),
             Some(known::EVAL_WHEN) => {
                 let inner = Value::cons(known::PROGN.into(), cons.cdr().cdr_or_nil());
-                let compiled = cons
-                    .cdr()
-                    .car_or_nil()
-                    .iter_list()
-                    .any(|s| matches!(s.as_symbol(), Some(known::K_EXECUTE | known::EVAL)));
-                if compiled {
+                if is_executed(&cons.cdr().car_or_nil()) {
                     return evaluate(machine, &inner);
                 }
             }

@@ -4,6 +4,7 @@ use std::rc::Rc;
 use std::sync::OnceLock;
 
 use super::Image;
+use crate::lisp::precompiled::{Precompiled, Precompiler, Resolved};
 use crate::lisp::source::SourceId;
 use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::function::{Deferred, Function};
@@ -65,6 +66,12 @@ pub(crate) struct Installed {
     compiled: Vec<Option<Rc<Function>>>,
     /// How a definition is compiled.
     pub(crate) compile: Option<Compile>,
+    /// What has been made ahead of the code of definitions.
+    pub(crate) precompiled: Option<&'static Precompiled>,
+    /// The symbols that it refers to, as far as they have been needed.
+    pub(crate) resolved: Resolved,
+    /// Keeps what definitions are compiled to, if that is wanted.
+    pub(crate) precompiler: Option<Box<Precompiler>>,
 }
 
 impl Image {
@@ -95,6 +102,9 @@ impl Copied for Installed {
             sources: self.sources.clone(),
             compiled: compiled.map(|function| function.copied(copier)).collect(),
             compile: self.compile,
+            precompiled: self.precompiled,
+            resolved: self.resolved.clone(),
+            precompiler: None,
         }
     }
 }

@@ -10,8 +10,11 @@ use super::definition::{Definition, Kind};
 use super::standard_value;
 use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
+use crate::lisp::precompiled::{Recording, Unit, evaluate_each};
 use crate::lisp::reader::Reader;
+use crate::lisp::source::SourceId;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::Code;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
@@ -62,11 +65,11 @@ fn settings(package: Value) -> [(Sym, Option<Value>); 7] {
     ]
 }
 
-/// Reads and evaluates a form of the library.
+/// Evaluates a form of the library.
 pub(super) fn evaluate(
     image: &mut Image,
     definition: &'static Definition,
-) -> Result<Value, Box<Raise>> {
+) -> Result<(), Box<Raise>> {
     let settings = settings(standard_value(image, &definition.reading_package));
     let outside: Vec<(Sym, Value)> = settings
         .into_iter()
@@ -79,8 +82,7 @@ pub(super) fn evaluate(
         })
         .collect();
     let notes = image.notes.take();
-    let evaluated = read(image, definition)
-        .and_then(|form| nested::call_nested(image, known::EVAL.into(), vec![form]));
+    let evaluated = evaluate_parts(image, definition);
     image.notes = notes;
     for (variable, value) in outside {
         image.set_special(variable, value);
@@ -88,27 +90,61 @@ pub(super) fn evaluate(
     evaluated
 }
 
-/// Reads a definition. Symbols that its package does not have belong to `SYSTEM`.
-fn read(image: &mut Image, definition: &'static Definition) -> Result<Value, Box<Raise>> {
-    let mut reader = match definition.kind {
-        Kind::Function | Kind::Setter => {
-            let file = definition.file;
-            let known = image
-                .library
-                .sources
-                .iter()
-                .find(|(name, _)| *name == file.name);
-            let source = match known {
-                Some((_, source)) => *source,
-                None => {
-                    let source = image.sources.add_library(file.name, file.text);
-                    image.library.sources.push((file.name, source));
-                    source
-                }
-            };
-            Reader::new(image, source).at(definition.start)
+/// Runs the parts of a form: those that have been compiled ahead, or what it is compiled to.
+fn evaluate_parts(image: &mut Image, definition: &'static Definition) -> Result<(), Box<Raise>> {
+    let source = source(image, definition);
+    let (file, start) = (definition.file.name, definition.start);
+    let unit = image.library.precompiled.and_then(|precompiled| {
+        let form = precompiled.form(file, start)?;
+        Unit::of(precompiled, form, source)
+    });
+    if let Some(mut unit) = unit {
+        while let Some(code) = unit.next(image) {
+            run(image, code?)?;
         }
-        Kind::Macro | Kind::Form => Reader::of_text(definition.text()),
+        return Ok(());
+    }
+    let form = read(image, definition, source)?;
+    let mut recording = Recording::of(source);
+    evaluate_each(image, &form, &mut |image, code| {
+        recording.add(image, &code);
+        run(image, code)
+    })?;
+    recording.finish(image, file, start);
+    Ok(())
+}
+
+/// Runs a part of a form.
+fn run(image: &mut Image, code: Rc<Code>) -> Result<(), Box<Raise>> {
+    let function = Value::Function(Rc::new(Function::closure(code, Vec::new())));
+    nested::call_nested(image, function, Vec::new()).map(drop)
+}
+
+/// The source of a definition that is read with places: macros are read without, so that what they
+/// expand into has the places of the calls.
+fn source(image: &mut Image, definition: &'static Definition) -> Option<SourceId> {
+    if let Kind::Macro | Kind::Form = definition.kind {
+        return None;
+    }
+    let file = definition.file;
+    let mut known = image.library.sources.iter();
+    if let Some((_, source)) = known.find(|(name, _)| *name == file.name) {
+        return Some(*source);
+    }
+    let source = image.sources.add_library(file.name, file.text);
+    image.library.sources.push((file.name, source));
+    Some(source)
+}
+
+/// Reads a definition. Symbols that its package does not have belong to `SYSTEM`.
+fn read(
+    image: &mut Image,
+    definition: &'static Definition,
+    source: Option<SourceId>,
+) -> Result<Value, Box<Raise>> {
+    let mut reader = match source {
+        Some(source) => Reader::new(image, source).at(definition.start),
+        None => Reader::of_text(definition.text()),
     };
     image.new_symbols = Some(PackageTable::SYSTEM);
     let form = reader.next_form(image);

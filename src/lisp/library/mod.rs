@@ -154,6 +154,18 @@ fn tell_failure(image: &mut Image, form: &Definition, raise: &Raise) {
     image.output.write(&text);
 }
 
+/// What all definitions of the libraries of an image, and the plans that it has loaded, are compiled
+/// to, if the image keeps that.
+pub(crate) fn precompile(image: &mut Image) -> Result<Vec<u8>, Box<Raise>> {
+    for (number, definition) in image.library.definitions.clone().into_iter().enumerate() {
+        if let Some(name) = symbol(image, definition) {
+            image.force(&Deferred::new(name, number))?;
+        }
+    }
+    let precompiler = image.library.precompiler.take().unwrap_or_default();
+    Ok(precompiler.finish())
+}
+
 fn install_definition(image: &mut Image, definition: &'static Definition) {
     let Some(name) = symbol(image, definition) else {
         let raise = Raise::program("There is no such package.");

@@ -88,6 +88,11 @@ impl Signature {
         }
     }
 
+    /// What [`Signature::of`] has made, from its value and whether nobody can change it.
+    pub(crate) fn unchecked(value: Value, is_own: bool) -> Signature {
+        Signature { value, is_own }
+    }
+
     /// The value, for whoever may change it.
     pub(crate) fn value(&self) -> Value {
         match self.is_own {
@@ -102,7 +107,7 @@ impl Signature {
     }
 
     /// Can nobody change it?
-    pub(super) fn is_fixed(&self) -> bool {
+    pub(crate) fn is_fixed(&self) -> bool {
         self.is_own
     }
 }

@@ -1,10 +1,12 @@
 //! The operations of compiled code.
 
+use serde::{Deserialize, Serialize};
+
 use super::symbol::Sym;
 
 /// A comparison of two numbers. The bits of its number say for which orders of two integers it holds:
 /// the lowest one for ascending, the next one for equal, the highest one for descending numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[repr(u8)]
 pub(crate) enum Comparison {
     /// `<`
@@ -30,7 +32,7 @@ impl Comparison {
 
 /// A comparison, and whether to jump when it holds or when it does not. Its lowest three bits say for
 /// which orders of two integers it jumps, as those of a comparison say for which this holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Test(u8);
 
 impl Test {
@@ -75,7 +77,7 @@ impl Test {
 
 /// One operation, in eight bytes; slots and numbers that do not fit are left to longer sequences.
 /// "Push" and "pop" refer to the value stack.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Op {
     /// Push a constant.
     Const(u32),
@@ -330,6 +332,23 @@ impl Op {
                 | Op::JumpIfCompareLocal { .. }
                 | Op::JumpIfCompareLocalInt { .. }
         )
+    }
+
+    /// The symbol that the operation refers to, if there is one.
+    pub(crate) fn symbol_mut(&mut self) -> Option<&mut Sym> {
+        match self {
+            Op::Global(sym)
+            | Op::SetGlobal(sym)
+            | Op::Function(sym)
+            | Op::SetfFunction(sym)
+            | Op::Call(sym, _)
+            | Op::CallMulti(sym, _)
+            | Op::CallSelf(sym, _)
+            | Op::Element(sym)
+            | Op::SetElement(sym)
+            | Op::BindSpecial(sym) => Some(sym),
+            _ => None,
+        }
     }
 
     /// Where execution may continue instead of at the next operation, if the operation says that.

@@ -12,6 +12,8 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use serde::{Deserialize, Serialize};
+
 use super::Value;
 use super::copy::{Copied, Copier};
 use super::function::Function;
@@ -20,7 +22,7 @@ use super::package::PackageId;
 pub(crate) use super::known;
 
 /// A symbol of an image.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 pub(crate) struct Sym(pub(crate) u32);
 
 /// What a symbol means in function position.

@@ -1,0 +1,136 @@
+//! Compiled code of the library and the plans that are built in, made ahead of time.
+//!
+//! A [`Precompiler`] keeps what the forms of files are compiled to while an image reads and
+//! evaluates them. A [`Precompiled`] is that, read again: any image evaluates the same forms from
+//! it without reading, expanding or compiling them. A unit is what one form at top level of a file
+//! is compiled to. A form whose code has constants that cannot be written down has no unit; it is
+//! read from its text, as all forms are if there is nothing made ahead.
+
+mod encode;
+mod record;
+mod toplevel;
+mod unit;
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use super::image::Image;
+use super::value::symbol::Sym;
+
+pub(crate) use record::{Precompiler, Recording};
+pub(crate) use toplevel::{evaluate_each, is_executed};
+use unit::Bytes;
+pub(crate) use unit::Unit;
+
+/// What all images of the process start from.
+static PROVIDED: OnceLock<Precompiled> = OnceLock::new();
+
+/// Compiled code of files.
+pub(crate) struct Precompiled {
+    symbols: Vec<KnownSymbol>,
+    /// The symbols that are there after loading, by number, in order of creation.
+    present: Vec<u32>,
+    /// The counter of `gensym` after loading.
+    gensym_counter: u32,
+    files: BTreeMap<&'static str, Vec<Form>>,
+}
+
+/// A symbol that code refers to.
+struct KnownSymbol {
+    /// Its home package; none if it is uninterned.
+    package: Option<&'static str>,
+    name: &'static str,
+}
+
+/// A form at top level of a file.
+pub(crate) struct Form {
+    /// The byte at which it begins.
+    pub(crate) start: usize,
+    /// What it is compiled to, if that could be written down.
+    code: Option<&'static [u8]>,
+}
+
+/// What an image has found of the symbols, by number.
+pub(crate) type Resolved = Vec<Option<Sym>>;
+
+impl Precompiled {
+    /// Reads what [`Precompiler::finish`] has written; `None` if it is something else.
+    pub(crate) fn read(bytes: &'static [u8]) -> Option<Precompiled> {
+        let mut bytes = Bytes(bytes);
+        let mut packages = Vec::new();
+        for _ in 0..bytes.count()? {
+            packages.push(bytes.text()?);
+        }
+        let mut symbols = Vec::new();
+        for _ in 0..bytes.count()? {
+            let package = match bytes.count()? {
+                0 => None,
+                number => Some(*packages.get(number - 1)?),
+            };
+            let name = bytes.text()?;
+            symbols.push(KnownSymbol { package, name });
+        }
+        let mut present = Vec::new();
+        for _ in 0..bytes.count()? {
+            present.push(bytes.number()?);
+        }
+        let gensym_counter = bytes.number()?;
+        let mut files = BTreeMap::new();
+        for _ in 0..bytes.count()? {
+            let (name, mut forms) = (bytes.text()?, Vec::new());
+            for _ in 0..bytes.count()? {
+                let start = bytes.count()?;
+                let code = match bytes.byte()? {
+                    0 => None,
+                    _ => Some(bytes.slice()?),
+                };
+                forms.push(Form { start, code });
+            }
+            files.insert(name, forms);
+        }
+        bytes.is_empty().then_some(Precompiled {
+            symbols,
+            present,
+            gensym_counter,
+            files,
+        })
+    }
+
+    /// The forms of a file, in the order of the text.
+    pub(crate) fn file(&self, name: &str) -> Option<&[Form]> {
+        self.files.get(name).map(Vec::as_slice)
+    }
+
+    /// The form of a file that begins at a byte.
+    pub(crate) fn form(&self, file: &str, start: usize) -> Option<&Form> {
+        let forms = self.files.get(file)?;
+        let at = forms.binary_search_by_key(&start, |form| form.start).ok()?;
+        forms.get(at)
+    }
+}
+
+/// Sets what all images of the process start from, unless that is set.
+pub(crate) fn provide(precompiled: Precompiled) {
+    // Images that start from what was set first behave in the same way.
+    let _ = PROVIDED.set(precompiled);
+}
+
+/// What images start from.
+pub(crate) fn provided() -> Option<&'static Precompiled> {
+    PROVIDED.get()
+}
+
+impl Image {
+    /// After forms of files that are loaded whole: makes the symbols present that reading them
+    /// would have made, and counts on the names of `gensym` as expanding them would have done.
+    pub(crate) fn settle_precompiled(&mut self, precompiled: &'static Precompiled) {
+        for number in &precompiled.present {
+            unit::resolve(self, precompiled, *number);
+        }
+        let counter = i64::from(precompiled.gensym_counter);
+        self.set_special(
+            super::value::known::V_GENSYM_COUNTER,
+            super::value::Value::Int(counter),
+        );
+    }
+}
