@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::dialogue::Event;
 use super::host::SimulationHost;
-use crate::lisp::image::Image;
-use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::watch::WatchEvent;
+use cram::{Advance, Host, Reply, TaskId, Ticket};
+use lisp::image::Image;
+use view::watch::WatchEvent;
 
 /// The host, and the sink for what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
@@ -17,7 +17,7 @@ pub(super) struct LiveHost<'a> {
 }
 
 impl<'a> LiveHost<'a> {
-    pub(crate) fn new(
+    pub fn new(
         host: &'a mut SimulationHost,
         sink: &'a mut dyn FnMut(Event),
         tells_progress: bool,

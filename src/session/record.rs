@@ -7,13 +7,13 @@ use std::rc::Rc;
 use super::dialogue::prompt_line::prompt_line;
 use super::dialogue::repeat::with_interrupt;
 use super::dialogue::{Event, Outcome, Screen};
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::image::extension::Extension;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use lisp::builtin::{Builtin, pure};
+use lisp::image::Image;
+use lisp::image::extension::Extension;
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 
 /// The inputs of a session with their outputs.
 #[derive(Default)]
@@ -38,7 +38,7 @@ impl Extension for Record {
 
 impl Record {
     /// Call when an input is about to be evaluated.
-    pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
+    pub fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
         self.0.borrow_mut().push(Entry {
@@ -51,7 +51,7 @@ impl Record {
     }
 
     /// Records an event.
-    pub(crate) fn note(&self, event: &Event) {
+    pub fn note(&self, event: &Event) {
         if let Some(entry) = self.0.borrow_mut().last_mut() {
             // Writing to memory does not fail.
             let _ = entry.screen.show(event);
@@ -59,7 +59,7 @@ impl Record {
     }
 
     /// Call when the input has been evaluated.
-    pub(crate) fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
+    pub fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
         if let Some(entry) = self.0.borrow_mut().last_mut() {
             entry.interrupted_at = interrupted_at;
             entry.quits = matches!(outcome, Outcome::Quit(_));

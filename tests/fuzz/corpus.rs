@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::front::transcript::Transcript;
+use crate::transcript::Transcript;
 
 /// Greatest size (bytes) of a piece.
 const MOST_BYTES: usize = 2000;

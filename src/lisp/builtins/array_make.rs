@@ -1,6 +1,6 @@
 //! Making arrays.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
@@ -8,16 +8,16 @@ use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
 use super::settled_types;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::{MOST_ELEMENTS, reserve};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::elements::{Displacement, Elements};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Sequence, checked_element, index, list_items, text_of};
-use crate::lisp::value::string::LispString;
+use crate::builtin::{Builtin, pure};
+use crate::guard::{MOST_ELEMENTS, reserve};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::elements::{Displacement, Elements};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Sequence, checked_element, index, list_items, text_of};
+use crate::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -25,15 +25,15 @@ type Outcome = Result<Value, Box<Raise>>;
 pub(super) const MAX_RANK: usize = 128;
 
 /// Keyword arguments of `make-array` and `adjust-array`.
-pub(crate) struct Options {
+pub struct Options {
     /// The value of all elements.
-    pub(crate) element: Option<Value>,
+    pub element: Option<Value>,
     /// Nested sequences of the elements.
-    pub(crate) contents: Option<Value>,
+    pub contents: Option<Value>,
     /// The type of the elements, as it is stored, if it is given.
-    pub(crate) element_type: Option<ElementType>,
+    pub element_type: Option<ElementType>,
     /// May the array be adjusted?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     fill_pointer: Option<Value>,
     displaced_to: Option<Value>,
     offset: Option<Value>,
@@ -41,7 +41,7 @@ pub(crate) struct Options {
 
 impl Options {
     /// From keyword arguments.
-    pub(crate) fn parse(image: &mut Image, args: &[Value]) -> Result<Options, Box<Raise>> {
+    pub fn parse(image: &mut Image, args: &[Value]) -> Result<Options, Box<Raise>> {
         let [
             element,
             contents,
@@ -96,7 +96,7 @@ impl Options {
 
     /// The part of another array that an array of this shape is to consist of, if it is to be
     /// displaced.
-    pub(crate) fn displacement(
+    pub fn displacement(
         &self,
         of_type: ElementType,
         shape: &[usize],
@@ -125,7 +125,7 @@ impl Options {
     }
 
     /// The fill pointer for a vector of this size, if it is to have one.
-    pub(crate) fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
+    pub fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
         match &self.fill_pointer {
             None | Some(Value::Symbol(known::NIL, ..)) => Ok(None),
             Some(Value::Symbol(known::T, ..)) => Ok(Some(size)),
@@ -143,7 +143,7 @@ impl Options {
 }
 
 /// The dimensions given by an argument: an integer or a list of integers.
-pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let shape: Vec<usize> = if value.is_list() {
         list_items(value)?
             .iter()
@@ -171,7 +171,7 @@ pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The elements of nested sequences in row-major order; the shape must fit.
-pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
+pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
     let mut level = vec![contents.clone()];
     for size in shape {
         let mut next = Vec::new();
@@ -191,12 +191,12 @@ pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, B
 }
 
 /// The element that arrays of this element type hold by default.
-pub(crate) fn filler(element_type: ElementType) -> Value {
+pub fn filler(element_type: ElementType) -> Value {
     element_type.default_element()
 }
 
 /// A vector or string made of items.
-pub(crate) fn vector(
+pub fn vector(
     element_type: ElementType,
     items: Vec<Value>,
     fill_pointer: Option<usize>,
@@ -300,7 +300,7 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making arrays.
-pub(crate) static TABLE: &[Builtin] = &[pure(
+pub static TABLE: &[Builtin] = &[pure(
     "MAKE-ARRAY",
     "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset",
     "An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has the elements of another one, from an index in row-major order on.",

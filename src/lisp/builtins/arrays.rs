@@ -1,20 +1,20 @@
 //! Arrays of any rank: access, shape, kinds.
 
 use super::array_index;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::elements::displacement;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{checked_element, index};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::element_type::ElementType;
+use crate::value::elements::displacement;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{checked_element, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Sizes of an array's dimensions; a fill pointer does not count.
-pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(vec![v.items.len()]),
         Value::Str(s) => Ok(vec![s.capacity()]),
@@ -24,7 +24,7 @@ pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The element type that an array has.
-pub(crate) fn element_type(array: &Value) -> Result<ElementType, Box<Raise>> {
+pub fn element_type(array: &Value) -> Result<ElementType, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(v.element_type),
         Value::Str(_) => Ok(ElementType::Character),
@@ -150,7 +150,7 @@ fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// `(array bit)`.
-pub(crate) fn bit_array_type() -> Value {
+pub fn bit_array_type() -> Value {
     Value::list([known::ARRAY.into(), known::BIT.into()])
 }
 
@@ -275,7 +275,7 @@ fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Arrays.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "AREF",
         "array &rest subscripts",
@@ -415,7 +415,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure(
         "AREF",
         "value array &rest subscripts",

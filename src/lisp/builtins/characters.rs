@@ -1,13 +1,13 @@
 //! Characters: codes, names, case, digits, comparison.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::reader::ascii_name::ascii_name;
-use crate::lisp::reader::char_name::{char_name as special_name, char_named};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{character, index};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::reader::ascii_name::ascii_name;
+use crate::reader::char_name::{char_name as special_name, char_named};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{character, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -19,7 +19,7 @@ fn name_of(c: char) -> String {
 }
 
 /// The upper-case form, where that is one character.
-pub(crate) fn upcase(c: char) -> char {
+pub fn upcase(c: char) -> char {
     let mut upper = c.to_uppercase();
     match (upper.next(), upper.next()) {
         // A letter has an upper case only if that one's lower case is the letter itself.
@@ -29,7 +29,7 @@ pub(crate) fn upcase(c: char) -> char {
 }
 
 /// The lower-case form, where that is one character.
-pub(crate) fn downcase(c: char) -> char {
+pub fn downcase(c: char) -> char {
     match single_lower(c) {
         Some(l) if l.to_uppercase().eq([c]) => l,
         _ => c,
@@ -45,7 +45,7 @@ fn single_lower(c: char) -> Option<char> {
 }
 
 /// The weight of a character as a digit.
-pub(crate) fn digit_weight(c: char, radix: u32) -> Option<u32> {
+pub fn digit_weight(c: char, radix: u32) -> Option<u32> {
     c.to_digit(radix)
 }
 
@@ -135,7 +135,7 @@ fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Is a character one that prints as itself?
-pub(crate) fn is_graphic(c: char) -> bool {
+pub fn is_graphic(c: char) -> bool {
     !c.is_control()
 }
 
@@ -190,7 +190,7 @@ macro_rules! comparisons {
             compare(args, $fold, $all_pairs, |a, b| a $op b)
         })*
         /// Comparison of characters.
-        pub(crate) static COMPARISONS: &[Builtin] = &[
+        pub static COMPARISONS: &[Builtin] = &[
             $(pure($name, "character &rest more", $doc, &[$example], $function),)*
         ];
     };
@@ -212,7 +212,7 @@ comparisons! {
 }
 
 /// Characters.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "CHARACTERP",
         "object",

@@ -1,12 +1,12 @@
 //! Vectors with fill pointers: pushing and popping.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{character, element, index};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{character, element, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -122,7 +122,7 @@ fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Vectors with fill pointers.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "ARRAY-HAS-FILL-POINTER-P",
         "array",
@@ -161,7 +161,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
+pub static SETTERS: &[Builtin] = &[pure(
     "FILL-POINTER",
     "value vector",
     "Sets the number of active elements.",

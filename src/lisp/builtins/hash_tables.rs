@@ -5,23 +5,23 @@ use std::rc::Rc;
 use super::keywords;
 use super::lists::size;
 use super::shown::shown;
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::hash_table::{HashTable, HashTest};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::callable::{builtin_name, callable};
-use crate::lisp::vm::calls::run;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, control, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::hash_table::{HashTable, HashTest};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::callable::{builtin_name, callable};
+use crate::vm::calls::run;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// A value as a hash table.
-pub(crate) fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
+pub fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
     match value {
         Value::Hash(table) => Ok(table),
         _ => Err(Raise::type_error(value, known::HASH_TABLE)),
@@ -216,7 +216,7 @@ fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Hash tables.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "MAKE-HASH-TABLE",
         "&key test size rehash-size rehash-threshold",
@@ -306,7 +306,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// What the expansions of macros call; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%HASH-ITERATOR",
         "table",
@@ -345,7 +345,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
+pub static SETTERS: &[Builtin] = &[pure(
     "GETHASH",
     "value key table &optional default",
     "Sets the value of a key.",

@@ -3,21 +3,17 @@
 use super::packages::{names, one_or_more, or_current, package_error};
 use super::property_lists::symbol;
 use super::shown::shown;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageId;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::package::PackageId;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Makes a symbol present in a package, unless the package has another of its name.
-pub(crate) fn import_one(
-    image: &mut Image,
-    package: PackageId,
-    sym: Sym,
-) -> Result<(), Box<Raise>> {
+pub fn import_one(image: &mut Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
     let found = image.packages.find_symbol(package, image.name(sym));
     if let Some((other, _)) = found
         && other != sym
@@ -168,7 +164,7 @@ fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a name refer to a symbol of the package itself, whatever it would inherit.
-pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
+pub fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
     let present = image
         .packages
         .get(package)
@@ -202,7 +198,7 @@ fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What is done to the symbols of packages.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "IMPORT",
         "symbols &optional package",

@@ -1,13 +1,13 @@
 //! Property lists, those of symbols included.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::value::{Rounds, Value};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::value::{Rounds, Value};
 
-use crate::lisp::value::sequence::{ListWalk, circular};
+use crate::value::sequence::{ListWalk, circular};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -113,7 +113,7 @@ fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// A value as a symbol.
-pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
+pub fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
     value
         .as_symbol()
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
@@ -149,7 +149,7 @@ fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Property lists.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "GETF",
         "plist indicator &optional default",
@@ -191,7 +191,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// What `setf` and `remf` of `getf` expand into; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "PUTF",
         "plist indicator value",
@@ -209,7 +209,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure(
         "GET",
         "value symbol indicator &optional default",

@@ -6,14 +6,14 @@ use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::reserve;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
+use crate::builtin::{Builtin, pure};
+use crate::guard::reserve;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{self, Bounds, Kind, Sequence, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -172,7 +172,7 @@ fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// The default element of a sequence that is made without elements.
-pub(crate) fn default_element(kind: Kind) -> Value {
+pub fn default_element(kind: Kind) -> Value {
     match kind {
         Kind::List => Value::NIL,
         Kind::Str => Value::Char('\0'),
@@ -185,7 +185,7 @@ fn vector(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Parts of sequences.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "LENGTH",
         "sequence",
@@ -275,7 +275,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure(
         "ELT",
         "value sequence index",

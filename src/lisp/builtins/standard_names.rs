@@ -3,8 +3,8 @@
 //! Names without a meaning here are symbols, too, so that programs that use them as symbols read
 //! the same everywhere.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageTable;
+use crate::image::Image;
+use crate::value::package::PackageTable;
 
 const NAMES: &str = "\
 &ALLOW-OTHER-KEYS &AUX &BODY &ENVIRONMENT &KEY &OPTIONAL &REST &WHOLE * ** ***
@@ -161,7 +161,7 @@ WRITE-BYTE WRITE-CHAR WRITE-LINE WRITE-SEQUENCE WRITE-STRING WRITE-TO-STRING Y-O
 YES-OR-NO-P ZEROP";
 
 /// Makes and exports all standard names.
-pub(crate) fn install(image: &mut Image) {
+pub fn install(image: &mut Image) {
     for name in NAMES.split_whitespace() {
         image.export_symbol(PackageTable::CL, name);
     }

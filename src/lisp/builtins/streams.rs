@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Elements, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::character;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::stream::{self, Elements, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::character;
+use crate::value::symbol::Sym;
+use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -24,11 +24,7 @@ pub(super) fn stream_of(value: &Value) -> Result<&Rc<Stream>, Box<Raise>> {
 
 /// What a builtin that may call functions does after an error: if that is about an object that was
 /// given as a stream, what its methods do takes the builtin's place.
-pub(crate) fn or_method(
-    raise: Box<Raise>,
-    name: Sym,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+pub fn or_method(raise: Box<Raise>, name: Sym, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     match raise.stream_object() {
         Some(stream) => Ok(Step::tail_call(
             known::SYS_CALL_STREAM_METHOD,
@@ -105,7 +101,7 @@ fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// The result of reading at the end: the end-of-file value, or an error.
-pub(crate) fn at_end(
+pub fn at_end(
     image: &Image,
     stream: Option<&Value>,
     error: Option<&Value>,
@@ -184,7 +180,7 @@ fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Streams.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "STREAMP",
         "object",

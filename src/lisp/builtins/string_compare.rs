@@ -6,13 +6,13 @@ use std::rc::Rc;
 use super::characters::upcase;
 use super::keywords;
 use super::strings::designated;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::value::string::LispString;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -78,7 +78,7 @@ macro_rules! comparisons {
             Ok(if holds { index.into() } else { Value::NIL })
         })*
         /// Comparisons of strings that return the index where they differ.
-        pub(crate) static TABLE: &[Builtin] = &[
+        pub static TABLE: &[Builtin] = &[
             pure("STRING=", LAMBDA_LIST, "Are two texts the same?", &["(string= 'foo \"FOO\") => T", "(string= \"foo\" \"foobar\" :end2 3) => T"], string_eq),
             pure("STRING-EQUAL", LAMBDA_LIST, "Are two texts the same, whatever their case?", &["(string-equal \"foo\" \"FOO\") => T"], string_equal),
             $(pure($name, LAMBDA_LIST, $doc, &[$example], $function),)*

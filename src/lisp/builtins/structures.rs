@@ -1,12 +1,12 @@
 //! Builtins on structures.
 
-use crate::lisp::builtin::{Builtin, Operator, pure};
-use crate::lisp::structure::define::{copy_structure, define_structure, make_structure};
-use crate::lisp::structure::expand::expand_defstruct;
-use crate::lisp::structure::typed::define_typed_structure;
+use crate::builtin::{Builtin, Operator, pure};
+use crate::structure::define::{copy_structure, define_structure, make_structure};
+use crate::structure::expand::expand_defstruct;
+use crate::structure::typed::define_typed_structure;
 
 /// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[pure(
+pub static TABLE: &[Builtin] = &[pure(
     "COPY-STRUCTURE",
     "structure",
     "A structure of the same type with the same slot values.",
@@ -15,7 +15,7 @@ pub(crate) static TABLE: &[Builtin] = &[pure(
 )];
 
 /// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%DEFINE-STRUCTURE",
         "name parent slots copier predicate documentation conc-name",
@@ -40,7 +40,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub(crate) static OPERATORS: &[Operator] = &[Operator {
+pub static OPERATORS: &[Operator] = &[Operator {
     name: "DEFSTRUCT",
     lambda_list: "name-and-options &rest slots",
     doc: "Defines a structure with its constructor, accessors, predicate and copier. A slot is a name or (name default :type type :read-only flag); options are :conc-name :constructor :copier :predicate :include :print-function :print-object :type :named :initial-offset.",

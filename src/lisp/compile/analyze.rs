@@ -10,18 +10,18 @@ use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
 };
 use super::special_forms;
-use crate::closest_name::closest_name;
-use crate::lisp::evaluator::nested;
-use crate::lisp::guard::{Pace, Stopped, descend, leave, look, reason};
-use crate::lisp::image::Image;
-use crate::lisp::image::notes::NoteKind;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::{Code, Parameters};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::evaluator::nested;
+use crate::guard::{Pace, Stopped, descend, leave, look, reason};
+use crate::image::Image;
+use crate::image::notes::NoteKind;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::code::{Code, Parameters};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use closest_name::closest_name;
 
 /// Result of compiling.
 pub(super) type Compiled<T> = Result<T, Box<Raise>>;
@@ -29,18 +29,18 @@ pub(super) type Compiled<T> = Result<T, Box<Raise>>;
 /// The compiler at work on one top-level form.
 pub(super) struct Compiler<'a> {
     /// The image that the form belongs to.
-    pub(crate) image: &'a mut Image,
+    pub image: &'a mut Image,
     functions: Vec<FunctionContext>,
     current: usize,
     pace: Pace,
     /// Why the compiler is to be left.
     stopped: Option<Stopped>,
     /// The place of the innermost enclosing form that has one.
-    pub(crate) place: Place,
+    pub place: Place,
 }
 
 impl<'a> Compiler<'a> {
-    pub(crate) fn new(image: &'a mut Image) -> Compiler<'a> {
+    pub fn new(image: &'a mut Image) -> Compiler<'a> {
         Compiler {
             image,
             functions: Vec::new(),
@@ -52,7 +52,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Compiles a form as the body of a function without parameters.
-    pub(crate) fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
+    pub fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
         let id = self.enter_function();
         let body = self.analyze(form, &Scope::default());
         if let Some(reason) = self.stopped {
@@ -76,7 +76,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Starts a function; returns its number.
-    pub(crate) fn enter_function(&mut self) -> usize {
+    pub fn enter_function(&mut self) -> usize {
         let id = self.functions.len();
         self.functions.push(FunctionContext {
             outer: (id > 0).then_some(self.current),
@@ -88,7 +88,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Ends the function and returns its free variables.
-    pub(crate) fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
+    pub fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
         let context = &self.functions[id];
         self.current = context.outer.unwrap_or(0);
         context.free.take()
@@ -99,17 +99,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Number of the function that is being compiled.
-    pub(crate) fn function_id(&self) -> usize {
+    pub fn function_id(&self) -> usize {
         self.current
     }
 
     /// Number of open dynamic entries in the current function.
-    pub(crate) fn dynamic_depth(&self) -> usize {
+    pub fn dynamic_depth(&self) -> usize {
         self.function().dynamic.borrow().len()
     }
 
     /// Would an exit to `depth` run cleanup forms?
-    pub(crate) fn crosses_cleanup(&self, depth: usize) -> bool {
+    pub fn crosses_cleanup(&self, depth: usize) -> bool {
         let dynamic = self.function().dynamic.borrow();
         dynamic
             .iter()
@@ -118,7 +118,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses something inside `count` dynamic entries of a kind.
-    pub(crate) fn inside<R>(
+    pub fn inside<R>(
         &mut self,
         kind: DynamicKind,
         count: usize,
@@ -135,17 +135,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Records that a dynamic entry is open from here on.
-    pub(crate) fn open_dynamic(&self, kind: DynamicKind) {
+    pub fn open_dynamic(&self, kind: DynamicKind) {
         self.function().dynamic.borrow_mut().push(kind);
     }
 
     /// Records that only the outermost `depth` dynamic entries are still open.
-    pub(crate) fn close_dynamic(&self, depth: usize) {
+    pub fn close_dynamic(&self, depth: usize) {
         self.function().dynamic.borrow_mut().truncate(depth);
     }
 
     /// A new variable of the current function.
-    pub(crate) fn new_var(&self, name: Sym) -> Rc<Var> {
+    pub fn new_var(&self, name: Sym) -> Rc<Var> {
         self.image.symbols.keep(name);
         Rc::new(Var {
             name,
@@ -158,7 +158,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Records a reference to a variable from the current function.
-    pub(crate) fn refer(&self, var: &Rc<Var>) {
+    pub fn refer(&self, var: &Rc<Var>) {
         var.used.set(true);
         if var.owner == self.current {
             return;
@@ -179,20 +179,20 @@ impl<'a> Compiler<'a> {
     }
 
     /// Is every binding of the name dynamic?
-    pub(crate) fn is_special(&self, name: Sym) -> bool {
+    pub fn is_special(&self, name: Sym) -> bool {
         self.image.symbol(name).kind == VariableKind::Special
     }
 
     /// Checks that a name can be bound as a variable.
-    pub(crate) fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
+    pub fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
         let Some(sym) = name.as_symbol() else {
-            let shown = crate::lisp::print::to_string(self.image, name, true);
+            let shown = crate::print::to_string(self.image, name, true);
             return Err(self.program_error(format!(
                 "{shown} is not a symbol and cannot be used as a local variable."
             )));
         };
         if self.image.symbol(sym).kind == VariableKind::Constant {
-            let shown = crate::lisp::print::to_string(self.image, name, true);
+            let shown = crate::print::to_string(self.image, name, true);
             let what = if self.image.is_keyword(sym) {
                 "a keyword"
             } else {
@@ -206,20 +206,20 @@ impl<'a> Compiler<'a> {
     }
 
     /// The error for a symbol that cannot stand for a form since it is a special variable.
-    pub(crate) fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
-        let shown = crate::lisp::print::to_string(self.image, &name.into(), true);
+    pub fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
+        let shown = crate::print::to_string(self.image, &name.into(), true);
         self.program_error(format!(
             "{shown} is a special variable and cannot be a symbol macro."
         ))
     }
 
     /// A program error at the current place.
-    pub(crate) fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
+    pub fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
         Raise::program(text).at(self.place)
     }
 
     /// An error if forms are nested too deeply: for functions that call themselves.
-    pub(crate) fn descend(&self) -> Compiled<()> {
+    pub fn descend(&self) -> Compiled<()> {
         descend().map_err(|deep| Box::<Raise>::from(deep).at(self.place))
     }
 
@@ -232,7 +232,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses a form.
-    pub(crate) fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
+    pub fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
         self.descend()?;
         self.look()?;
         match form {
@@ -313,7 +313,7 @@ impl<'a> Compiler<'a> {
                 ));
             }
             _ => {
-                let shown = crate::lisp::print::to_string(self.image, head, true);
+                let shown = crate::print::to_string(self.image, head, true);
                 return Err(self.program_error(format!(
                     "illegal function call\n{shown} is not the name of a function; a list that is data needs a quote: '(…)"
                 )));
@@ -388,7 +388,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Runs a macro function on a form.
-    pub(crate) fn expand_with(
+    pub fn expand_with(
         &mut self,
         function: &Rc<Function>,
         form: &Value,
@@ -403,7 +403,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses the elements of a list.
-    pub(crate) fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
+    pub fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
         let Some(forms) = forms.list_to_vec() else {
             return Err(self.program_error("a call's arguments must be a proper list"));
         };
@@ -411,7 +411,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses forms as a `progn`.
-    pub(crate) fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
+    pub fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
         let mut nodes = self.analyze_list(forms, scope)?;
         Ok(match nodes.len() {
             0 => Node::NIL,
@@ -421,12 +421,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Binds a name; returns the binding and the scope in which it is visible.
-    pub(crate) fn bind(
-        &mut self,
-        name: Sym,
-        declared_special: bool,
-        scope: &Scope,
-    ) -> (Binding, Scope) {
+    pub fn bind(&mut self, name: Sym, declared_special: bool, scope: &Scope) -> (Binding, Scope) {
         if declared_special || self.is_special(name) {
             let scope = scope.with(Entry::Variable(name, VariableMeaning::Special));
             (Binding::Special(name), scope)
@@ -439,7 +434,7 @@ impl<'a> Compiler<'a> {
 }
 
 /// Gives an expansion the place of the form that it comes from, unless it has one.
-pub(crate) fn keep_place(form: &Value, expansion: &Value) {
+pub fn keep_place(form: &Value, expansion: &Value) {
     if let (Value::Cons(from), Value::Cons(to)) = (form, expansion)
         && !to.place().is_some()
     {

@@ -6,18 +6,18 @@ use super::analyze::{Compiled, Compiler};
 use super::lambda_list::{LambdaList, Optional};
 use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Parameters;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::code::Parameters;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// A body without its declarations and documentation.
 pub(super) struct Body {
-    pub(crate) forms: Value,
+    pub forms: Value,
     /// Names declared special.
-    pub(crate) specials: Vec<Sym>,
+    pub specials: Vec<Sym>,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// Splits the declarations, and a documentation string if one is allowed, from a body.
@@ -57,12 +57,7 @@ fn declared_special(specifiers: &Value) -> Vec<Sym> {
 
 impl Compiler<'_> {
     /// Analyses a body in a scope where its free special declarations hold.
-    pub(crate) fn analyze_body(
-        &mut self,
-        body: &Body,
-        bound: &[Sym],
-        scope: &Scope,
-    ) -> Compiled<Node> {
+    pub fn analyze_body(&mut self, body: &Body, bound: &[Sym], scope: &Scope) -> Compiled<Node> {
         let mut scope = scope.clone();
         for name in body.specials.iter().filter(|s| !bound.contains(s)) {
             scope = scope.with(Entry::Variable(*name, VariableMeaning::Special));
@@ -72,7 +67,7 @@ impl Compiler<'_> {
 
     /// Analyses `(lambda-list body…)` as a function. With a block name, the body is inside a block
     /// of that name.
-    pub(crate) fn analyze_lambda(
+    pub fn analyze_lambda(
         &mut self,
         name: Value,
         lambda_list: &Value,
@@ -225,7 +220,7 @@ impl Compiler<'_> {
     }
 
     /// A new block of the current function.
-    pub(crate) fn new_block(&mut self, name: Sym) -> Rc<Block> {
+    pub fn new_block(&mut self, name: Sym) -> Rc<Block> {
         Rc::new(Block {
             name,
             owner: self.function_id(),

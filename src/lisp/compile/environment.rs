@@ -1,20 +1,20 @@
 //! Environments: what a macro function can find out about the scope of its call.
 
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::foreign::{Foreign, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The scope of a macro call, as a value.
 pub(super) struct Environment(Scope);
 
 impl Environment {
     /// The environment of a scope.
-    pub(crate) fn value(scope: &Scope) -> Value {
+    pub fn value(scope: &Scope) -> Value {
         Value::foreign(Environment(scope.clone()))
     }
 }
@@ -31,7 +31,7 @@ impl Foreign for Environment {
 
 /// What a name of a function means in an environment: a local macro's function, `NIL` for a local
 /// function, `None` if the environment does not know the name.
-pub(crate) fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
+pub fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
     let Environment(scope) = environment.as_foreign::<Environment>()?;
     scope.function(name, false).map(|meaning| match meaning {
         FunctionMeaning::Macro(function) => Value::Function(function.clone()),

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::scope::{Block, Tagbody, Var};
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Parameters;
-use crate::lisp::value::symbol::Sym;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::code::Parameters;
+use crate::value::symbol::Sym;
 
 /// What a call calls.
-pub(crate) enum Target {
+pub enum Target {
     /// A global function.
     Global(Sym),
     /// A function that an expression computes.
@@ -17,7 +17,7 @@ pub(crate) enum Target {
 }
 
 /// One variable that a form binds.
-pub(crate) enum Binding {
+pub enum Binding {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic binding.
@@ -25,17 +25,17 @@ pub(crate) enum Binding {
 }
 
 /// An optional or key parameter.
-pub(crate) struct Default {
+pub struct Default {
     /// The parameter's own variable: the slot that the machine fills.
-    pub(crate) var: Rc<Var>,
+    pub var: Rc<Var>,
     /// The value if it is not supplied.
-    pub(crate) init: Node,
+    pub init: Node,
     /// The variable that tells whether it was supplied.
-    pub(crate) supplied: Option<Binding>,
+    pub supplied: Option<Binding>,
 }
 
 /// What happens at the start of a function, in order.
-pub(crate) enum Prologue {
+pub enum Prologue {
     /// An optional or key parameter gets its default.
     Default(Default),
     /// A parameter that is declared special is bound to its slot's value.
@@ -45,28 +45,28 @@ pub(crate) enum Prologue {
 }
 
 /// A function expression.
-pub(crate) struct LambdaNode {
+pub struct LambdaNode {
     /// Name for backtraces and printing.
-    pub(crate) name: Value,
+    pub name: Value,
     /// The parameters as the machine fills them.
-    pub(crate) parameters: Parameters,
+    pub parameters: Parameters,
     /// Variables of the parameter slots.
-    pub(crate) slots: Vec<Rc<Var>>,
+    pub slots: Vec<Rc<Var>>,
     /// Defaults and auxiliary variables.
-    pub(crate) prologue: Vec<Prologue>,
-    pub(crate) body: Node,
+    pub prologue: Vec<Prologue>,
+    pub body: Node,
     /// Free variables, in the order of the closure's captures.
-    pub(crate) free: Vec<Rc<Var>>,
+    pub free: Vec<Rc<Var>>,
     /// The number of the function.
-    pub(crate) id: usize,
+    pub id: usize,
     /// The lambda list as written.
-    pub(crate) lambda_list: Value,
+    pub lambda_list: Value,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// A piece of program.
-pub(crate) enum Node {
+pub enum Node {
     /// A constant.
     Const(Value),
     /// The value of a lexical variable.
@@ -134,5 +134,5 @@ pub(crate) enum Node {
 
 impl Node {
     /// The constant `NIL`.
-    pub(crate) const NIL: Node = Node::Const(Value::NIL);
+    pub const NIL: Node = Node::Const(Value::NIL);
 }

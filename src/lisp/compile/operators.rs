@@ -2,7 +2,7 @@
 //! special operators.
 
 use super::{compiled_macros, control_macros, define_macros, destructure, quasiquote, setf};
-use crate::lisp::builtin::{Expander, Operator};
+use crate::builtin::{Expander, Operator};
 
 const fn special(
     name: &'static str,
@@ -36,7 +36,7 @@ const fn macro_(
 }
 
 /// Special operators of package `COMMON-LISP`.
-pub(crate) static SPECIAL_FORMS: &[Operator] = &[
+pub static SPECIAL_FORMS: &[Operator] = &[
     special(
         "QUOTE",
         "object",
@@ -196,7 +196,7 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
 ];
 
 /// Special operators of package `SYSTEM`.
-pub(crate) static SYSTEM_FORMS: &[Operator] = &[special(
+pub static SYSTEM_FORMS: &[Operator] = &[special(
     "NAMED-LAMBDA",
     "name lambda-list &body body",
     "A function with a name, whose body stands in a block of that name.",
@@ -204,7 +204,7 @@ pub(crate) static SYSTEM_FORMS: &[Operator] = &[special(
 )];
 
 /// Macros of package `SYSTEM`.
-pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
+pub static SYSTEM_OPERATORS: &[Operator] = &[
     macro_(
         "QUASIQUOTE",
         "template",
@@ -222,7 +222,7 @@ pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
 ];
 
 /// Macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[Operator] = &[
+pub static OPERATORS: &[Operator] = &[
     macro_(
         "LAMBDA",
         "lambda-list &body body",

@@ -3,35 +3,35 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::symbol::Sym;
 
 /// A lexical variable (or local function, or identity of a block).
-pub(crate) struct Var {
-    pub(crate) name: Sym,
+pub struct Var {
+    pub name: Sym,
     /// The function that binds it.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Does an inner function refer to it?
-    pub(crate) captured: Cell<bool>,
+    pub captured: Cell<bool>,
     /// Is it ever assigned after its binding?
-    pub(crate) assigned: Cell<bool>,
+    pub assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
-    pub(crate) slot: Cell<u32>,
+    pub slot: Cell<u32>,
     /// Does the program read it?
-    pub(crate) used: Cell<bool>,
+    pub used: Cell<bool>,
 }
 
 impl Var {
     /// Must the variable live in a box?
-    pub(crate) fn is_boxed(&self) -> bool {
+    pub fn is_boxed(&self) -> bool {
         self.captured.get() && self.assigned.get()
     }
 }
 
 /// What a name in variable position means.
 #[derive(Clone)]
-pub(crate) enum VariableMeaning {
+pub enum VariableMeaning {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic variable, declared so in this scope.
@@ -42,7 +42,7 @@ pub(crate) enum VariableMeaning {
 
 /// What a name in function position means.
 #[derive(Clone)]
-pub(crate) enum FunctionMeaning {
+pub enum FunctionMeaning {
     /// A local function: a variable that holds it.
     Local(Rc<Var>),
     /// A local macro.
@@ -51,42 +51,42 @@ pub(crate) enum FunctionMeaning {
 
 /// Kinds of dynamic entries that are open while code of one function runs.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum DynamicKind {
+pub enum DynamicKind {
     /// A binding, handlers, restarts or catch: undone by dropping it.
     Plain,
     /// Cleanup forms that must run.
     Unwind,
 }
 
-pub(crate) struct Block {
-    pub(crate) name: Sym,
+pub struct Block {
+    pub name: Sym,
     /// The function it is in.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// The variable that holds its identity.
-    pub(crate) identity: Rc<Var>,
+    pub identity: Rc<Var>,
     /// Must it be left by unwinding?
-    pub(crate) dynamic: Cell<bool>,
+    pub dynamic: Cell<bool>,
     /// Is it ever left by `return-from`?
-    pub(crate) used: Cell<bool>,
+    pub used: Cell<bool>,
 }
 
-pub(crate) struct Tagbody {
+pub struct Tagbody {
     /// The tags: symbols or integers.
-    pub(crate) tags: Vec<Value>,
+    pub tags: Vec<Value>,
     /// The function it is in.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// The variable that holds its identity.
-    pub(crate) identity: Rc<Var>,
+    pub identity: Rc<Var>,
     /// Must its tags be reached by unwinding?
-    pub(crate) dynamic: Cell<bool>,
+    pub dynamic: Cell<bool>,
 }
 
 /// One link of the chain of scopes, innermost first.
-pub(crate) enum Entry {
+pub enum Entry {
     /// A name in variable position.
     Variable(Sym, VariableMeaning),
     /// A name in function position; the flag distinguishes `(setf name)` from `name`.
@@ -99,7 +99,7 @@ pub(crate) enum Entry {
 
 /// An immutable chain of scopes.
 #[derive(Clone, Default)]
-pub(crate) struct Scope(Option<Rc<Link>>);
+pub struct Scope(Option<Rc<Link>>);
 
 struct Link {
     entry: Entry,
@@ -120,7 +120,7 @@ impl Drop for Link {
 
 impl Scope {
     /// The scope with one more entry.
-    pub(crate) fn with(&self, entry: Entry) -> Scope {
+    pub fn with(&self, entry: Entry) -> Scope {
         Scope(Some(Rc::new(Link {
             entry,
             outer: self.clone(),
@@ -137,7 +137,7 @@ impl Scope {
     }
 
     /// The meaning of a variable name, if it is not global.
-    pub(crate) fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
+    pub fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Variable(n, meaning) if *n == name => Some(meaning),
             _ => None,
@@ -145,7 +145,7 @@ impl Scope {
     }
 
     /// The names of lexical variables, innermost first.
-    pub(crate) fn variables(&self) -> impl Iterator<Item = Sym> {
+    pub fn variables(&self) -> impl Iterator<Item = Sym> {
         self.entries().filter_map(|e| match e {
             Entry::Variable(name, VariableMeaning::Lexical(_)) => Some(*name),
             _ => None,
@@ -153,7 +153,7 @@ impl Scope {
     }
 
     /// The meaning of a function name, if it is not global.
-    pub(crate) fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
+    pub fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Function(n, s, meaning) if *n == name && *s == is_setf => Some(meaning),
             _ => None,
@@ -161,7 +161,7 @@ impl Scope {
     }
 
     /// The innermost block of that name.
-    pub(crate) fn block(&self, name: Sym) -> Option<&Rc<Block>> {
+    pub fn block(&self, name: Sym) -> Option<&Rc<Block>> {
         self.entries().find_map(|e| match e {
             Entry::Block(b) if b.name == name => Some(b),
             _ => None,
@@ -169,7 +169,7 @@ impl Scope {
     }
 
     /// The innermost tagbody with that tag, and the tag's number.
-    pub(crate) fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
+    pub fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
         self.entries().find_map(|e| match e {
             Entry::Tagbody(t) => {
                 let index = t.tags.iter().position(|other| other.is_eql(tag))?;
@@ -181,11 +181,11 @@ impl Scope {
 }
 
 /// A function that is being compiled.
-pub(crate) struct FunctionContext {
+pub struct FunctionContext {
     /// The number of the function around it.
-    pub(crate) outer: Option<usize>,
+    pub outer: Option<usize>,
     /// Variables of outer functions that it refers to, in order of first use.
-    pub(crate) free: RefCell<Vec<Rc<Var>>>,
+    pub free: RefCell<Vec<Rc<Var>>>,
     /// Dynamic entries that are open at this point.
-    pub(crate) dynamic: RefCell<Vec<DynamicKind>>,
+    pub dynamic: RefCell<Vec<DynamicKind>>,
 }

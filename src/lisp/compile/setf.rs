@@ -1,31 +1,31 @@
 //! Generalised places: `setf` and the macros that modify a place.
 
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::image::setf_expander::SetfExpander;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::image::setf_expander::SetfExpander;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A setf expansion: evaluate `values` into `temps` in order, bind `stores` to the new values, then
 /// evaluate `setter`; `getter` reads the place.
-pub(crate) struct Expansion {
+pub struct Expansion {
     /// Variables for the place's subforms.
-    pub(crate) temps: Vec<Value>,
+    pub temps: Vec<Value>,
     /// The subforms.
-    pub(crate) values: Vec<Value>,
+    pub values: Vec<Value>,
     /// Variables for the new values.
-    pub(crate) stores: Vec<Value>,
+    pub stores: Vec<Value>,
     /// The form that stores.
-    pub(crate) setter: Value,
+    pub setter: Value,
     /// The form that reads.
-    pub(crate) getter: Value,
+    pub getter: Value,
 }
 
 /// The setf expansion of a place.
-pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
+pub fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
         Value::Symbol(..) => {
             if let Some(inner) = symbol_macro(image, place)? {
@@ -431,7 +431,7 @@ fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
 /// A form that replaces a place's value by a function of it: `new_value` maps the form that reads
 /// the place to the form for the new value. The variable in `before` is bound before the place's
 /// parts are evaluated, those in `operands` after that, and before the place is read.
-pub(crate) fn modify(
+pub fn modify(
     image: &mut Image,
     place: &Value,
     before: Option<(Value, Value)>,
@@ -485,7 +485,7 @@ fn incremented(image: &mut Image, form: &Value, operator: Sym) -> Result<Value, 
 
 /// A form that is evaluated before what comes after it, as a variable and its binding; it stays as
 /// it is if that makes no difference. `may_change`: may what comes after it assign variables?
-pub(crate) fn operand(
+pub fn operand(
     image: &mut Image,
     name: &str,
     form: Value,

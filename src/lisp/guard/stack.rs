@@ -13,16 +13,16 @@ thread_local! {
 
 /// The stack is used up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct TooDeep;
+pub struct TooDeep;
 
 /// Sets how many bytes of this thread's stack may be used.
-pub(crate) fn set_stack_budget(bytes: usize) {
+pub fn set_stack_budget(bytes: usize) {
     BUDGET_HERE.set(bytes);
 }
 
 /// An error if the stack is used up. To be called by every Rust function that calls itself for
 /// the parts of a form, which may be of any depth, and even circular.
-pub(crate) fn descend() -> Result<(), TooDeep> {
+pub fn descend() -> Result<(), TooDeep> {
     let marker = 0_u8;
     let here = std::ptr::from_ref(&marker).addr();
     let top = TOP.get().max(here);

@@ -1,11 +1,11 @@
 //! How `setf` treats an operator, as defined by a program.
 
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::symbol::Sym;
 
 /// How `setf` of a form with a certain operator is expanded if there is no function `(setf name)`.
 #[derive(Clone)]
-pub(crate) enum SetfExpander {
+pub enum SetfExpander {
     /// `(defsetf access update)`: the update function takes the arguments, then the value.
     Update(Sym),
     /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables

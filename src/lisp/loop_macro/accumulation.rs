@@ -4,13 +4,13 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Accumulator, Building, Plan};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// How a clause adds to a result.
 #[derive(Clone, Copy)]
-pub(crate) enum Adding {
+pub enum Adding {
     /// An element at the end of a list.
     Collect,
     /// The elements of a list, copied.
@@ -29,7 +29,7 @@ pub(crate) enum Adding {
 
 impl Adding {
     /// What a word of a clause means.
-    pub(crate) fn named(word: &str) -> Option<Adding> {
+    pub fn named(word: &str) -> Option<Adding> {
         Some(match word {
             "COLLECT" | "COLLECTING" => Adding::Collect,
             "APPEND" | "APPENDING" => Adding::Append,
@@ -52,7 +52,7 @@ impl Adding {
 }
 
 /// Reads what follows the form of an accumulation, and builds the form that adds.
-pub(crate) fn parse(
+pub fn parse(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     word: &str,

@@ -2,9 +2,9 @@
 
 use super::parser::Parser;
 use super::plan::{Accumulator, Assignment, Plan};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// The most variables in a tree.
 const MAX_VARIABLES: usize = 10_000;
@@ -12,7 +12,7 @@ const MAX_VARIABLES: usize = 10_000;
 /// Reads a variable or tree of variables, and a type if one follows.
 ///
 /// Returns the tree and the type.
-pub(crate) fn variable(
+pub fn variable(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     clause: &str,
@@ -42,11 +42,7 @@ pub(crate) fn variable(
 }
 
 /// Checks that no `for` or `with` clause binds a variable yet.
-pub(crate) fn only_once(
-    parser: &Parser<'_>,
-    plan: &Plan,
-    variable: &Value,
-) -> Result<(), Box<Raise>> {
+pub fn only_once(parser: &Parser<'_>, plan: &Plan, variable: &Value) -> Result<(), Box<Raise>> {
     if plan.variables.iter().any(|v| v.is_eq(variable)) {
         return Err(twice(parser, variable));
     }
@@ -61,10 +57,7 @@ fn twice(parser: &Parser<'_>, variable: &Value) -> Box<Raise> {
 }
 
 /// Reads a type: after `of-type`, or one of the simple types that may stand alone.
-pub(crate) fn variable_type(
-    parser: &mut Parser<'_>,
-    clause: &str,
-) -> Result<Option<Value>, Box<Raise>> {
+pub fn variable_type(parser: &mut Parser<'_>, clause: &str) -> Result<Option<Value>, Box<Raise>> {
     if parser.accept(&["OF-TYPE"]) {
         return parser.form(&format!("OF-TYPE in {clause}")).map(Some);
     }
@@ -75,7 +68,7 @@ pub(crate) fn variable_type(
 }
 
 /// The value of a variable that was not given one.
-pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
+pub fn default_value(of_type: Option<&Value>) -> Value {
     match of_type {
         Some(Value::Symbol(
             known::FIXNUM
@@ -96,7 +89,7 @@ pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
 }
 
 /// Each variable of a tree, with the value that it has if it is given none. The type may be a tree, too.
-pub(crate) fn defaults(tree: &Value, of_type: Option<&Value>) -> Vec<Assignment> {
+pub fn defaults(tree: &Value, of_type: Option<&Value>) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), of_type.cloned())];
     while let Some((part, of_type)) = pending.pop() {
@@ -140,7 +133,7 @@ fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Each variable of a tree, with the form that extracts its value from a variable.
-pub(crate) fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
+pub fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), whole.clone())];
     while let Some((part, form)) = pending.pop() {

@@ -6,9 +6,9 @@ use super::iteration;
 use super::parser::Parser;
 use super::plan::{Plan, Step};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Words that begin a clause, for messages.
 const CLAUSES: &[&str] = &[
@@ -52,7 +52,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// Reads all clauses.
-pub(crate) fn parse(parser: &mut Parser<'_>) -> Result<Plan, Box<Raise>> {
+pub fn parse(parser: &mut Parser<'_>) -> Result<Plan, Box<Raise>> {
     let mut plan = Plan {
         name: Value::NIL,
         end_tag: parser.fresh("END"),

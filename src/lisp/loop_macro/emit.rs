@@ -2,9 +2,9 @@
 
 use super::assign;
 use super::plan::{Accumulator, Assignment, Building, Plan, Step};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
 
 fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Value {
     let args: Vec<Value> = args.into_iter().collect();
@@ -12,7 +12,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// The form of a whole loop.
-pub(crate) fn form(image: &mut Image, mut plan: Plan) -> Value {
+pub fn form(image: &mut Image, mut plan: Plan) -> Value {
     let next_tag: Value = image.gensym("NEXT").into();
     let first_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.first));
     let next_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.next));

@@ -4,9 +4,9 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Assignment, Plan, Step};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Words that may follow the variable of a `for` clause.
 const AFTER_VARIABLE: &[&str] = &[
@@ -37,7 +37,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// Reads a `for` clause, after that word, and the clauses that `and` joins to it.
-pub(crate) fn parse(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
+pub fn parse(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
     let mut joined = one(parser, plan)?;
     while parser.accept(&["AND"]) {
         parser.accept(&["FOR", "AS"]);

@@ -16,11 +16,11 @@ mod support;
 use self::parser::Parser;
 use super::value::known;
 use super::value::raise::Raise;
-use crate::lisp::builtin::Operator;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
+use crate::builtin::Operator;
+use crate::image::Image;
+use crate::value::Value;
 
-pub(crate) use support::SYSTEM_TABLE;
+pub use support::SYSTEM_TABLE;
 
 /// Expands `(loop …)`.
 fn expand(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
@@ -58,7 +58,7 @@ fn stray_finish(_: &mut Image, _: &Value) -> Result<Value, Box<Raise>> {
 }
 
 /// `loop` and `loop-finish`.
-pub(crate) static OPERATORS: &[Operator] = &[
+pub static OPERATORS: &[Operator] = &[
     Operator {
         name: "LOOP",
         lambda_list: "&rest clauses",

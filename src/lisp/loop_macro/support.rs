@@ -2,32 +2,32 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Sequence;
-use crate::lisp::value::sequence::last_pair;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::cons::Cons;
+use crate::value::known;
+use crate::value::number;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::sequence::Sequence;
+use crate::value::sequence::last_pair;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The symbol of a name in `COMMON-LISP`.
-pub(crate) fn common(image: &mut Image, name: &str) -> Value {
+pub fn common(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::CL, name).into()
 }
 
 /// The symbol of a name in `SYSTEM`.
-pub(crate) fn system(image: &mut Image, name: &str) -> Value {
+pub fn system(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::SYSTEM, name).into()
 }
 
 /// Checks that a step is a positive number.
-pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
+pub fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
     let positive = number::compare(step, &Value::Int(0)).ok().flatten();
     if positive == Some(std::cmp::Ordering::Greater) {
         Ok(())
@@ -88,7 +88,7 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Functions that loops call, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "EXTEND-LIST",
         "last-pair element",

@@ -2,20 +2,20 @@
 
 use super::method::extended_function;
 use super::update;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::Instance;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// What is done with a slot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Access {
+pub enum Access {
     /// The value is read.
     Read,
     /// A value is stored.
@@ -39,7 +39,7 @@ impl Access {
 }
 
 /// The value of a slot.
-pub(crate) fn slot_value(
+pub fn slot_value(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -61,7 +61,7 @@ pub(crate) fn slot_value(
 
 /// Stores a value in a slot and returns it. `again` is the function that does the same,
 /// called once more after an update of the instance.
-pub(crate) fn set_slot_value(
+pub fn set_slot_value(
     machine: &mut Machine<'_>,
     value: Value,
     object: &Value,
@@ -83,7 +83,7 @@ pub(crate) fn set_slot_value(
 }
 
 /// Does the slot have a value?
-pub(crate) fn slot_boundp(
+pub fn slot_boundp(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -103,7 +103,7 @@ pub(crate) fn slot_boundp(
 }
 
 /// Makes a slot unbound; returns the instance.
-pub(crate) fn slot_makunbound(
+pub fn slot_makunbound(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -134,9 +134,9 @@ fn unbound(machine: &mut Machine<'_>, object: &Value, slot: Sym) -> Result<Step,
 }
 
 /// The error for a slot without a value.
-pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
+pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
-        place: crate::lisp::source::Place::NONE,
+        place: crate::source::Place::NONE,
         class: known::UNBOUND_SLOT,
         report: None,
         initargs: vec![
@@ -176,7 +176,7 @@ fn missing(
 }
 
 /// The error for a slot that the object does not have.
-pub(crate) fn missing_slot(
+pub fn missing_slot(
     image: &Image,
     object: &Value,
     slot: Sym,
@@ -200,7 +200,7 @@ pub(crate) fn missing_slot(
 }
 
 /// Does the object have a slot of this name?
-pub(crate) fn slot_exists(object: &Value, slot: Sym) -> bool {
+pub fn slot_exists(object: &Value, slot: Sym) -> bool {
     matches!(object, Value::Instance(i) if has_slot(i, slot))
 }
 
@@ -209,7 +209,7 @@ fn has_slot(instance: &Instance, slot: Sym) -> bool {
 }
 
 /// A slot name, which is a symbol.
-pub(crate) fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
+pub fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
     name.as_symbol()
         .ok_or_else(|| Raise::type_error(name, Value::symbol(known::SYMBOL)))
 }

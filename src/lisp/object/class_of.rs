@@ -1,26 +1,26 @@
 //! The class of a value.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind};
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind};
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// Integers of at most this many bits are fixnums, as in SBCL on 64-bit machines.
 const FIXNUM_BITS: u32 = 62;
 
 /// Is the integer a fixnum?
-pub(crate) fn is_fixnum(n: i64) -> bool {
+pub fn is_fixnum(n: i64) -> bool {
     let limit = 1_i64 << FIXNUM_BITS;
     (-limit..limit).contains(&n)
 }
 
 /// The class of a value.
-pub(crate) fn class_of(image: &Image, value: &Value) -> Rc<Class> {
+pub fn class_of(image: &Image, value: &Value) -> Rc<Class> {
     if let Value::Instance(instance) = value {
         return instance.class();
     }
@@ -33,7 +33,7 @@ pub(crate) fn class_of(image: &Image, value: &Value) -> Rc<Class> {
 }
 
 /// The name of the class of a value that is not an instance. A foreign value names its own.
-pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
+pub fn builtin_class_name(image: &Image, value: &Value) -> Sym {
     match value {
         Value::Symbol(known::NIL, ..) => known::NULL,
         Value::Symbol(sym, ..) if image.is_keyword(*sym) => known::KEYWORD,
@@ -71,7 +71,7 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
 }
 
 /// The name of the class of a class.
-pub(crate) fn metaclass_name(class: &Class) -> Sym {
+pub fn metaclass_name(class: &Class) -> Sym {
     match class.kind {
         ClassKind::Builtin => known::BUILT_IN_CLASS,
         ClassKind::Standard => known::STANDARD_CLASS,
@@ -83,7 +83,7 @@ pub(crate) fn metaclass_name(class: &Class) -> Sym {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     #[test]
     fn nil_is_of_class_null_which_is_a_symbol_and_a_list() {

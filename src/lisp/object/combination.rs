@@ -1,12 +1,12 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{form, quote};
-use crate::lisp::value::generic::Combination;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::form::{form, quote};
+use crate::value::generic::Combination;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Operators that combinations are named after, and whether the value of a single method is
 /// the value of the call.
@@ -24,13 +24,13 @@ const BUILTIN: &[(Sym, bool)] = &[
 ];
 
 /// Is this the name of a combination of the language?
-pub(crate) fn is_builtin(name: &Value) -> bool {
+pub fn is_builtin(name: &Value) -> bool {
     let name = name.as_symbol();
     BUILTIN.iter().any(|(operator, _)| Some(*operator) == name)
 }
 
 /// The combination of a name.
-pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
+pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
     let unknown = || {
         Raise::program(format!(
             "There is no method combination named {}.",
@@ -60,10 +60,7 @@ pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combinati
 }
 
 /// `(define-method-combination name :operator operator :identity-with-one-argument flag)`.
-pub(crate) fn expand_define_method_combination(
-    _: &mut Image,
-    whole: &Value,
-) -> Result<Value, Box<Raise>> {
+pub fn expand_define_method_combination(_: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
     let [_, name @ Value::Symbol(..), options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
@@ -92,7 +89,7 @@ pub(crate) fn expand_define_method_combination(
 }
 
 /// The builtin behind it: `(name operator identity)`; returns the name.
-pub(crate) fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
     };

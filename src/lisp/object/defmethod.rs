@@ -6,16 +6,16 @@ use super::combination::combination_named;
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
 };
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{doc_form, form, quote, split_body};
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::form::{doc_form, form, quote, split_body};
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
-pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let mut items = whole.iter_list();
     items.next();
     let name = items.next().unwrap_or(Value::NIL);
@@ -96,7 +96,7 @@ fn method_function(
     image: &mut Image,
     name: &Value,
     lambda_list: &Value,
-    body: crate::lisp::value::form::Body,
+    body: crate::value::form::Body,
     takes_next: bool,
 ) -> Value {
     let lambda_list = with_other_keys(lambda_list);
@@ -198,7 +198,7 @@ fn any_part(form: &Value, test: impl Fn(&Value) -> bool) -> bool {
 }
 
 /// The builtin behind `defmethod`: returns the method.
-pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         name,
         qualifiers,
@@ -239,7 +239,7 @@ pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box
 }
 
 /// `(defgeneric name lambda-list options… methods…)`.
-pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
     let [_, name, lambda_list, options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
@@ -310,10 +310,7 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
 }
 
 /// The builtin behind `defgeneric`: returns the generic function.
-pub(crate) fn ensure_generic_function(
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Value, Box<Raise>> {
+pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [name, lambda_list, combination, doc, order, keep] = args else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
@@ -390,7 +387,7 @@ fn precedence_order(
 }
 
 /// Records that a method was made by the `defgeneric` of its own generic function.
-pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     if let Some(object) = args
         .first()
         .and_then(|a| a.as_foreign::<super::method::MethodObject>())

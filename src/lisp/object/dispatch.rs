@@ -10,19 +10,19 @@ use std::rc::Rc;
 use super::class_of::{builtin_class_name, class_of};
 use super::combine;
 use super::update;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::dispatch::{
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::dispatch::{
     BUILTIN_TAG, Dispatch, EQL_TAG, Effective, Key, MAX_ENTRIES, MAX_PARTS, NO_PART, Part,
     Position, Shape, SlotPlace,
 };
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{GenericFunction, Method};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::function::Function;
+use crate::value::generic::{GenericFunction, Method};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 impl Dispatch {
     /// The key of a call; none if it has too many parts.
@@ -72,7 +72,7 @@ impl Position {
 }
 
 /// Calls a generic function.
-pub(crate) fn call_generic(
+pub fn call_generic(
     machine: &mut Machine<'_>,
     function: &Rc<Function>,
     args: Vec<Value>,
@@ -117,7 +117,7 @@ pub(crate) fn call_generic(
 }
 
 /// A call of a generic function that is no more than a slot or one function.
-pub(crate) enum AtOnce {
+pub enum AtOnce {
     /// The value of the slot, which has been read or written.
     Slot(Value),
     /// The function of the only method that runs; it takes the arguments of the call.
@@ -126,11 +126,7 @@ pub(crate) enum AtOnce {
 
 /// Calls a generic function with arguments that need not be moved, if the effective method is known and
 /// that simple.
-pub(crate) fn call_at_once(
-    image: &Image,
-    generic: &GenericFunction,
-    args: &[Value],
-) -> Option<AtOnce> {
+pub fn call_at_once(image: &Image, generic: &GenericFunction, args: &[Value]) -> Option<AtOnce> {
     if !generic.parameters.borrow().accepts(args.len()) || args.iter().any(is_obsolete) {
         return None;
     }
@@ -227,7 +223,7 @@ fn effective_method(
 }
 
 /// Checks the keyword arguments of a call against those that its methods accept.
-fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
+fn check_keys(image: &Image, keys: &[crate::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
     if !args.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
@@ -279,11 +275,7 @@ fn no_applicable_method(
 }
 
 /// The error for a call to which no method of a generic function applies.
-pub(crate) fn no_applicable_method_error(
-    image: &Image,
-    function: Value,
-    args: Vec<Value>,
-) -> Box<Raise> {
+pub fn no_applicable_method_error(image: &Image, function: Value, args: Vec<Value>) -> Box<Raise> {
     let args = Value::list(args);
     let report = format!(
         "There is no applicable method for the generic function\n  {}\nwhen called with arguments\n  {}.",

@@ -6,22 +6,19 @@ use super::define::no_class;
 use super::effective::applicable_methods;
 use super::fill::{Finish, Which, fill};
 use super::method::extended_function;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind, Initform, Instance};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind, Initform, Instance};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// `(make-instance class initargs…)`.
-pub(crate) fn make_instance(
-    machine: &mut Machine<'_>,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+pub fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let mut args = args.into_iter();
     let designator = args.next().unwrap_or(Value::NIL);
     if matches!(designator, Value::Symbol(..))
@@ -118,7 +115,7 @@ fn call_and_return(
 }
 
 /// The class that a class or a class name designates.
-pub(crate) fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
+pub fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
     match designator {
         Value::Class(class) => Ok(class.clone()),
         Value::Symbol(name, ..) => image
@@ -131,10 +128,7 @@ pub(crate) fn designated_class(image: &Image, designator: &Value) -> Result<Rc<C
 }
 
 /// Like [`designated_class`], but an error if the class cannot be instantiated.
-pub(crate) fn instantiable_class(
-    image: &Image,
-    designator: &Value,
-) -> Result<Rc<Class>, Box<Raise>> {
+pub fn instantiable_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
     let class = designated_class(image, designator)?;
     check_instantiable(image, &class)?;
     Ok(class)
@@ -261,7 +255,7 @@ fn method_keys(image: &Image, protocol: &[ProtocolCall]) -> Option<Vec<Sym>> {
 }
 
 /// The default `initialize-instance`.
-pub(crate) fn initialize_instance(
+pub fn initialize_instance(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
@@ -269,7 +263,7 @@ pub(crate) fn initialize_instance(
 }
 
 /// The default `reinitialize-instance`: no initforms.
-pub(crate) fn reinitialize_instance(
+pub fn reinitialize_instance(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
@@ -294,10 +288,7 @@ fn share(machine: &mut Machine<'_>, args: Vec<Value>, names: Value) -> Result<St
 }
 
 /// The default `shared-initialize`: `(instance slot-names initargs…)`.
-pub(crate) fn shared_initialize(
-    machine: &mut Machine<'_>,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+pub fn shared_initialize(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let [object, names, initargs @ ..] = args.as_slice() else {
         return Err(Raise::program("invalid number of arguments: 1"));
     };
@@ -314,10 +305,7 @@ pub(crate) fn shared_initialize(
 }
 
 /// `(allocate-instance class …)`: an instance whose slots are unbound.
-pub(crate) fn allocate_instance(
-    machine: &mut Machine<'_>,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+pub fn allocate_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let designator = args.first().cloned().unwrap_or(Value::NIL);
     let class = instantiable_class(machine.image, &designator)?;
     Ok(Step::Return(Value::Instance(Rc::new(Instance::new(class)))))

@@ -1,11 +1,11 @@
 //! Classes of packages beside `COMMON-LISP`: streams whose elements come from methods of a program,
 //! and what describes slots and specializers.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{ClassKind, Initform, SlotDefinition};
-use crate::lisp::value::package::{PackageId, PackageTable};
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{ClassKind, Initform, SlotDefinition};
+use crate::value::package::{PackageId, PackageTable};
+use crate::value::symbol::Sym;
 
 use super::define::ClassDefinition;
 
@@ -17,7 +17,7 @@ type Row = (
 );
 
 /// The package of streams that are objects.
-pub(crate) const STREAMS: &str = "GRAY-STREAMS";
+pub const STREAMS: &str = "GRAY-STREAMS";
 
 /// The packages, with other names and classes. Superclasses that a package does not have itself are
 /// those of `COMMON-LISP`.
@@ -116,7 +116,7 @@ const PACKAGES: &[(&str, &[&str], &[Row])] = &[
 
 impl Image {
     /// Makes the packages and their classes. Done once, in a new image, after the standard classes.
-    pub(crate) fn define_library_classes(&mut self) {
+    pub fn define_library_classes(&mut self) {
         for (name, nicknames, rows) in PACKAGES {
             let Some(package) = self.packages.make(name, nicknames) else {
                 continue;
@@ -158,7 +158,7 @@ impl Image {
     }
 
     /// May a program add methods to the functions of a symbol because it belongs to the streams?
-    pub(crate) fn is_stream_function(&self, sym: Sym) -> bool {
+    pub fn is_stream_function(&self, sym: Sym) -> bool {
         let package = self.symbols.get(sym).package;
         package.is_some() && package == self.packages.find(STREAMS)
     }

@@ -3,19 +3,19 @@
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
-use crate::lisp::image::Image;
-use crate::lisp::print::qualified;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Class;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::dispatch::Dispatch;
-use crate::lisp::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::image::Image;
+use crate::print::qualified;
+use crate::value::Value;
+use crate::value::class::Class;
+use crate::value::copy::Copier;
+use crate::value::dispatch::Dispatch;
+use crate::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
+use crate::value::function::{Body, Function};
+use crate::value::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// Functions of the standard that a program may add methods to. They are plain functions until it
 /// does: then the plain function becomes the default method.
@@ -51,7 +51,7 @@ fn is_extensible(image: &Image, sym: Sym) -> bool {
 }
 
 /// A method as a value.
-pub(crate) struct MethodObject(pub(crate) Rc<Method>);
+pub struct MethodObject(pub Rc<Method>);
 
 impl Foreign for MethodObject {
     fn copied(&self, _: &mut Copier) -> ForeignCopy {
@@ -82,7 +82,7 @@ impl Foreign for MethodObject {
 }
 
 /// The value that stands for a method: always the same one as long as it is referenced.
-pub(crate) fn method_value(method: &Rc<Method>) -> Value {
+pub fn method_value(method: &Rc<Method>) -> Value {
     if let Some(object) = method.object.borrow().upgrade() {
         return Value::Foreign(object);
     }
@@ -103,7 +103,7 @@ fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
 }
 
 /// The generic function with this name, made with these parameters if there is none.
-pub(crate) fn ensure_generic(
+pub fn ensure_generic(
     image: &mut Image,
     name: &Value,
     parameters: &Parameters,
@@ -152,7 +152,7 @@ pub(crate) fn ensure_generic(
 }
 
 /// The generic function of a name, though its calls may be shown.
-pub(crate) fn generic_named(image: &Image, name: &Value) -> Option<Rc<Function>> {
+pub fn generic_named(image: &Image, name: &Value) -> Option<Rc<Function>> {
     let function = image.named_function(name);
     function
         .filter(|function| function.as_generic().is_some())
@@ -231,25 +231,25 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 }
 
 /// What a method definition says.
-pub(crate) struct MethodDefinition {
+pub struct MethodDefinition {
     /// The name of the generic function.
-    pub(crate) name: Value,
-    pub(crate) qualifiers: Vec<Sym>,
+    pub name: Value,
+    pub qualifiers: Vec<Sym>,
     /// One per required parameter.
-    pub(crate) specializers: Vec<Specializer>,
-    pub(crate) parameters: Parameters,
+    pub specializers: Vec<Specializer>,
+    pub parameters: Parameters,
     /// The method function.
-    pub(crate) function: Rc<Function>,
+    pub function: Rc<Function>,
     /// Does the function take the next method?
-    pub(crate) takes_next: bool,
+    pub takes_next: bool,
     /// Set for slot accessors.
-    pub(crate) accessor: Option<Accessor>,
+    pub accessor: Option<Accessor>,
     /// Documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// Adds a method to the generic function of its name, which is made if there is none.
-pub(crate) fn define_method(
+pub fn define_method(
     image: &mut Image,
     definition: MethodDefinition,
 ) -> Result<Rc<Method>, Box<Raise>> {
@@ -267,7 +267,7 @@ pub(crate) fn define_method(
 }
 
 /// Adds a method; one with the same qualifiers and specializers is replaced.
-pub(crate) fn add_method(
+pub fn add_method(
     image: &Image,
     function: &Rc<Function>,
     method: Rc<Method>,
@@ -288,7 +288,7 @@ pub(crate) fn add_method(
     Ok(())
 }
 
-pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
+pub fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
     generic
         .methods
         .borrow_mut()
@@ -297,7 +297,7 @@ pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
 }
 
 /// Clears the dispatch cache.
-pub(crate) fn changed(generic: &GenericFunction) {
+pub fn changed(generic: &GenericFunction) {
     let dispatch = Dispatch::for_methods(&generic.methods.borrow());
     *generic.dispatch.borrow_mut() = dispatch;
 }
@@ -364,14 +364,14 @@ fn accepts_keys(
 }
 
 /// The generic version of a standard function, if a program has added methods to it.
-pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
+pub fn extended_function(image: &Image, name: Sym) -> Option<Value> {
     let function = image.function(name)?;
     function.as_generic()?;
     Some(Value::Function(function.clone()))
 }
 
 /// A specializer from its value: a class, the name of one, or `(eql value)`.
-pub(crate) fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
+pub fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
     match value {
         Value::Class(class) => Ok(Specializer::Class(class.clone())),
         Value::Symbol(name, ..) => class_named(image, *name).map(Specializer::Class),

@@ -3,15 +3,15 @@
 
 use std::rc::Rc;
 
-use crate::lisp::value::class::Class;
-use crate::lisp::value::raise::Raise;
+use crate::value::class::Class;
+use crate::value::raise::Raise;
 
 /// The precedence list of a class whose direct superclasses are set.
 ///
 /// `Ok(None)` while one of the superclasses is not defined. The order is the one of the
 /// Common Lisp standard, 4.3.5: a topological order in which, where there is a choice, the
 /// class with a direct subclass furthest to the right in the order so far comes first.
-pub(crate) fn precedence_list(class: &Rc<Class>) -> Result<Option<Vec<Rc<Class>>>, Box<Raise>> {
+pub fn precedence_list(class: &Rc<Class>) -> Result<Option<Vec<Rc<Class>>>, Box<Raise>> {
     let Some(mut remaining) = class_and_superclasses(class) else {
         return Ok(None);
     };
@@ -78,8 +78,8 @@ fn choose(candidates: &[Rc<Class>], order: &[Rc<Class>]) -> Option<Rc<Class>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::value::class::ClassKind;
-    use crate::lisp::value::symbol::Sym;
+    use crate::value::class::ClassKind;
+    use crate::value::symbol::Sym;
 
     fn class(n: u32, supers: &[&Rc<Class>]) -> Rc<Class> {
         let class = Class::new(Sym(n), ClassKind::Standard);

@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Initform, SlotDefinition};
-use crate::lisp::value::form::{constant_value, form, quote};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::slot::Slot;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Initform, SlotDefinition};
+use crate::value::form::{constant_value, form, quote};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::slot::Slot;
+use crate::value::symbol::Sym;
 
 /// A parsed slot description.
 struct Description {
@@ -24,21 +24,17 @@ struct Description {
 }
 
 /// A slot as the defining builtin gets it: its definition and its accessors.
-pub(crate) struct DefinedSlot {
+pub struct DefinedSlot {
     /// The definition.
-    pub(crate) slot: SlotDefinition,
+    pub slot: SlotDefinition,
     /// Names of reader functions.
-    pub(crate) readers: Vec<Value>,
+    pub readers: Vec<Value>,
     /// Names of writer functions: symbols, or lists `(setf name)`.
-    pub(crate) writers: Vec<Value>,
+    pub writers: Vec<Value>,
 }
 
 /// The form whose value [`evaluated_slot`] reads.
-pub(crate) fn slot_form(
-    image: &Image,
-    description: &Value,
-    definer: &str,
-) -> Result<Value, Box<Raise>> {
+pub fn slot_form(image: &Image, description: &Value, definer: &str) -> Result<Value, Box<Raise>> {
     let description = describe(image, description, definer)?;
     let initform = match &description.initform {
         None => Value::NIL,
@@ -59,7 +55,7 @@ pub(crate) fn slot_form(
 }
 
 /// A form for an initial value: evaluates to `(:value . constant)` or to a function.
-pub(crate) fn init_form(init: &Value) -> Value {
+pub fn init_form(init: &Value) -> Value {
     match constant_value(init) {
         Some(value) => quote(Value::cons(known::K_VALUE.into(), value)),
         None => form![known::LAMBDA, Value::NIL, init.clone()],
@@ -67,7 +63,7 @@ pub(crate) fn init_form(init: &Value) -> Value {
 }
 
 /// The initial value that [`init_form`] has described.
-pub(crate) fn evaluated_init(value: &Value) -> Option<Initform> {
+pub fn evaluated_init(value: &Value) -> Option<Initform> {
     match value {
         Value::Function(function) => Some(Initform::Function(function.clone())),
         Value::Cons(pair) => Some(Initform::Value(pair.cdr())),
@@ -76,7 +72,7 @@ pub(crate) fn evaluated_init(value: &Value) -> Option<Initform> {
 }
 
 /// Reads back what a slot form evaluated to.
-pub(crate) fn evaluated_slot(value: &Value) -> Option<DefinedSlot> {
+pub fn evaluated_slot(value: &Value) -> Option<DefinedSlot> {
     let parts = value.list_to_vec()?;
     let [
         name,

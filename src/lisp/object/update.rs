@@ -5,14 +5,14 @@ use std::rc::Rc;
 use super::fill::{Finish, Which, fill};
 use super::instance::{check_initargs, check_pairs};
 use super::method::extended_function;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance, OldSlot, SlotDefinition};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::Value;
+use crate::value::class::{Class, Instance, OldSlot, SlotDefinition};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// What a change of layout did.
 struct Change {
@@ -22,7 +22,7 @@ struct Change {
 }
 
 /// Updates an instance of a redefined class, then calls a function.
-pub(crate) fn then_call(
+pub fn then_call(
     machine: &mut Machine<'_>,
     object: Value,
     function: Value,
@@ -124,7 +124,7 @@ fn lay_out(instance: &Instance, old_layout: &[OldSlot], class: &Class) -> Change
 
 /// `change-class`: makes the instance one of another class. Slots of the same name keep
 /// their values, others are initialised.
-pub(crate) fn change_class(
+pub fn change_class(
     machine: &mut Machine<'_>,
     instance: &Rc<Instance>,
     class: &Rc<Class>,
@@ -168,7 +168,7 @@ pub(crate) fn change_class(
 
 /// The default `update-instance-for-different-class`: slots that the previous instance did
 /// not have are initialised.
-pub(crate) fn initialize_new_slots(
+pub fn initialize_new_slots(
     machine: &mut Machine<'_>,
     previous: &Instance,
     instance: &Rc<Instance>,

@@ -5,30 +5,30 @@
 
 use std::collections::VecDeque;
 
-use crate::lisp::image::Image;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Document;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::document::Document;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A call that writes a text to a stream.
 #[derive(Clone)]
-pub(crate) struct Call {
-    pub(crate) function: Value,
+pub struct Call {
+    pub function: Value,
     /// Arguments before the stream.
-    pub(crate) before: Vec<Value>,
+    pub before: Vec<Value>,
     /// Arguments after the stream.
-    pub(crate) after: Vec<Value>,
+    pub after: Vec<Value>,
     /// Variables that are bound during the call.
-    pub(crate) bindings: Vec<(Sym, Value)>,
+    pub bindings: Vec<(Sym, Value)>,
     /// Does what it writes have places where lines may break?
-    pub(crate) is_pretty: bool,
+    pub is_pretty: bool,
 }
 
 /// Calls that are needed, or their texts.
-pub(crate) struct Calls {
+pub struct Calls {
     /// Texts of calls made, in the order in which they are needed.
     texts: VecDeque<Document>,
     /// Calls without a text.
@@ -44,11 +44,11 @@ pub(crate) struct Calls {
 
 /// Whether a value is of the type that a specifier names; `None` if a call decides. The types are a room above this one, so
 /// those who make calls bring the test along.
-pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
+pub type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
-    pub(crate) fn none() -> Calls {
+    pub fn none() -> Calls {
         Calls {
             texts: VecDeque::new(),
             needed: Vec::new(),
@@ -59,10 +59,7 @@ impl Calls {
     }
 
     /// Calls are possible, and these are the texts of the first ones.
-    pub(crate) fn with_texts(
-        texts: impl IntoIterator<Item = Document>,
-        has_type: TypeTest,
-    ) -> Calls {
+    pub fn with_texts(texts: impl IntoIterator<Item = Document>, has_type: TypeTest) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
@@ -73,12 +70,12 @@ impl Calls {
     }
 
     /// Notes that an object cannot be printed so that it can be read again, as was asked for.
-    pub(crate) fn note_unreadable(&mut self, object: &Value) {
+    pub fn note_unreadable(&mut self, object: &Value) {
         self.unreadable.get_or_insert_with(|| object.clone());
     }
 
     /// The error about an object that cannot be read again, if there is one.
-    pub(crate) fn readable(&self) -> Result<(), Box<Raise>> {
+    pub fn readable(&self) -> Result<(), Box<Raise>> {
         match &self.unreadable {
             Some(object) => Err(not_readable(object)),
             None => Ok(()),
@@ -87,7 +84,7 @@ impl Calls {
 
     /// Is the value of the type? Where a call decides and has not been made, it is recorded, and the answer
     /// is no; calls after it are not recorded, since they depend on it.
-    pub(crate) fn has_type(&mut self, image: &Image, value: &Value, specifier: &Value) -> bool {
+    pub fn has_type(&mut self, image: &Image, value: &Value, specifier: &Value) -> bool {
         let Some(test) = self.has_type else {
             return false;
         };
@@ -112,7 +109,7 @@ impl Calls {
 
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
-    pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
+    pub fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
         self.has_type?;
         if let Some(text) = self.texts.pop_front() {
             return Some(text);
@@ -129,13 +126,13 @@ impl Calls {
     }
 
     /// The calls whose texts were missing.
-    pub(crate) fn into_needed(self) -> Vec<Call> {
+    pub fn into_needed(self) -> Vec<Call> {
         self.needed
     }
 }
 
 /// The error about an object that cannot be printed so that it can be read again.
-pub(crate) fn not_readable(object: &Value) -> Box<Raise> {
+pub fn not_readable(object: &Value) -> Box<Raise> {
     Box::new(Raise::Make {
         class: known::PRINT_NOT_READABLE,
         report: None,

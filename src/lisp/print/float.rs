@@ -4,13 +4,13 @@ use num_bigint::BigInt;
 use num_traits::Signed;
 
 use super::settings::Settings;
-use crate::lisp::value::known;
+use crate::value::known;
 
 /// The shortest digits of a positive finite float and the place of the decimal point:
 /// `0.DIGITS` times ten to the power of the place.
-pub(crate) struct Decimal {
-    pub(crate) digits: String,
-    pub(crate) point: i32,
+pub struct Decimal {
+    pub digits: String,
+    pub point: i32,
 }
 
 /// From Rust's shortest `d.ddde±x`.
@@ -28,7 +28,7 @@ fn decimal(scientific: &str) -> Decimal {
 }
 
 /// The shortest digits of a double float's magnitude.
-pub(crate) fn of_double(x: f64) -> Decimal {
+pub fn of_double(x: f64) -> Decimal {
     if x.is_subnormal() {
         return of_subnormal(x.abs(), f64::MANTISSA_DIGITS);
     }
@@ -36,7 +36,7 @@ pub(crate) fn of_double(x: f64) -> Decimal {
 }
 
 /// The shortest digits of a single float's magnitude.
-pub(crate) fn of_single(x: f32) -> Decimal {
+pub fn of_single(x: f32) -> Decimal {
     if x.is_subnormal() {
         return of_subnormal(f64::from(x.abs()), f32::MANTISSA_DIGITS);
     }
@@ -110,7 +110,7 @@ fn float(decimal: &Decimal, magnitude: f64, is_negative: bool, marker: Option<ch
 }
 
 /// The decimal without an exponent, with at least one digit on each side of the point.
-pub(crate) fn plain(decimal: &Decimal) -> String {
+pub fn plain(decimal: &Decimal) -> String {
     let digits = &decimal.digits;
     let length = i32::try_from(digits.len()).unwrap_or(i32::MAX);
     let zeros = |n: i32| "0".repeat(usize::try_from(n).unwrap_or(0));

@@ -8,27 +8,27 @@
 mod atom;
 mod calls;
 mod circle;
-pub(crate) mod dispatch;
+pub mod dispatch;
 mod float;
-pub(crate) mod format;
+pub mod format;
 mod layout;
 mod printer;
 mod qualified;
-pub(crate) mod report;
+pub mod report;
 mod settings;
 mod shape;
 mod symbol;
 
 #[cfg(test)]
-pub(crate) mod test_image;
+pub mod test_image;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use super::image::identity::identity;
-pub(crate) use calls::{Call, Calls, not_readable};
-pub(crate) use circle::SharedLabels;
-pub(crate) use qualified::qualified;
-pub(crate) use settings::{Case, Settings};
+pub use super::image::identity::identity;
+pub use calls::{Call, Calls, not_readable};
+pub use circle::SharedLabels;
+pub use qualified::qualified;
+pub use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
@@ -38,13 +38,13 @@ use super::value::symbol::Sym;
 
 /// A value as `prin1` (`escape`) or `princ` print it under the current printer variables,
 /// on a line of its own. Objects that need Lisp code print in their default form.
-pub(crate) fn to_string(image: &Image, value: &Value, escape: bool) -> String {
+pub fn to_string(image: &Image, value: &Value, escape: bool) -> String {
     let settings = Settings::of(image).with_escape(escape);
     write(image, value, &settings, 0, &mut Calls::none())
 }
 
 /// A value under given settings, where the line already has `column` characters.
-pub(crate) fn write(
+pub fn write(
     image: &Image,
     value: &Value,
     settings: &Settings,
@@ -55,19 +55,14 @@ pub(crate) fn write(
 }
 
 /// A value under given settings, as a part of a document in which lines will break.
-pub(crate) fn document(
-    image: &Image,
-    value: &Value,
-    settings: &Settings,
-    calls: &mut Calls,
-) -> Document {
+pub fn document(image: &Image, value: &Value, settings: &Settings, calls: &mut Calls) -> Document {
     let mut document = Document::new(settings.pretty);
     printer::Printer::new(image, &settings.effective(), calls).print_into(&mut document, value);
     document
 }
 
 /// Like [`document()`], but ignores the program's own way to print the value itself.
-pub(crate) fn document_default(
+pub fn document_default(
     image: &Image,
     value: &Value,
     settings: &Settings,
@@ -81,13 +76,13 @@ pub(crate) fn document_default(
 }
 
 /// The text of a document whose lines break, where the first line already has `column` characters.
-pub(crate) fn laid_out(document: Document, settings: &Settings, column: usize) -> String {
+pub fn laid_out(document: Document, settings: &Settings, column: usize) -> String {
     layout::lay_out(document, settings, column)
 }
 
 /// Like [`write()`], but ignores a method of `print-object` for the value itself, as the default
 /// method does.
-pub(crate) fn write_default(
+pub fn write_default(
     image: &Image,
     value: &Value,
     settings: &Settings,

@@ -1,15 +1,15 @@
 //! Feature expressions of `#+` and `#-`.
 
 use super::error::ReadErrorKind;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
 
 /// A feature expression nested more deeply than this is a mistake.
 const MAX_DEPTH: usize = 64;
 
 /// Does the feature expression hold with the current `*features*`?
-pub(crate) fn holds(image: &Image, expression: &Value) -> Result<bool, ReadErrorKind> {
+pub fn holds(image: &Image, expression: &Value) -> Result<bool, ReadErrorKind> {
     holds_at(image, expression, 0)
 }
 

@@ -5,7 +5,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum TokenKind {
+pub enum TokenKind {
     /// `; …` up to the end of the line.
     LineComment,
     /// `#| … |#`, nested.
@@ -51,22 +51,22 @@ pub(crate) enum TokenKind {
 
 /// A token: the bytes `start..end` of the text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Token {
+pub struct Token {
     /// What it is.
-    pub(crate) kind: TokenKind,
+    pub kind: TokenKind,
     /// First byte.
-    pub(crate) start: usize,
+    pub start: usize,
     /// Byte after the last one.
-    pub(crate) end: usize,
+    pub end: usize,
     /// Is it complete? False for a string, a comment or a `|name` that the end of the text cuts
     /// off.
-    pub(crate) is_closed: bool,
+    pub is_closed: bool,
 }
 
 impl Token {
     /// If the token begins with the dispatching macro character `#`: the digits after it, the
     /// letter in upper case, and where the text after that begins.
-    pub(crate) fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {
+    pub fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {
         let letter = match self.kind {
             TokenKind::Dispatch { argument, letter } => return Some((argument, letter, self.end)),
             TokenKind::Prefixed {
@@ -87,7 +87,7 @@ impl Token {
 
 /// Splits a text into tokens.
 #[derive(Clone)]
-pub(crate) struct Lexer<'t> {
+pub struct Lexer<'t> {
     text: &'t str,
     position: usize,
     /// Further characters that end a token.
@@ -98,23 +98,23 @@ pub(crate) struct Lexer<'t> {
 
 /// Is the character blank space between tokens? Pasted text may contain exotic ones.
 #[inline]
-pub(crate) fn is_blank(c: char) -> bool {
+pub fn is_blank(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200B}' | '\u{FEFF}')
 }
 
 /// Does the character end a token before it?
-pub(crate) fn is_terminating(c: char) -> bool {
+pub fn is_terminating(c: char) -> bool {
     matches!(c, '"' | '\'' | '(' | ')' | ',' | ';' | '`') || is_blank(c)
 }
 
 impl<'t> Lexer<'t> {
     /// A lexer at the start of a text.
-    pub(crate) fn new(text: &'t str) -> Lexer<'t> {
+    pub fn new(text: &'t str) -> Lexer<'t> {
         Lexer::at(text, 0)
     }
 
     /// A lexer at a byte of a text; at the end if that is not a character boundary.
-    pub(crate) fn at(text: &'t str, position: usize) -> Lexer<'t> {
+    pub fn at(text: &'t str, position: usize) -> Lexer<'t> {
         let position = if text.is_char_boundary(position) {
             position
         } else {
@@ -129,7 +129,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Lets further characters end a token.
-    pub(crate) fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
+    pub fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
         Lexer {
             terminators,
             ..self
@@ -137,7 +137,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Lets characters be parts of symbols that would mean something else.
-    pub(crate) fn with_constituents(self, constituents: &'t [char]) -> Lexer<'t> {
+    pub fn with_constituents(self, constituents: &'t [char]) -> Lexer<'t> {
         Lexer {
             constituents,
             ..self
@@ -145,13 +145,13 @@ impl<'t> Lexer<'t> {
     }
 
     /// The byte at which the search for the next token starts.
-    pub(crate) fn position(&self) -> usize {
+    pub fn position(&self) -> usize {
         self.position
     }
 
     /// Moves past blank space.
     #[inline]
-    pub(crate) fn skip_blanks(&mut self) {
+    pub fn skip_blanks(&mut self) {
         while let Some(c) = self.peek() {
             if !is_blank(c) || self.constituents.contains(&c) {
                 return;
@@ -162,7 +162,7 @@ impl<'t> Lexer<'t> {
 
     /// The next character.
     #[inline]
-    pub(crate) fn peek(&self) -> Option<char> {
+    pub fn peek(&self) -> Option<char> {
         // Almost all text is ASCII; that needs no decoding.
         match self.text.as_bytes().get(self.position) {
             Some(b) if b.is_ascii() => Some(char::from(*b)),
@@ -334,7 +334,7 @@ impl Iterator for Lexer<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::lexer::*;
+    use crate::reader::lexer::*;
 
     fn kinds(text: &str) -> Vec<(TokenKind, &str)> {
         Lexer::new(text)

@@ -1,7 +1,7 @@
 //! Values of tokens and of finished `#` forms: strings, characters, radix numbers, bit
 //! vectors, vectors, arrays and structures.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::char_name::char_named;
@@ -9,12 +9,12 @@ use super::error::ReadErrorKind;
 use super::numeric::parse_rational;
 use super::readtable::LetterCase;
 use super::symbol;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::class::{ClassKind, Instance};
-use crate::lisp::value::known;
-use crate::lisp::value::number;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::class::{ClassKind, Instance};
+use crate::value::known;
+use crate::value::number;
 
 /// Longest vector that `#n(` fills up.
 const MAX_FILL: usize = 1 << 24;
@@ -23,7 +23,7 @@ const MAX_FILL: usize = 1 << 24;
 const MAX_RANK: u32 = 128;
 
 /// A string from the text between its quotation marks.
-pub(crate) fn string(body: &str) -> Value {
+pub fn string(body: &str) -> Value {
     if !body.contains('\\') {
         return Value::string(body);
     }
@@ -36,7 +36,7 @@ pub(crate) fn string(body: &str) -> Value {
 }
 
 /// A character from the text after `#\`.
-pub(crate) fn character(name: &str) -> Result<Value, ReadErrorKind> {
+pub fn character(name: &str) -> Result<Value, ReadErrorKind> {
     let mut chars = name.chars();
     match (chars.next(), chars.next()) {
         (Some(c), None) => Ok(Value::Char(c)),
@@ -47,7 +47,7 @@ pub(crate) fn character(name: &str) -> Result<Value, ReadErrorKind> {
 }
 
 /// The value of `#x…`, `#b…`, `#o…`, `#nr…`, `#*…` and `#:…`.
-pub(crate) fn prefixed(
+pub fn prefixed(
     image: &mut Image,
     argument: Option<u32>,
     letter: char,
@@ -107,7 +107,7 @@ fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
 }
 
 /// A vector; if a length is given, the last element is repeated to reach it.
-pub(crate) fn vector(
+pub fn vector(
     items: Vec<Value>,
     length: Option<u32>,
     is_skipped: bool,
@@ -154,7 +154,7 @@ pub(super) fn elements(sequence: &Value) -> Option<Vec<Value>> {
 }
 
 /// An array of a rank from nested sequences.
-pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind> {
+pub fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind> {
     let not_rectangular = || ReadErrorKind::NotRectangular { rank };
     if rank > MAX_RANK {
         return Err(not_rectangular());
@@ -187,7 +187,7 @@ pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind>
 }
 
 /// The result of reading `#S(…)`.
-pub(crate) enum Structure {
+pub enum Structure {
     /// The structure itself.
     Made(Value),
     /// A call of its constructor: some slots take their initial values.
@@ -195,7 +195,7 @@ pub(crate) enum Structure {
 }
 
 /// A structure from its name and slots.
-pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure, ReadErrorKind> {
+pub fn structure(image: &mut Image, contents: &Value) -> Result<Structure, ReadErrorKind> {
     let bad = |reason: String| ReadErrorKind::BadStructure(reason);
     let parts = contents
         .list_to_vec()
@@ -279,7 +279,7 @@ fn slot_values(image: &Image, slots: &[Value]) -> Result<Vec<(String, Value)>, R
 }
 
 /// A complex number from the list of its parts.
-pub(crate) fn complex(parts: &Value) -> Result<Value, ReadErrorKind> {
+pub fn complex(parts: &Value) -> Result<Value, ReadErrorKind> {
     const SHAPE: ReadErrorKind = ReadErrorKind::BadComplex("a list of two real numbers is needed");
     match parts.list_to_vec().as_deref() {
         Some([re, im]) => number::complex(re, im).map_err(|_| SHAPE),

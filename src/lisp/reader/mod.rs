@@ -5,30 +5,30 @@
 //! interns symbols and registers places; it never evaluates: `#.` hands its form to the caller and
 //! continues with the value.
 
-pub(crate) mod ascii_name;
-pub(crate) mod char_name;
+pub mod ascii_name;
+pub mod char_name;
 mod completeness;
 mod error;
 mod feature;
 mod label;
-pub(crate) mod lexer;
+pub mod lexer;
 mod literal;
-pub(crate) mod numeric;
+pub mod numeric;
 mod parser;
-pub(crate) mod readtable;
+pub mod readtable;
 mod suggest;
 mod symbol;
 mod typed_array;
 
-pub(crate) use completeness::{Completeness, is_complete};
-pub(crate) use error::ReadError;
-pub(crate) use lexer::{Lexer, Token, TokenKind};
+pub use completeness::{Completeness, is_complete};
+pub use error::ReadError;
+pub use lexer::{Lexer, Token, TokenKind};
 #[cfg(test)]
-pub(crate) use parser::read_all;
-pub(crate) use parser::{Outcome, Reader};
-pub(crate) use readtable::LetterCase;
-pub(crate) use suggest::nearest;
-pub(crate) use symbol::{downcase, inverting, meant_by_quotation_mark, upcase};
+pub use parser::read_all;
+pub use parser::{Outcome, Reader};
+pub use readtable::LetterCase;
+pub use suggest::nearest;
+pub use symbol::{downcase, inverting, meant_by_quotation_mark, upcase};
 
 #[cfg(test)]
 mod tests;

@@ -4,16 +4,16 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use super::error::ReadErrorKind;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::number::large;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::number::large;
+use crate::value::symbol::Sym;
 
 /// The number that a token without escapes denotes; `None` if it is a symbol.
 ///
 /// `radix` is `*read-base*`, `float_format` is `*read-default-float-format*`.
-pub(crate) fn parse_number(
+pub fn parse_number(
     token: &str,
     radix: u32,
     float_format: Sym,
@@ -34,7 +34,7 @@ pub(crate) fn parse_number(
 }
 
 /// The integer or ratio that a token denotes in a radix.
-pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
+pub fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
     let Some((numerator, denominator)) = token.split_once('/') else {
         return parse_integer(token, radix).map(Ok);
     };
@@ -50,7 +50,7 @@ pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, Re
 }
 
 /// The integer that a token denotes in a radix: an optional sign and digits.
-pub(crate) fn parse_integer(token: &str, radix: u32) -> Option<Value> {
+pub fn parse_integer(token: &str, radix: u32) -> Option<Value> {
     let digits = token.strip_prefix(['+', '-']).unwrap_or(token);
     if digits.is_empty() || !digits.chars().all(|c| c.is_digit(radix)) {
         return None;
@@ -146,7 +146,7 @@ fn float_of(
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::numeric::*;
+    use crate::reader::numeric::*;
 
     fn double(token: &str) -> Option<f64> {
         match parse_number(token, 10, known::SINGLE_FLOAT)?.ok()? {

@@ -5,16 +5,16 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::lexer::is_blank;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// What the reader does with the letters of symbols: `readtable-case`.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
-pub(crate) enum LetterCase {
+pub enum LetterCase {
     /// They become capitals.
     #[default]
     Upcase,
@@ -36,19 +36,19 @@ impl LetterCase {
     ];
 
     /// The keyword that names it.
-    pub(crate) fn keyword(self) -> Sym {
+    pub fn keyword(self) -> Sym {
         let found = LetterCase::NAMES.iter().find(|(case, _)| *case == self);
         found.map_or(known::K_UPCASE, |(_, name)| *name)
     }
 
     /// The case that a keyword names.
-    pub(crate) fn named(name: Sym) -> Option<LetterCase> {
+    pub fn named(name: Sym) -> Option<LetterCase> {
         let found = LetterCase::NAMES.iter().find(|(_, other)| *other == name);
         found.map(|(case, _)| *case)
     }
 
     /// That of the current readtable.
-    pub(crate) fn current(image: &Image) -> LetterCase {
+    pub fn current(image: &Image) -> LetterCase {
         let table = image.special(known::V_READTABLE);
         let table = table.as_foreign::<Readtable>();
         table.map_or(LetterCase::Upcase, |table| table.case.get())
@@ -57,22 +57,22 @@ impl LetterCase {
 
 /// A program's changes to the standard syntax.
 #[derive(Default, Clone)]
-pub(crate) struct Readtable {
+pub struct Readtable {
     /// Functions of stream and character, with whether the character may appear inside a
     /// token.
-    pub(crate) macros: RefCell<BTreeMap<char, (Value, bool)>>,
+    pub macros: RefCell<BTreeMap<char, (Value, bool)>>,
     /// Functions of stream, sub-character and number, by dispatching character and
     /// sub-character (in upper case).
-    pub(crate) dispatch: RefCell<BTreeMap<(char, char), Value>>,
+    pub dispatch: RefCell<BTreeMap<(char, char), Value>>,
     /// Characters that are parts of symbols, whatever they are in the standard syntax.
-    pub(crate) constituents: RefCell<BTreeSet<char>>,
+    pub constituents: RefCell<BTreeSet<char>>,
     /// What happens to letters.
-    pub(crate) case: Cell<LetterCase>,
+    pub case: Cell<LetterCase>,
 }
 
 impl Readtable {
     /// Takes the syntax of another one.
-    pub(crate) fn become_like(&self, other: Readtable) {
+    pub fn become_like(&self, other: Readtable) {
         self.macros.replace(other.macros.into_inner());
         self.dispatch.replace(other.dispatch.into_inner());
         self.constituents.replace(other.constituents.into_inner());
@@ -80,7 +80,7 @@ impl Readtable {
     }
 
     /// Characters that end a token.
-    pub(crate) fn terminators(&self) -> Vec<char> {
+    pub fn terminators(&self) -> Vec<char> {
         self.macros
             .borrow()
             .iter()
@@ -91,25 +91,25 @@ impl Readtable {
 
     /// Characters that are not what they are in the standard syntax: parts of symbols, and blank
     /// macro characters.
-    pub(crate) fn significant(&self) -> Vec<char> {
+    pub fn significant(&self) -> Vec<char> {
         let constituents = self.constituents.borrow();
         let macros = self.macros.borrow();
         let blank_macros = macros.keys().filter(|c| is_blank(**c));
         constituents.iter().chain(blank_macros).copied().collect()
     }
 
-    pub(crate) fn macro_of(&self, c: char) -> Option<Value> {
+    pub fn macro_of(&self, c: char) -> Option<Value> {
         self.macros.borrow().get(&c).map(|(f, _)| f.clone())
     }
 
-    pub(crate) fn dispatch_of(&self, letter: char) -> Option<Value> {
+    pub fn dispatch_of(&self, letter: char) -> Option<Value> {
         self.dispatch.borrow().get(&('#', letter)).cloned()
     }
 }
 
 /// The text of a token, with escapes before the characters that would escape others although the
 /// readtable makes letters of them.
-pub(crate) fn escaped<'t>(image: &Image, token: &'t str) -> Cow<'t, str> {
+pub fn escaped<'t>(image: &Image, token: &'t str) -> Cow<'t, str> {
     let table = image.special(known::V_READTABLE);
     let Some(table) = table.as_foreign::<Readtable>() else {
         return token.into();

@@ -4,24 +4,24 @@ use super::error::ReadErrorKind;
 use super::lexer::is_blank;
 use super::readtable::LetterCase;
 use super::suggest::nearest;
-use crate::lisp::image::Image;
-use crate::lisp::value::package::{Access, PackageId, PackageTable};
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::package::{Access, PackageId, PackageTable};
+use crate::value::symbol::Sym;
 
 /// A token split at its package marker, escapes resolved and letters in the case of the readtable.
-pub(crate) struct Name {
+pub struct Name {
     /// The text before the marker; `None` without a marker.
-    pub(crate) package: Option<String>,
+    pub package: Option<String>,
     /// The text after the marker.
-    pub(crate) name: String,
+    pub name: String,
     /// Is the marker `::`?
-    pub(crate) is_internal: bool,
+    pub is_internal: bool,
     /// Was any character escaped? Then the token is not a number.
-    pub(crate) is_escaped: bool,
+    pub is_escaped: bool,
 }
 
 /// Upcases as the reader does: only letters that have exactly one upper-case form.
-pub(crate) fn upcase(c: char) -> char {
+pub fn upcase(c: char) -> char {
     if c.is_ascii() {
         return c.to_ascii_uppercase();
     }
@@ -33,7 +33,7 @@ pub(crate) fn upcase(c: char) -> char {
 }
 
 /// Downcases as the reader does: only letters that have exactly one lower-case form.
-pub(crate) fn downcase(c: char) -> char {
+pub fn downcase(c: char) -> char {
     let mut lower = c.to_lowercase();
     match (lower.next(), lower.next()) {
         (Some(one), None) => one,
@@ -52,7 +52,7 @@ fn fold(token: &str, case: LetterCase) -> fn(char) -> char {
 }
 
 /// How letters that are all in one case are put into the other one.
-pub(crate) fn inverting(letters: impl Iterator<Item = char> + Clone) -> fn(char) -> char {
+pub fn inverting(letters: impl Iterator<Item = char> + Clone) -> fn(char) -> char {
     let has_upper = letters.clone().any(|c| downcase(c) != c);
     let has_lower = letters.clone().any(|c| upcase(c) != c);
     match (has_upper, has_lower) {
@@ -80,7 +80,7 @@ fn unescaped(token: &str) -> impl Iterator<Item = char> + Clone {
 }
 
 /// Splits a token.
-pub(crate) fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
+pub fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
     let fold = fold(token, case);
     let mut result = Name {
         package: None,
@@ -131,7 +131,7 @@ pub(crate) fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind
 
 /// What Lisp text has instead of a typographic quotation mark, which word processors put there; a
 /// name has one only between bars.
-pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
+pub fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
     match c {
         '“' | '”' | '„' => Some("\" around strings"),
         '‘' | '’' => Some("' before a quoted form"),
@@ -140,7 +140,7 @@ pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
 }
 
 /// The symbol that a split token denotes.
-pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
+pub fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
     let Some(package_name) = &name.package else {
         return Ok(image.intern_read(&name.name));
     };

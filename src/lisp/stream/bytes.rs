@@ -6,15 +6,15 @@ use std::rc::Rc;
 use num_bigint::{BigInt, Sign};
 
 use super::{StreamKind, closed, followed, has_integers, not_usable};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number::from_big;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::stream::{Elements, Stream};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number::from_big;
+use crate::value::raise::Raise;
+use crate::value::stream::{Elements, Stream};
 
 /// Reads an integer; `None` at the end.
-pub(crate) fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Box<Raise>> {
+pub fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Box<Raise>> {
     let stream = &followed(image, stream)?;
     if !has_integers(image, stream)? {
         return Err(of_characters(stream, image, "INPUT-STREAM-P"));
@@ -58,11 +58,7 @@ pub(crate) fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Val
 }
 
 /// Writes an integer.
-pub(crate) fn write_byte(
-    image: &Image,
-    stream: &Rc<Stream>,
-    byte: &Value,
-) -> Result<(), Box<Raise>> {
+pub fn write_byte(image: &Image, stream: &Rc<Stream>, byte: &Value) -> Result<(), Box<Raise>> {
     let stream = &followed(image, stream)?;
     if !has_integers(image, stream)? {
         return Err(of_characters(stream, image, "OUTPUT-STREAM-P"));

@@ -8,17 +8,17 @@ mod bytes;
 use std::io::Write as _;
 use std::rc::Rc;
 
-pub(crate) use bytes::{read_byte, write_byte};
+pub use bytes::{read_byte, write_byte};
 
 use super::image::Image;
 use super::value::Value;
 use super::value::known;
 use super::value::raise::Raise;
-pub(crate) use super::value::stream::{Elements, MAX_NESTING, Stream, StreamKind};
+pub use super::value::stream::{Elements, MAX_NESTING, Stream, StreamKind};
 use super::value::symbol::Sym;
 
 /// Defines the standard stream variables.
-pub(crate) fn install(image: &mut Image) {
+pub fn install(image: &mut Image) {
     let input = Rc::new(Stream::new(StreamKind::StandardInput));
     let output = Rc::new(Stream::new(StreamKind::StandardOutput));
     let both = || {
@@ -47,12 +47,12 @@ pub(crate) fn install(image: &mut Image) {
 
 /// The output stream that a designator denotes: `NIL` is `*standard-output*`, `T` is
 /// `*terminal-io*`.
-pub(crate) fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_OUTPUT)
 }
 
 /// The input stream that a designator denotes: `NIL` is `*standard-input*`, `T` is `*terminal-io*`.
-pub(crate) fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_INPUT)
 }
 
@@ -84,18 +84,18 @@ fn endless_synonym(stream: &Value) -> Box<Raise> {
 }
 
 /// The value of the variable for a synonym stream; any other stream unchanged.
-pub(crate) fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
+pub fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, &Value::Stream(stream.clone()), known::NIL)
 }
 
 /// The stream that a designator denotes, if lines may break in what is written to it.
-pub(crate) fn pretty(image: &Image, designator: &Value) -> Option<Rc<Stream>> {
+pub fn pretty(image: &Image, designator: &Value) -> Option<Rc<Stream>> {
     let stream = output_stream(image, designator).ok()?;
     stream.is_pretty().then_some(stream)
 }
 
 /// Writes a text to the stream that a designator denotes.
-pub(crate) fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
+pub fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
     let stream = output_stream(image, designator)?;
     write_to(image, &stream, text, 0)
 }
@@ -180,7 +180,7 @@ fn column_after(text: &str, before: usize) -> usize {
 }
 
 /// Number of characters on the current line of an output stream, if that is known.
-pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
+pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
     let mut stream = output_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
@@ -205,7 +205,7 @@ pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>,
 }
 
 /// Starts a new line unless the stream is at the start of one; returns whether it did.
-pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
+pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
     let needed = column(image, designator)?.is_none_or(|column| column > 0);
     if needed {
         write(image, designator, "\n")?;
@@ -214,7 +214,7 @@ pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, 
 }
 
 /// Reads a character; `None` at the end.
-pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let c = peek_char(image, designator)?;
     if let Some(c) = c {
         advance(image, designator, c.len_utf8())?;
@@ -223,7 +223,7 @@ pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<
 }
 
 /// Returns the next character without reading it; `None` at the end.
-pub(crate) fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let stream = input_stream(image, designator)?;
     peek_at(image, &stream, 0)
 }
@@ -267,7 +267,7 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
 }
 
 /// Is the stream standard input, perhaps by way of a stream for both directions?
-pub(crate) fn is_standard_input(image: &Image, designator: &Value) -> bool {
+pub fn is_standard_input(image: &Image, designator: &Value) -> bool {
     let Ok(mut stream) = input_stream(image, designator) else {
         return false;
     };
@@ -287,7 +287,7 @@ pub(crate) fn is_standard_input(image: &Image, designator: &Value) -> bool {
 
 /// The unread text of an input stream: a text and the byte offset at which the unread part begins.
 /// [`advance`] records how much of it was read.
-pub(crate) fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
+pub fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     if let StreamKind::StringInput { text, position } = &*stream.kind.borrow() {
         return Ok((text.clone(), *position));
@@ -343,11 +343,7 @@ fn rest_of(
 }
 
 /// Marks `bytes` bytes of the text from [`rest`] as read.
-pub(crate) fn advance(
-    image: &mut Image,
-    designator: &Value,
-    bytes: usize,
-) -> Result<(), Box<Raise>> {
+pub fn advance(image: &mut Image, designator: &Value, bytes: usize) -> Result<(), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     advance_in(image, &stream, bytes, 0).map(drop)
 }
@@ -438,11 +434,7 @@ fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Bo
 }
 
 /// Puts back the character that was read last.
-pub(crate) fn unread_char(
-    image: &mut Image,
-    designator: &Value,
-    c: char,
-) -> Result<(), Box<Raise>> {
+pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(), Box<Raise>> {
     let mut stream = input_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &mut *stream.kind.borrow_mut() {
@@ -484,7 +476,7 @@ pub(crate) fn unread_char(
 }
 
 /// Does a stream read or write integers, perhaps by way of other streams?
-pub(crate) fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, Box<Raise>> {
+pub fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, Box<Raise>> {
     let mut stream = followed(image, stream)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
@@ -503,7 +495,7 @@ pub(crate) fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, B
 }
 
 /// Flushes the buffer of a file stream.
-pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
+pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     match &mut *stream.kind.borrow_mut() {
         StreamKind::FileOutput { file, .. } => file
             .flush()
@@ -525,7 +517,7 @@ pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
 }
 
 /// Closes a stream; returns whether it was open.
-pub(crate) fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
+pub fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     flush(stream)?;
     let mut kind = stream.kind.borrow_mut();
     let was_open = !matches!(*kind, StreamKind::Closed);
@@ -559,11 +551,11 @@ fn closed(stream: &Rc<Stream>) -> Box<Raise> {
         .with(known::K_STREAM, Value::Stream(stream.clone()))
 }
 
-pub(crate) fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
+pub fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
     let stream = Value::Stream(stream.clone());
     let predicate = image
         .packages
-        .find_symbol(crate::lisp::value::package::PackageTable::CL, predicate);
+        .find_symbol(crate::value::package::PackageTable::CL, predicate);
     match predicate {
         Some((sym, _)) => {
             Raise::type_error(&stream, Value::list([known::SATISFIES.into(), sym.into()]))

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::define::{check_slot_type, copy_structure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance, StructureSlot};
-use crate::lisp::value::cycles;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, Instance, StructureSlot};
+use crate::value::cycles;
+use crate::value::function::Function;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The instance that a value is, if it is one of the class or of one that includes it.
 fn instance_of<'a>(value: &'a Value, class: &Rc<Class>) -> Option<&'a Rc<Instance>> {
@@ -27,7 +27,7 @@ fn wrong_type(value: &Value, class: &Class) -> Box<Raise> {
 }
 
 /// Defines the reader of a slot and, unless it is read-only, its writer.
-pub(crate) fn define(
+pub fn define(
     image: &mut Image,
     class: &Rc<Class>,
     index: usize,
@@ -82,7 +82,7 @@ fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
 }
 
 /// Defines the function that recognises structures of a class.
-pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
+pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
     let function = Function::pure_of(predicate, (1, Some(1)), class.clone(), |of, _, args| {
         Ok(Value::bool(instance_of(&args[0], of).is_some()))
     });
@@ -90,7 +90,7 @@ pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: 
 }
 
 /// Defines the function that copies structures of a class.
-pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
+pub fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
     let function = Function::pure_of(copier, (1, Some(1)), class.clone(), |of, _, args| {
         if instance_of(&args[0], of).is_none() {
             return Err(wrong_type(&args[0], of));

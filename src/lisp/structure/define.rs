@@ -3,21 +3,21 @@
 use std::rc::Rc;
 
 use super::accessors;
-use crate::lisp::image::Image;
-use crate::lisp::object::define::{ClassDefinition, no_class};
-use crate::lisp::types::{TypeCheck, typep};
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{
+use crate::image::Image;
+use crate::object::define::{ClassDefinition, no_class};
+use crate::types::{TypeCheck, typep};
+use crate::value::Value;
+use crate::value::class::{
     Class, ClassKind, Initform, Instance, SlotDefinition, StructureLayout, StructureSlot,
 };
-use crate::lisp::value::form::constant_value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::form::constant_value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Defines a structure: `(name parent ((slot accessor initform type read-only)…)
 /// copier predicate documentation conc-name)`.
-pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         Value::Symbol(name, ..),
         parent,
@@ -96,7 +96,7 @@ fn define_class(
 }
 
 /// Makes a structure: `(name slot-values…)`, the values in the order of the slots.
-pub(crate) fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some((Value::Symbol(name, ..), values)) = args.split_first() else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
@@ -133,7 +133,7 @@ pub(super) fn check_slot_type(
 }
 
 /// `copy-structure`: a structure with the same slot values.
-pub(crate) fn copy_structure(value: &Value) -> Result<Value, Box<Raise>> {
+pub fn copy_structure(value: &Value) -> Result<Value, Box<Raise>> {
     match value {
         Value::Instance(instance) if instance.class().kind == ClassKind::Structure => {
             let slots = instance.slots.borrow().clone();

@@ -4,12 +4,12 @@
 //! that need no compiled code (accessors, predicate, copier), and into plain functions for
 //! the constructors.
 
-pub(crate) mod accessors;
-pub(crate) mod constructors;
-pub(crate) mod define;
-pub(crate) mod expand;
-pub(crate) mod options;
-pub(crate) mod typed;
+pub mod accessors;
+pub mod constructors;
+pub mod define;
+pub mod expand;
+pub mod options;
+pub mod typed;
 
 #[cfg(test)]
 mod tests;

@@ -3,18 +3,18 @@
 
 use super::parse::{element_type, expanded, is_star};
 use super::specifier::{Answers, Stop};
-use crate::lisp::image::Image;
-use crate::lisp::object::text as shown;
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Kind;
+use crate::image::Image;
+use crate::object::text as shown;
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::Kind;
 
 /// A kind of sequence, and its length if the type specifies one.
 #[derive(Clone)]
-pub(crate) struct SequenceType {
-    pub(crate) kind: Kind,
+pub struct SequenceType {
+    pub kind: Kind,
     /// The length, with the type specifier as the user wrote it.
     length: Option<usize>,
     specifier: Value,
@@ -22,7 +22,7 @@ pub(crate) struct SequenceType {
 
 impl SequenceType {
     /// The sequence type that a type specifier denotes, if it names a kind of sequence.
-    pub(crate) fn of(
+    pub fn of(
         image: &Image,
         specifier: &Value,
         answers: &mut Answers,
@@ -79,7 +79,7 @@ impl SequenceType {
     }
 
     /// The sequence type that a type specifier denotes; an error if it is not a kind of sequence.
-    pub(crate) fn new(
+    pub fn new(
         image: &Image,
         specifier: &Value,
         answers: &mut Answers,
@@ -99,13 +99,13 @@ impl SequenceType {
     }
 
     /// A fresh sequence of this type.
-    pub(crate) fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         self.check_length(items.len())?;
         self.kind.make(items)
     }
 
     /// Checks that a sequence of this type can have a length.
-    pub(crate) fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
+    pub fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
         let is_cons = self.specifier.as_symbol() == Some(known::CONS);
         match self.length {
             _ if is_cons && length == 0 => Err(Raise::new(

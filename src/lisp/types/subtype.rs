@@ -6,12 +6,12 @@ use super::compare;
 use super::complex_numbers;
 use super::specifier::{Answers, Bound, RealKind, Type};
 use super::test::contains;
-use crate::lisp::image::Image;
-use crate::lisp::value::{Value, known};
+use crate::image::Image;
+use crate::value::{Value, known};
 
 /// An answer, which may be unknown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// Certainly.
     Yes,
     /// Certainly not.
@@ -55,7 +55,7 @@ impl Verdict {
 }
 
 /// Is `a` a subset of `b`?
-pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
+pub fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     match (a, b) {
         (Type::Nothing, _) | (_, Type::Any) => Yes,
         (Type::Or(parts), _) => Verdict::all(parts.iter().map(|p| is_subset(image, p, b))),

@@ -7,25 +7,25 @@ use super::element_type::ElementType;
 use super::elements::Elements;
 
 /// A one-dimensional array.
-pub(crate) struct Vector {
+pub struct Vector {
     /// All elements, those beyond the fill pointer included.
-    pub(crate) items: Elements,
+    pub items: Elements,
     /// Number of active elements, if the vector has a fill pointer.
-    pub(crate) fill_pointer: Cell<Option<usize>>,
+    pub fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     /// The type of the elements.
-    pub(crate) element_type: ElementType,
+    pub element_type: ElementType,
 }
 
 impl Vector {
     /// A simple vector.
-    pub(crate) fn simple(items: Vec<Value>) -> Vector {
+    pub fn simple(items: Vec<Value>) -> Vector {
         Vector::of_type(ElementType::T, items)
     }
 
     /// A vector of an element type, without fill pointer.
-    pub(crate) fn of_type(element_type: ElementType, items: Vec<Value>) -> Vector {
+    pub fn of_type(element_type: ElementType, items: Vec<Value>) -> Vector {
         Vector {
             items: Elements::new(items),
             fill_pointer: Cell::new(None),
@@ -35,69 +35,65 @@ impl Vector {
     }
 
     /// Number of active elements.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.fill_pointer.get().unwrap_or_else(|| self.items.len())
     }
 
     /// The element at an index, whether or not the fill pointer covers it.
-    pub(crate) fn get(&self, index: usize) -> Option<Value> {
+    pub fn get(&self, index: usize) -> Option<Value> {
         self.items.get(index)
     }
 
     /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
     #[inline(always)]
-    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+    pub fn copy_into(&self, index: usize, place: &mut Value) -> bool {
         self.items.copy_into(index, place)
     }
 
     /// Replaces the element at an index by a value that is moved out of its place; false, and the value
     /// stays, if there is none.
     #[inline(always)]
-    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
+    pub fn move_into(&self, index: usize, value: &mut Value) -> bool {
         self.items.move_into(index, value)
     }
 
     /// Replaces the element at an index; false if there is none.
-    pub(crate) fn set(&self, index: usize, value: Value) -> bool {
+    pub fn set(&self, index: usize, value: Value) -> bool {
         self.items.set(index, value)
     }
 
     /// A copy of the active elements.
-    pub(crate) fn to_vec(&self) -> Vec<Value> {
+    pub fn to_vec(&self) -> Vec<Value> {
         self.items.copied(self.len())
     }
 
     /// Is it simple and its element type `T`, so that it takes any value?
     #[inline]
-    pub(crate) fn is_general_simple(&self) -> bool {
+    pub fn is_general_simple(&self) -> bool {
         self.element_type == ElementType::T && self.is_simple()
     }
 
     /// Is the vector neither adjustable nor displaced, and without fill pointer?
-    pub(crate) fn is_simple(&self) -> bool {
+    pub fn is_simple(&self) -> bool {
         self.fill_pointer.get().is_none() && !self.adjustable && !self.items.is_displaced()
     }
 }
 
 /// An array whose rank is not one.
-pub(crate) struct Array {
+pub struct Array {
     /// Size of each dimension.
-    pub(crate) dimensions: RefCell<Vec<usize>>,
+    pub dimensions: RefCell<Vec<usize>>,
     /// May its dimensions change?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     /// The elements, the last index running fastest.
-    pub(crate) items: Elements,
+    pub items: Elements,
     /// The type of the elements.
-    pub(crate) element_type: ElementType,
+    pub element_type: ElementType,
 }
 
 impl Array {
     /// An array that is not adjustable.
-    pub(crate) fn new(
-        element_type: ElementType,
-        dimensions: Vec<usize>,
-        items: Vec<Value>,
-    ) -> Array {
+    pub fn new(element_type: ElementType, dimensions: Vec<usize>, items: Vec<Value>) -> Array {
         Array {
             dimensions: RefCell::new(dimensions),
             adjustable: false,
@@ -107,7 +103,7 @@ impl Array {
     }
 
     /// Is the array neither adjustable nor displaced?
-    pub(crate) fn is_simple(&self) -> bool {
+    pub fn is_simple(&self) -> bool {
         !self.adjustable && !self.items.is_displaced()
     }
 }

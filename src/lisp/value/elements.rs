@@ -7,7 +7,7 @@ use super::Value;
 use super::release::release_values;
 
 /// The elements of an array in row-major order.
-pub(crate) struct Elements(RefCell<Place>);
+pub struct Elements(RefCell<Place>);
 
 enum Place {
     Own(Vec<Value>),
@@ -16,13 +16,13 @@ enum Place {
 
 /// A part of the elements of another array.
 #[derive(Clone)]
-pub(crate) struct Displacement {
+pub struct Displacement {
     /// The array that has them; it may be displaced itself.
-    pub(crate) target: Value,
+    pub target: Value,
     /// Index of the first of them in row-major order.
-    pub(crate) offset: usize,
+    pub offset: usize,
     /// How many they are.
-    pub(crate) size: usize,
+    pub size: usize,
 }
 
 impl Displacement {
@@ -48,7 +48,7 @@ impl Displacement {
     }
 
     /// The array that has an element as its own, and the element's index there.
-    pub(crate) fn holder(&self, index: usize) -> Option<(Value, usize)> {
+    pub fn holder(&self, index: usize) -> Option<(Value, usize)> {
         let mut step = self.clone();
         let mut at = index;
         loop {
@@ -64,7 +64,7 @@ impl Displacement {
     }
 
     /// Does the array have its elements from this one, directly or not?
-    pub(crate) fn leads_to(&self, array: &Value) -> bool {
+    pub fn leads_to(&self, array: &Value) -> bool {
         let mut step = self.clone();
         loop {
             if step.target.is_eq(array) {
@@ -85,7 +85,7 @@ impl Drop for Displacement {
 }
 
 /// What part of which array an array consists of, if it is displaced.
-pub(crate) fn displacement(array: &Value) -> Option<Displacement> {
+pub fn displacement(array: &Value) -> Option<Displacement> {
     match array {
         Value::Vector(vector) => vector.items.displacement(),
         Value::Array(array) => array.items.displacement(),
@@ -96,22 +96,22 @@ pub(crate) fn displacement(array: &Value) -> Option<Displacement> {
 
 impl Elements {
     /// Elements of its own.
-    pub(crate) fn new(items: Vec<Value>) -> Elements {
+    pub fn new(items: Vec<Value>) -> Elements {
         Elements(RefCell::new(Place::Own(items)))
     }
 
     /// Elements of its own from now on.
-    pub(crate) fn own(&self, items: Vec<Value>) {
+    pub fn own(&self, items: Vec<Value>) {
         drop(self.0.replace(Place::Own(items)));
     }
 
     /// A part of another array's elements from now on.
-    pub(crate) fn displace(&self, displacement: Displacement) {
+    pub fn displace(&self, displacement: Displacement) {
         drop(self.0.replace(Place::Displaced(displacement)));
     }
 
     /// What part of which array these elements are, if they are displaced.
-    pub(crate) fn displacement(&self) -> Option<Displacement> {
+    pub fn displacement(&self) -> Option<Displacement> {
         match &*self.0.borrow() {
             Place::Own(_) => None,
             Place::Displaced(displacement) => Some(displacement.clone()),
@@ -120,13 +120,13 @@ impl Elements {
 
     /// Are they a part of another array's elements?
     #[inline]
-    pub(crate) fn is_displaced(&self) -> bool {
+    pub fn is_displaced(&self) -> bool {
         matches!(&*self.0.borrow(), Place::Displaced(_))
     }
 
     /// Number of elements.
     #[inline]
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         match &*self.0.borrow() {
             Place::Own(items) => items.len(),
             Place::Displaced(displacement) => displacement.size,
@@ -135,7 +135,7 @@ impl Elements {
 
     /// The element at an index.
     #[inline]
-    pub(crate) fn get(&self, index: usize) -> Option<Value> {
+    pub fn get(&self, index: usize) -> Option<Value> {
         match &*self.0.borrow() {
             Place::Own(items) => items.get(index).cloned(),
             Place::Displaced(displacement) => displacement.get(index),
@@ -144,7 +144,7 @@ impl Elements {
 
     /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
     #[inline(always)]
-    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+    pub fn copy_into(&self, index: usize, place: &mut Value) -> bool {
         match &*self.0.borrow() {
             Place::Own(items) => match items.get(index) {
                 Some(item) => item.copy_into(place),
@@ -161,7 +161,7 @@ impl Elements {
     /// Replaces an element of the array's own by a value that is moved out of its place; false, and the
     /// value stays, if it has none at that index.
     #[inline(always)]
-    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
+    pub fn move_into(&self, index: usize, value: &mut Value) -> bool {
         let mut place = self.0.borrow_mut();
         let Place::Own(items) = &mut *place else {
             return false;
@@ -182,7 +182,7 @@ impl Elements {
 
     /// Replaces the element at an index; false if there is none.
     #[inline]
-    pub(crate) fn set(&self, index: usize, value: Value) -> bool {
+    pub fn set(&self, index: usize, value: Value) -> bool {
         let old = match &mut *self.0.borrow_mut() {
             Place::Own(items) => match items.get_mut(index) {
                 Some(item) => std::mem::replace(item, value),
@@ -195,7 +195,7 @@ impl Elements {
     }
 
     /// A copy of so many elements from the first one on.
-    pub(crate) fn copied(&self, count: usize) -> Vec<Value> {
+    pub fn copied(&self, count: usize) -> Vec<Value> {
         match &*self.0.borrow() {
             Place::Own(items) => items.iter().take(count).cloned().collect(),
             Place::Displaced(displacement) => (0..displacement.size.min(count))
@@ -205,12 +205,12 @@ impl Elements {
     }
 
     /// A copy of all elements.
-    pub(crate) fn to_vec(&self) -> Vec<Value> {
+    pub fn to_vec(&self) -> Vec<Value> {
         self.copied(usize::MAX)
     }
 
     /// Gives the array so many elements of its own, new ones being fillers.
-    pub(crate) fn resize(&self, count: usize, filler: Value) {
+    pub fn resize(&self, count: usize, filler: Value) {
         if let Place::Own(items) = &mut *self.0.borrow_mut() {
             items.resize(count, filler);
             return;
@@ -221,7 +221,7 @@ impl Elements {
     }
 
     /// What the array holds: its own elements, or the array that has them.
-    pub(crate) fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+    pub fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
         match &*self.0.borrow() {
             Place::Own(items) => items.iter().for_each(visit),
             Place::Displaced(displacement) => visit(&displacement.target),
@@ -229,14 +229,14 @@ impl Elements {
     }
 
     /// Shows each of the array's own elements, which may be replaced.
-    pub(crate) fn change(&self, change: impl FnMut(&mut Value)) {
+    pub fn change(&self, change: impl FnMut(&mut Value)) {
         if let Place::Own(items) = &mut *self.0.borrow_mut() {
             items.iter_mut().for_each(change);
         }
     }
 
     /// Takes everything out.
-    pub(crate) fn empty(&self) {
+    pub fn empty(&self) {
         self.own(Vec::new());
     }
 }

@@ -8,23 +8,23 @@ use super::known;
 use super::symbol::Sym;
 
 /// The name of a file.
-pub(crate) struct Pathname {
+pub struct Pathname {
     /// The host of a logical pathname, a string; `NIL` for the name of a file of the machine.
-    pub(crate) host: Value,
+    pub host: Value,
     /// `NIL`, or a list that begins with `:ABSOLUTE` or `:RELATIVE`, of strings, `:UP`, `:WILD` and
     /// `:WILD-INFERIORS`.
-    pub(crate) directory: Value,
+    pub directory: Value,
     /// A string, `:WILD` or `NIL`.
-    pub(crate) name: Value,
+    pub name: Value,
     /// What stands after the last dot: a string, `:WILD` or `NIL`.
-    pub(crate) kind: Value,
+    pub kind: Value,
     /// Kept as it is given; it is no part of a file's name.
-    pub(crate) version: Value,
+    pub version: Value,
 }
 
 impl Pathname {
     /// Takes a file's name apart.
-    pub(crate) fn parse(text: &str) -> Pathname {
+    pub fn parse(text: &str) -> Pathname {
         let (folder, file) = match text.rfind('/') {
             Some(slash) => text.split_at(slash + 1),
             None => ("", text),
@@ -49,7 +49,7 @@ impl Pathname {
     }
 
     /// The name of the file, put together.
-    pub(crate) fn namestring(&self) -> String {
+    pub fn namestring(&self) -> String {
         if let Value::Str(host) = &self.host {
             return self.logical_namestring(&host.text());
         }
@@ -191,7 +191,7 @@ impl Foreign for Pathname {
 }
 
 /// The name of a file that a value gives: a string, or a pathname.
-pub(crate) fn file_name(value: &Value) -> Option<String> {
+pub fn file_name(value: &Value) -> Option<String> {
     match value.as_foreign::<Pathname>() {
         Some(pathname) => Some(pathname.namestring()),
         None => value.as_text(),

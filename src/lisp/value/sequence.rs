@@ -3,16 +3,16 @@
 use super::element_type::ElementType;
 use std::rc::Rc;
 
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::cons::{self, Cons};
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::{Rounds, Value};
+use crate::value::array::Vector;
+use crate::value::cons::{self, Cons};
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::string::LispString;
+use crate::value::{Rounds, Value};
 
 #[derive(Clone)]
-pub(crate) enum Sequence {
+pub enum Sequence {
     /// A list, possibly dotted or circular, which is discovered while walking it.
     List(Value),
     /// A one-dimensional array.
@@ -23,7 +23,7 @@ pub(crate) enum Sequence {
 
 impl Sequence {
     /// A value as a sequence.
-    pub(crate) fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
+    pub fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
         match value {
             Value::Symbol(known::NIL, ..) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
             Value::Vector(vector) => Ok(Sequence::Vector(vector.clone())),
@@ -33,7 +33,7 @@ impl Sequence {
     }
 
     /// The sequence as a value.
-    pub(crate) fn value(&self) -> Value {
+    pub fn value(&self) -> Value {
         match self {
             Sequence::List(list) => list.clone(),
             Sequence::Vector(vector) => Value::Vector(vector.clone()),
@@ -42,7 +42,7 @@ impl Sequence {
     }
 
     /// Number of elements.
-    pub(crate) fn len(&self) -> Result<usize, Box<Raise>> {
+    pub fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
             Sequence::Vector(vector) => Ok(vector.len()),
@@ -51,7 +51,7 @@ impl Sequence {
     }
 
     /// Walks the elements from `start` to `end` (`None`: to the end).
-    pub(crate) fn walk(&self, bounds: Bounds) -> Walk {
+    pub fn walk(&self, bounds: Bounds) -> Walk {
         let state = match self {
             Sequence::List(list) => State::List(ListWalk::new(list.clone())),
             Sequence::Vector(vector) => State::Vector(vector.clone()),
@@ -67,7 +67,7 @@ impl Sequence {
     }
 
     /// The elements within bounds.
-    pub(crate) fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
+    pub fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
         let mut items = Vec::new();
         let mut walk = self.walk(bounds);
         while let Some(item) = walk.next()? {
@@ -77,7 +77,7 @@ impl Sequence {
     }
 
     /// All elements.
-    pub(crate) fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
+    pub fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
         match self {
             Sequence::Vector(vector) => Ok(vector.to_vec()),
             _ => self.items(Bounds::ALL),
@@ -85,7 +85,7 @@ impl Sequence {
     }
 
     /// The kind of the sequence.
-    pub(crate) fn kind(&self) -> Kind {
+    pub fn kind(&self) -> Kind {
         match self {
             Sequence::List(_) => Kind::List,
             Sequence::Vector(vector) => Kind::Vector(vector.element_type),
@@ -94,7 +94,7 @@ impl Sequence {
     }
 
     /// Replaces all elements of a sequence by as many others.
-    pub(crate) fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
+    pub fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
         match self {
             Sequence::List(list) => {
                 for (cons, item) in conses(list)?.iter().zip(items) {
@@ -115,7 +115,7 @@ impl Sequence {
     }
 
     /// Replaces the element at an index that is within the sequence.
-    pub(crate) fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
+    pub fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
         let length = match self {
             Sequence::List(list) => {
                 let mut rest = list.clone();
@@ -149,7 +149,7 @@ impl Sequence {
     }
 
     /// The element at an index.
-    pub(crate) fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
+    pub fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
         let found = match self {
             Sequence::List(list) => {
                 let mut walk = ListWalk::new(list.clone());
@@ -190,7 +190,7 @@ impl Sequence {
 }
 
 /// "The index 5 is too large for a list of length 2."
-pub(crate) fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
+pub fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
     Raise::new(
         known::TYPE_ERROR,
         format!("The index {index} is too large for a {what} of length {length}."),
@@ -207,15 +207,12 @@ pub(crate) fn index_too_large(index: usize, what: &str, length: usize) -> Box<Ra
 }
 
 /// What a vector with this element type stores for a value.
-pub(crate) fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
+pub fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
     checked_element(vector.element_type, value)
 }
 
 /// Checks that a value may be stored in an array of an element type.
-pub(crate) fn checked_element(
-    element_type: ElementType,
-    value: Value,
-) -> Result<Value, Box<Raise>> {
+pub fn checked_element(element_type: ElementType, value: Value) -> Result<Value, Box<Raise>> {
     if element_type.holds(&value) {
         Ok(value)
     } else {
@@ -224,7 +221,7 @@ pub(crate) fn checked_element(
 }
 
 /// A value as a character.
-pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
+pub fn character(value: &Value) -> Result<char, Box<Raise>> {
     match value {
         Value::Char(c) => Ok(*c),
         _ => Err(Raise::type_error(value, known::CHARACTER)),
@@ -232,13 +229,13 @@ pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
 }
 
 /// The text made of characters.
-pub(crate) fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
+pub fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
     items.iter().map(character).collect()
 }
 
 /// The kind of sequence that a result is to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A list.
     List,
     /// A vector with an element type.
@@ -249,7 +246,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// A fresh sequence of this kind.
-    pub(crate) fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         match self {
             Kind::List => Ok(Value::list(items)),
             Kind::Str => Ok(Value::string(text_of(&items)?)),
@@ -268,22 +265,22 @@ impl Kind {
 
 /// Bounds of a part of a sequence.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
+pub struct Bounds {
     /// Index of the first element.
-    pub(crate) start: usize,
+    pub start: usize,
     /// Index after the last element; none means the sequence's end.
-    pub(crate) end: Option<usize>,
+    pub end: Option<usize>,
 }
 
 impl Bounds {
     /// The whole sequence.
-    pub(crate) const ALL: Bounds = Bounds {
+    pub const ALL: Bounds = Bounds {
         start: 0,
         end: None,
     };
 
     /// Checks `:start` and `:end` arguments against a sequence.
-    pub(crate) fn new(
+    pub fn new(
         sequence: &Sequence,
         start: Option<&Value>,
         end: Option<&Value>,
@@ -311,7 +308,7 @@ impl Bounds {
     }
 
     /// Index after the last element, for a sequence of a length.
-    pub(crate) fn end_of(self, length: usize) -> usize {
+    pub fn end_of(self, length: usize) -> usize {
         self.end.unwrap_or(length)
     }
 }
@@ -357,7 +354,7 @@ fn bad_bounds(start: Option<&Value>, end: Option<&Value>, length: usize) -> Box<
 }
 
 /// A non-negative integer that can be an index or a count.
-pub(crate) fn index(value: &Value) -> Result<usize, Box<Raise>> {
+pub fn index(value: &Value) -> Result<usize, Box<Raise>> {
     match value {
         Value::Int(n) => {
             usize::try_from(*n).map_err(|_| Raise::type_error(value, known::UNSIGNED_BYTE))
@@ -368,7 +365,7 @@ pub(crate) fn index(value: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// Walks elements one by one.
-pub(crate) struct Walk {
+pub struct Walk {
     state: State,
     index: usize,
     end: Option<usize>,
@@ -391,7 +388,7 @@ impl Walk {
     }
 
     /// The next element.
-    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         if self.end.is_some_and(|end| self.index >= end) {
             return Ok(None);
         }
@@ -408,15 +405,15 @@ impl Walk {
 
 /// Walks a list that must be proper: a dotted or circular one is an error when its end, or
 /// the second round, is reached.
-pub(crate) struct ListWalk {
+pub struct ListWalk {
     /// What has not been visited yet.
-    pub(crate) rest: Value,
+    pub rest: Value,
     rounds: Rounds,
 }
 
 impl ListWalk {
     /// A walk over a list.
-    pub(crate) fn new(list: Value) -> ListWalk {
+    pub fn new(list: Value) -> ListWalk {
         ListWalk {
             rest: list,
             rounds: Rounds::default(),
@@ -425,7 +422,7 @@ impl ListWalk {
 
     /// The next pair.
     #[inline(always)]
-    pub(crate) fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+    pub fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
         match &self.rest {
             Value::Cons(cons) => {
                 if self.rounds.is_closed_by(cons) {
@@ -443,20 +440,20 @@ impl ListWalk {
     }
 
     /// The next element.
-    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         Ok(self.next_cons()?.map(|cons| cons.car()))
     }
 }
 
 /// The error for a circular list that should end.
-pub(crate) fn circular(list: &Value) -> Box<Raise> {
+pub fn circular(list: &Value) -> Box<Raise> {
     Raise::new(known::TYPE_ERROR, "The list is circular.")
         .with(known::K_DATUM, list.clone())
         .with(known::K_EXPECTED_TYPE, known::LIST.into())
 }
 
 /// Length of a proper list.
-pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
+pub fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
     let mut pair = match list {
         Value::Cons(first) => first.clone(),
         Value::Symbol(known::NIL, ..) => return Ok(0),
@@ -481,7 +478,7 @@ pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// The pairs of a proper list.
-pub(crate) fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
+pub fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut conses = Vec::new();
     while let Some(cons) = walk.next_cons()? {
@@ -491,7 +488,7 @@ pub(crate) fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
 }
 
 /// The elements of a proper list.
-pub(crate) fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
+pub fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut items = Vec::new();
     while let Some(item) = walk.next()? {
@@ -501,7 +498,7 @@ pub(crate) fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Links pairs into a list that ends in `tail`.
-pub(crate) fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
+pub fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
     let mut rest = tail;
     for cons in conses.iter().rev() {
         cons.set_cdr(rest);
@@ -512,19 +509,19 @@ pub(crate) fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
 
 /// Builds a list from its front.
 #[derive(Default)]
-pub(crate) struct ListBuilder {
+pub struct ListBuilder {
     head: Option<Value>,
     last: Option<Rc<Cons>>,
 }
 
 impl ListBuilder {
     /// An empty list.
-    pub(crate) fn new() -> ListBuilder {
+    pub fn new() -> ListBuilder {
         ListBuilder::default()
     }
 
     /// Adds an element at the end.
-    pub(crate) fn push(&mut self, item: Value) {
+    pub fn push(&mut self, item: Value) {
         let cons = Cons::shared(item, Value::NIL);
         match self.last.replace(cons.clone()) {
             Some(last) => last.set_cdr(Value::Cons(cons)),
@@ -533,7 +530,7 @@ impl ListBuilder {
     }
 
     /// The list, ending in `tail`.
-    pub(crate) fn finish_with(self, tail: Value) -> Value {
+    pub fn finish_with(self, tail: Value) -> Value {
         match (self.head, self.last) {
             (Some(head), Some(last)) => {
                 last.set_cdr(tail);
@@ -544,13 +541,13 @@ impl ListBuilder {
     }
 
     /// The list.
-    pub(crate) fn finish(self) -> Value {
+    pub fn finish(self) -> Value {
         self.finish_with(Value::NIL)
     }
 }
 
 /// The last pair of a list that may be dotted.
-pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+pub fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
     let mut rounds = Rounds::default();
     let Value::Cons(first) = list else {
         return Ok(None);

@@ -9,18 +9,18 @@ use super::cons::Cons;
 
 /// A mutable place for one value.
 #[derive(Default)]
-pub(crate) struct Slot(Cell<Value>);
+pub struct Slot(Cell<Value>);
 
 impl Slot {
     /// A place that holds `value`.
     #[inline]
-    pub(crate) fn new(value: Value) -> Slot {
+    pub fn new(value: Value) -> Slot {
         Slot(Cell::new(value))
     }
 
     /// The value.
     #[inline]
-    pub(crate) fn get(&self) -> Value {
+    pub fn get(&self) -> Value {
         let mut value = Value::Unbound;
         self.copy_into(&mut value);
         value
@@ -28,7 +28,7 @@ impl Slot {
 
     /// Stores a copy of the value where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn copy_into(&self, place: &mut Value) {
+    pub fn copy_into(&self, place: &mut Value) {
         // What is forgotten is plain, or has been put back; were it dropped, that would be checked.
         let value = self.0.take();
         match value {
@@ -56,7 +56,7 @@ impl Slot {
 
     /// The pair, if the value is one.
     #[inline(always)]
-    pub(crate) fn get_cons(&self) -> Option<Rc<Cons>> {
+    pub fn get_cons(&self) -> Option<Rc<Cons>> {
         match self.0.take() {
             Value::Cons(cons) => {
                 let copy = cons.clone();
@@ -72,7 +72,7 @@ impl Slot {
 
     /// Exchanges the value for one in another place.
     #[inline(always)]
-    pub(crate) fn exchange(&self, place: &mut Value) {
+    pub fn exchange(&self, place: &mut Value) {
         let mut value = self.0.take();
         self.fill_from(place);
         value.move_into(place);
@@ -81,7 +81,7 @@ impl Slot {
 
     /// Moves a value here, where there is "no value", and leaves behind what needs not be freed.
     #[inline(always)]
-    pub(crate) fn fill_from(&self, place: &mut Value) {
+    pub fn fill_from(&self, place: &mut Value) {
         match place {
             Value::Int(n) => self.put_back(Value::Int(*n)),
             Value::Symbol(sym, hold) if hold.is_none() => self.put_back(Value::symbol(*sym)),
@@ -108,7 +108,7 @@ impl Slot {
 
     /// Looks at the value without counting a reference. `look` must not touch this slot.
     #[inline]
-    pub(crate) fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+    pub fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
         let value = self.0.take();
         let result = look(&value);
         self.put_back(value);
@@ -117,13 +117,13 @@ impl Slot {
 
     /// Stores a value.
     #[inline]
-    pub(crate) fn set(&self, value: Value) {
+    pub fn set(&self, value: Value) {
         self.0.set(value);
     }
 
     /// Takes the value out and leaves "no value".
     #[inline]
-    pub(crate) fn take(&self) -> Value {
+    pub fn take(&self) -> Value {
         self.0.take()
     }
 }

@@ -13,26 +13,26 @@ use super::string::LispString;
 use super::symbol::Sym;
 
 /// The deepest nesting of streams that are made of other streams.
-pub(crate) const MAX_NESTING: u32 = 100;
+pub const MAX_NESTING: u32 = 100;
 
-pub(crate) struct Stream {
+pub struct Stream {
     /// Where its characters come from or go to.
-    pub(crate) kind: RefCell<StreamKind>,
+    pub kind: RefCell<StreamKind>,
     /// Its class, which it keeps when it is closed.
-    pub(crate) class: Sym,
+    pub class: Sym,
     /// The name of the file that it reads or writes.
-    pub(crate) file: Option<Rc<str>>,
+    pub file: Option<Rc<str>>,
     /// What its elements are.
-    pub(crate) elements: Elements,
+    pub elements: Elements,
     /// How many levels of other streams it is made of.
-    pub(crate) nesting: u32,
+    pub nesting: u32,
     /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
-    pub(crate) backquotes: Cell<usize>,
+    pub backquotes: Cell<usize>,
 }
 
 /// What the elements of a stream are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Elements {
+pub enum Elements {
     /// Characters, which files encode as UTF-8.
     Characters,
     /// Integers of so many bits, the low byte first in files.
@@ -45,7 +45,7 @@ pub(crate) enum Elements {
 }
 
 /// Where a stream's elements come from or go to.
-pub(crate) enum StreamKind {
+pub enum StreamKind {
     /// The image's standard output.
     StandardOutput,
     /// The image's standard input, which is at its end unless somebody can be asked.
@@ -146,7 +146,7 @@ impl StreamKind {
 
 impl Stream {
     /// A stream of a kind that is not made of other streams.
-    pub(crate) fn new(kind: StreamKind) -> Stream {
+    pub fn new(kind: StreamKind) -> Stream {
         Stream {
             class: kind.class(),
             kind: RefCell::new(kind),
@@ -158,7 +158,7 @@ impl Stream {
     }
 
     /// A stream that reads or writes a file.
-    pub(crate) fn of_file(kind: StreamKind, name: &str, elements: Elements) -> Stream {
+    pub fn of_file(kind: StreamKind, name: &str, elements: Elements) -> Stream {
         Stream {
             class: known::FILE_STREAM,
             file: Some(name.into()),
@@ -168,7 +168,7 @@ impl Stream {
     }
 
     /// A stream that is made of others.
-    pub(crate) fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
+    pub fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
         let nesting = parts.iter().map(|p| p.nesting).max().unwrap_or(0) + 1;
         if nesting > MAX_NESTING {
             return Err(Raise::new(
@@ -183,7 +183,7 @@ impl Stream {
     }
 
     /// A stream that yields the characters of a text.
-    pub(crate) fn from_text(text: impl Into<Rc<str>>) -> Stream {
+    pub fn from_text(text: impl Into<Rc<str>>) -> Stream {
         Stream::new(StreamKind::StringInput {
             text: text.into(),
             position: 0,
@@ -191,14 +191,14 @@ impl Stream {
     }
 
     /// A stream that collects what is written.
-    pub(crate) fn to_text() -> Stream {
+    pub fn to_text() -> Stream {
         Stream::new(StreamKind::StringOutput {
             text: String::new(),
         })
     }
 
     /// A stream that collects a document, which begins at a column.
-    pub(crate) fn to_document(is_pretty: bool, start: usize) -> Stream {
+    pub fn to_document(is_pretty: bool, start: usize) -> Stream {
         Stream::new(StreamKind::Pretty {
             document: Document::new(is_pretty),
             start,
@@ -206,7 +206,7 @@ impl Stream {
     }
 
     /// Takes the document that such a stream has collected; `None` for other kinds.
-    pub(crate) fn take_document(&self) -> Option<Document> {
+    pub fn take_document(&self) -> Option<Document> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::Pretty { document, .. } => {
                 let empty = Document::new(document.is_pretty());
@@ -217,19 +217,19 @@ impl Stream {
     }
 
     /// Is it a stream that collects a document with places where lines may break?
-    pub(crate) fn is_pretty(&self) -> bool {
+    pub fn is_pretty(&self) -> bool {
         matches!(&*self.kind.borrow(), StreamKind::Pretty { document, .. } if document.is_pretty())
     }
 
     /// Changes the document that the stream collects, if it does so.
-    pub(crate) fn with_document(&self, change: impl FnOnce(&mut Document)) {
+    pub fn with_document(&self, change: impl FnOnce(&mut Document)) {
         if let StreamKind::Pretty { document, .. } = &mut *self.kind.borrow_mut() {
             change(document);
         }
     }
 
     /// Takes the text that a string output stream has collected; `None` for other kinds.
-    pub(crate) fn take_text(&self) -> Option<String> {
+    pub fn take_text(&self) -> Option<String> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::StringOutput { text } => Some(std::mem::take(text)),
             _ => None,
@@ -237,7 +237,7 @@ impl Stream {
     }
 
     /// Number of bytes that an element takes in a file; characters count as one.
-    pub(crate) fn width(&self) -> usize {
+    pub fn width(&self) -> usize {
         match self.elements {
             Elements::Characters => 1,
             Elements::Integers { bits, .. } => bits.div_ceil(8).max(1) as usize,
@@ -245,7 +245,7 @@ impl Stream {
     }
 
     /// Can the stream be read?
-    pub(crate) fn is_input(&self) -> bool {
+    pub fn is_input(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardInput
@@ -258,7 +258,7 @@ impl Stream {
     }
 
     /// Can the stream be written?
-    pub(crate) fn is_output(&self) -> bool {
+    pub fn is_output(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardOutput

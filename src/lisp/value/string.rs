@@ -4,7 +4,7 @@ use std::cell::{Cell, Ref, RefCell};
 
 use super::Value;
 use super::elements::Displacement;
-use crate::lisp::guard::{permit_length, reserve};
+use crate::guard::{permit_length, reserve};
 
 /// Bytes of a text for which there may be no room.
 const LARGE: usize = 1 << 16;
@@ -14,16 +14,16 @@ const LARGE: usize = 1 << 16;
 /// Positions count characters, not bytes. Texts of ASCII characters are indexed in
 /// constant time; in other texts, walking from one position to the next is constant too.
 #[derive(Clone)]
-pub(crate) struct LispString {
+pub struct LispString {
     text: RefCell<String>,
     /// Number of characters.
     length: Cell<usize>,
     /// A position and its byte offset: those of the last lookup.
     cursor: Cell<(usize, usize)>,
     /// Does the string have a fill pointer, that is, can characters be pushed?
-    pub(crate) has_fill_pointer: Cell<bool>,
+    pub has_fill_pointer: Cell<bool>,
     /// May the string grow beyond its capacity?
-    pub(crate) adjustable: Cell<bool>,
+    pub adjustable: Cell<bool>,
     /// How many characters there is room for, if there is a fill pointer.
     capacity: Cell<usize>,
     /// Characters beyond a fill pointer that was set back, the nearest one last.
@@ -35,7 +35,7 @@ pub(crate) struct LispString {
 
 impl LispString {
     /// A simple string.
-    pub(crate) fn new(text: String) -> LispString {
+    pub fn new(text: String) -> LispString {
         let length = text.chars().count();
         permit_length(length);
         LispString {
@@ -51,7 +51,7 @@ impl LispString {
     }
 
     /// A string with a fill pointer at the end of the text and room for `capacity` characters.
-    pub(crate) fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
+    pub fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
         let string = LispString::new(text);
         string.has_fill_pointer.set(true);
         string.adjustable.set(adjustable);
@@ -60,19 +60,19 @@ impl LispString {
     }
 
     /// Makes the string a part of an array of characters.
-    pub(crate) fn displace(&self, displacement: Displacement) {
+    pub fn displace(&self, displacement: Displacement) {
         self.length.set(self.length.get().min(displacement.size));
         self.capacity.set(displacement.size);
         drop(self.displaced.replace(Some(displacement)));
     }
 
     /// What part of which array the string is, if it is displaced.
-    pub(crate) fn displacement(&self) -> Option<Displacement> {
+    pub fn displacement(&self) -> Option<Displacement> {
         self.displaced.borrow().clone()
     }
 
     /// Sets how many characters of a displaced string are active.
-    pub(crate) fn set_length(&self, length: usize) {
+    pub fn set_length(&self, length: usize) {
         self.length.set(length);
     }
 
@@ -119,12 +119,12 @@ impl LispString {
     }
 
     /// Is the string neither adjustable nor displaced, and without fill pointer?
-    pub(crate) fn is_simple(&self) -> bool {
+    pub fn is_simple(&self) -> bool {
         !self.has_fill_pointer.get() && !self.adjustable.get() && self.displaced.borrow().is_none()
     }
 
     /// The character at a position, whether or not the fill pointer covers it.
-    pub(crate) fn element(&self, index: usize) -> Option<char> {
+    pub fn element(&self, index: usize) -> Option<char> {
         if index < self.len() {
             return self.char_at(index);
         }
@@ -137,7 +137,7 @@ impl LispString {
 
     /// Replaces the character at a position, whether or not the fill pointer covers it; false if
     /// there is none.
-    pub(crate) fn set_element(&self, index: usize, c: char) -> bool {
+    pub fn set_element(&self, index: usize, c: char) -> bool {
         if index < self.len() || index >= self.capacity() {
             return self.set_char(index, c);
         }
@@ -156,7 +156,7 @@ impl LispString {
     }
 
     /// A copy of the text.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         self.refresh();
         let text = self.text.borrow();
         if text.len() > LARGE {
@@ -166,18 +166,18 @@ impl LispString {
     }
 
     /// The text, borrowed; must not be held across a change of the string.
-    pub(crate) fn borrow(&self) -> Ref<'_, String> {
+    pub fn borrow(&self) -> Ref<'_, String> {
         self.refresh();
         self.text.borrow()
     }
 
     /// Number of characters.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.length.get()
     }
 
     /// How many characters there is room for.
-    pub(crate) fn capacity(&self) -> usize {
+    pub fn capacity(&self) -> usize {
         self.capacity.get().max(self.len())
     }
 
@@ -207,7 +207,7 @@ impl LispString {
     }
 
     /// The character at a position.
-    pub(crate) fn char_at(&self, index: usize) -> Option<char> {
+    pub fn char_at(&self, index: usize) -> Option<char> {
         if let Some(displacement) = &*self.displaced.borrow() {
             return match displacement.get(index) {
                 Some(Value::Char(c)) if index < self.len() => Some(c),
@@ -219,7 +219,7 @@ impl LispString {
     }
 
     /// The characters from `start` to `end` (none: to the end).
-    pub(crate) fn slice(&self, start: usize, end: Option<usize>) -> String {
+    pub fn slice(&self, start: usize, end: Option<usize>) -> String {
         self.refresh();
         let length = self.length.get();
         let start = self.offset(start.min(length)).unwrap_or(0);
@@ -231,7 +231,7 @@ impl LispString {
     }
 
     /// Replaces the character at a position; false if there is none.
-    pub(crate) fn set_char(&self, index: usize, c: char) -> bool {
+    pub fn set_char(&self, index: usize, c: char) -> bool {
         if index >= self.length.get() {
             return false;
         }
@@ -240,7 +240,7 @@ impl LispString {
     }
 
     /// Replaces as many characters from `start` on as `new` has, but none beyond the end.
-    pub(crate) fn overwrite(&self, start: usize, new: &str) {
+    pub fn overwrite(&self, start: usize, new: &str) {
         self.refresh();
         let count = new.chars().count();
         let end = start.saturating_add(count).min(self.length.get());
@@ -259,7 +259,7 @@ impl LispString {
     }
 
     /// Replaces the whole text.
-    pub(crate) fn set_text(&self, text: String) {
+    pub fn set_text(&self, text: String) {
         let length = text.chars().count();
         permit_length(length);
         self.refresh();
@@ -270,7 +270,7 @@ impl LispString {
     }
 
     /// Gives the string other characters, its own, of which so many are before the fill pointer.
-    pub(crate) fn replace(&self, text: &str, length: usize) {
+    pub fn replace(&self, text: &str, length: usize) {
         drop(self.displaced.take());
         let mut characters = text.chars();
         let active: String = characters.by_ref().take(length).collect();
@@ -282,7 +282,7 @@ impl LispString {
     }
 
     /// Appends a character.
-    pub(crate) fn push(&self, c: char) {
+    pub fn push(&self, c: char) {
         permit_length(self.length.get() + 1);
         self.refresh();
         self.length.set(self.length.get() + 1);
@@ -292,7 +292,7 @@ impl LispString {
     }
 
     /// Removes and returns the last character.
-    pub(crate) fn pop(&self) -> Option<char> {
+    pub fn pop(&self) -> Option<char> {
         self.refresh();
         let c = self.text.borrow_mut().pop()?;
         self.length.set(self.length.get().saturating_sub(1));
@@ -303,7 +303,7 @@ impl LispString {
 
     /// Moves the fill pointer; characters beyond it reappear when it moves back up. False if there
     /// is not enough room.
-    pub(crate) fn set_fill_pointer(&self, count: usize) -> bool {
+    pub fn set_fill_pointer(&self, count: usize) -> bool {
         if count > self.capacity() {
             return false;
         }
@@ -320,7 +320,7 @@ impl LispString {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::string::*;
+    use crate::value::string::*;
 
     #[test]
     fn positions_count_characters() {

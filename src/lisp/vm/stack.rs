@@ -8,21 +8,21 @@ use std::cell::Cell;
 use std::mem::take;
 use std::ops::{Deref, DerefMut};
 
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// A stack of values; as a slice, it is those that are in use.
 #[derive(Default)]
-pub(crate) struct Stack {
+pub struct Stack {
     places: Vec<Value>,
     height: Cell<usize>,
 }
 
 /// The places of the code that runs, from the base of its frame on.
-pub(crate) struct Window<'a> {
+pub struct Window<'a> {
     /// Its slots, and the room for what it pushes.
-    pub(crate) slots: &'a mut [Value],
+    pub slots: &'a mut [Value],
     /// The number of those that are in use.
-    pub(crate) top: usize,
+    pub top: usize,
     base: usize,
     height: &'a Cell<usize>,
 }
@@ -33,7 +33,7 @@ const FEWEST: usize = 64;
 impl Stack {
     /// The places from `base` on, of which at least `room` are there.
     #[inline(always)]
-    pub(crate) fn window(&mut self, base: usize, room: usize) -> Window<'_> {
+    pub fn window(&mut self, base: usize, room: usize) -> Window<'_> {
         if self.places.len() < base + room {
             self.grow(base + room);
         }
@@ -56,7 +56,7 @@ impl Stack {
 
     /// Pushes a value.
     #[inline]
-    pub(crate) fn push(&mut self, value: Value) {
+    pub fn push(&mut self, value: Value) {
         let height = self.height.get();
         if height == self.places.len() {
             self.grow(height + 1);
@@ -66,14 +66,14 @@ impl Stack {
     }
 
     /// Pushes values.
-    pub(crate) fn extend(&mut self, values: impl IntoIterator<Item = Value>) {
+    pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) {
         for value in values {
             self.push(value);
         }
     }
 
     /// Pushes "no value" up to a height.
-    pub(crate) fn fill_up(&mut self, height: usize) {
+    pub fn fill_up(&mut self, height: usize) {
         while self.height.get() < height {
             self.push(Value::Unbound);
         }
@@ -81,14 +81,14 @@ impl Stack {
 
     /// Pops the top value.
     #[inline]
-    pub(crate) fn pop(&mut self) -> Option<Value> {
+    pub fn pop(&mut self) -> Option<Value> {
         let top = self.height.get().checked_sub(1)?;
         self.height.set(top);
         Some(take(&mut self.places[top]))
     }
 
     /// Drops values down to a height.
-    pub(crate) fn truncate(&mut self, height: usize) {
+    pub fn truncate(&mut self, height: usize) {
         for top in (height..self.height.get()).rev() {
             self.height.set(top);
             self.places[top].clear();
@@ -96,7 +96,7 @@ impl Stack {
     }
 
     /// Takes out the values from a height on.
-    pub(crate) fn split_off(&mut self, height: usize) -> Vec<Value> {
+    pub fn split_off(&mut self, height: usize) -> Vec<Value> {
         let above = self.places[height..self.height.get()].iter_mut();
         let above = above.map(take).collect();
         self.height.set(height);
@@ -104,12 +104,12 @@ impl Stack {
     }
 
     /// Drops all values.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.truncate(0);
     }
 
     /// Drops what the code that ran, and was left, still had above the height.
-    pub(crate) fn clear_above(&mut self) {
+    pub fn clear_above(&mut self) {
         self.places[self.height.get()..]
             .iter_mut()
             .for_each(Value::clear);
@@ -118,7 +118,7 @@ impl Stack {
     /// Moves the top value down to a height, and drops what is between. False, and nothing is done, if
     /// it is several values, of which perhaps not all are wanted.
     #[inline(always)]
-    pub(crate) fn lower_top(&mut self, to: usize) -> bool {
+    pub fn lower_top(&mut self, to: usize) -> bool {
         let top = self.height.get() - 1;
         let (below, at) = self.places.split_at_mut(top);
         let [value, ..] = at else {
@@ -156,20 +156,20 @@ impl DerefMut for Stack {
 impl Window<'_> {
     /// The height of the stack.
     #[inline(always)]
-    pub(crate) fn height(&self) -> usize {
+    pub fn height(&self) -> usize {
         self.base + self.top
     }
 
     /// Notes the height in the stack, for others who look at it.
     #[inline(always)]
-    pub(crate) fn close(&self) {
+    pub fn close(&self) {
         self.height.set(self.height());
     }
 
     /// Notes a lower height: the values above it are still there, but would be gone if the code were
     /// left now.
     #[inline(always)]
-    pub(crate) fn close_below(&self, top: usize) {
+    pub fn close_below(&self, top: usize) {
         self.height.set(self.base + top);
     }
 }

@@ -1,19 +1,19 @@
 //! The session's followers, which are notified of every step, of edits and of other events.
 
 use super::{Audience, task_news};
-use crate::lisp::image::Image;
-use crate::motion::PlannedTrajectory;
-use crate::plan::Plan;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::jobs::Job;
-use crate::watch::{
+use crate::simulation::Simulation;
+use crate::simulation::jobs::Job;
+use cram::Plan;
+use lisp::image::Image;
+use robotics::motion::PlannedTrajectory;
+use robotics::world::CollisionHit;
+use view::watch::{
     About, Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent,
 };
-use crate::world::CollisionHit;
 
 /// The followers of a session.
 #[derive(Default)]
-pub(crate) struct Followers {
+pub struct Followers {
     all: Vec<(FollowerId, Box<dyn Follower>)>,
     last: u64,
     /// Why the session does not go on, as followers know it.
@@ -24,11 +24,11 @@ pub(crate) struct Followers {
 
 /// Identifies a follower.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct FollowerId(u64);
+pub struct FollowerId(u64);
 
 impl Audience {
     /// Adds a follower, which is notified from now on.
-    pub(crate) fn add_follower(
+    pub fn add_follower(
         &mut self,
         simulation: &Simulation,
         image: &Image,
@@ -51,17 +51,17 @@ impl Audience {
     }
 
     /// Removes a follower.
-    pub(crate) fn remove_follower(&mut self, id: FollowerId) {
+    pub fn remove_follower(&mut self, id: FollowerId) {
         self.followers.all.retain(|(known, _)| *known != id);
     }
 
     /// Whether there are any followers.
-    pub(crate) fn has_followers(&self) -> bool {
+    pub fn has_followers(&self) -> bool {
         !self.followers.all.is_empty()
     }
 
     /// Shows the followers the present state of the world.
-    pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
+    pub fn show(&mut self, simulation: &Simulation, cause: Cause) {
         // A state that is an old one is not shown.
         if self.followers.all.is_empty() || simulation.tape.is_stale() {
             return;
@@ -77,7 +77,7 @@ impl Audience {
     }
 
     /// Notifies the followers of an event.
-    pub(crate) fn tell(&mut self, now: f64, event: &WatchEvent) {
+    pub fn tell(&mut self, now: f64, event: &WatchEvent) {
         for (_, follower) in &mut self.followers.all {
             follower.hear(now, event);
         }
@@ -85,7 +85,7 @@ impl Audience {
 
     /// Notifies the followers that the session does not go on, with the tasks that have stopped,
     /// or that it does.
-    pub(crate) fn tell_halt(&mut self, now: f64, halt: Option<Halt>, stopped: Vec<TaskNews>) {
+    pub fn tell_halt(&mut self, now: f64, halt: Option<Halt>, stopped: Vec<TaskNews>) {
         let before = std::mem::replace(&mut self.followers.stopped, stopped.clone());
         let is_still = |news: &&TaskNews| stopped.iter().any(|task| task.id == news.id);
         for news in before.iter().filter(|news| !is_still(news)) {
@@ -108,14 +108,14 @@ impl Audience {
     }
 
     /// Notifies the followers that the session goes on, if they do not know.
-    pub(crate) fn tell_resumed(&mut self, now: f64) {
+    pub fn tell_resumed(&mut self, now: f64) {
         if self.followers.halt.is_some() {
             self.tell_halt(now, None, Vec::new());
         }
     }
 
     /// Notifies the followers of changes in the states of tasks.
-    pub(crate) fn tell_tasks(&mut self, image: &Image) {
+    pub fn tell_tasks(&mut self, image: &Image) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -128,7 +128,7 @@ impl Audience {
     }
 
     /// Notifies the followers of a change in the state of a motion.
-    pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
+    pub fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -155,7 +155,7 @@ impl Audience {
     }
 
     /// Notifies the followers of the collision that stopped a motion.
-    pub(crate) fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
+    pub fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
         for (_, follower) in &mut self.followers.all {
             follower.collide(now, hit);
         }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::watch::live::{PaceControl, Speed};
+use view::watch::live::{PaceControl, Speed};
 
 /// Longest lag (s) behind real time that is made up for; after longer pauses, such as at the
 /// prompt, time continues from the present.
@@ -15,14 +15,14 @@ const MOST_LAG: f64 = 0.1;
 const SLICE: Duration = Duration::from_millis(50);
 
 /// Keeps pace with real time.
-pub(crate) struct Pace {
+pub struct Pace {
     control: PaceControl,
     next: Instant,
 }
 
 impl Pace {
     /// Keeps the pace that the control sets.
-    pub(crate) fn new(control: PaceControl) -> Pace {
+    pub fn new(control: PaceControl) -> Pace {
         Pace {
             control,
             next: Instant::now(),
@@ -30,12 +30,12 @@ impl Pace {
     }
 
     /// The control that sets the speed.
-    pub(crate) fn control(&self) -> &PaceControl {
+    pub fn control(&self) -> &PaceControl {
         &self.control
     }
 
     /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited.
-    pub(crate) fn slice(&self) -> Option<f64> {
+    pub fn slice(&self) -> Option<f64> {
         match self.control.get() {
             (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
             // Waits for the end of the pause, then continues.
@@ -46,7 +46,7 @@ impl Pace {
 
     /// Waits until `seconds` of simulated time may have passed since the last wait, or until
     /// the interrupt flag is set.
-    pub(crate) fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
+    pub fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
         while !interrupt.load(Ordering::Relaxed) {
             let Some(speed) = self.control.wait(SLICE) else {
                 continue;

@@ -3,26 +3,26 @@
 
 use std::collections::BTreeSet;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::symbol::Sym;
 
 /// Names that must not be reported as unknown.
 #[derive(Clone, Default)]
-pub(in crate::session) struct KnownNames {
+pub(crate) struct KnownNames {
     /// Names of functions, macros and variables.
-    pub(crate) defined: BTreeSet<Sym>,
+    pub defined: BTreeSet<Sym>,
     /// Names in rules and definitions for designators, in upper case.
-    pub(crate) in_rules: BTreeSet<String>,
+    pub in_rules: BTreeSet<String>,
     /// Whether anything may be defined, because another file is loaded or a form made at run
     /// time is evaluated.
-    pub(crate) is_open: bool,
+    pub is_open: bool,
 }
 
 impl KnownNames {
     /// Notes what the definitions at any depth in a form define.
-    pub(crate) fn note_form(&mut self, image: &Image, form: &Value) {
+    pub fn note_form(&mut self, image: &Image, form: &Value) {
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {
             let Some(head) = form.as_cons().map(|cons| cons.car()) else {
@@ -40,7 +40,7 @@ impl KnownNames {
     }
 
     /// Notes what one definition defines.
-    pub(crate) fn note_definition(&mut self, image: &Image, form: &Value) {
+    pub fn note_definition(&mut self, image: &Image, form: &Value) {
         let head = form.car_or_nil().as_symbol();
         let name = form.cdr_or_nil().car_or_nil();
         let named = match &name {

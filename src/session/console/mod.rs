@@ -19,22 +19,22 @@ mod stack_frames;
 use std::ops::Range;
 
 use super::dialogue::{Abort, Event, Outcome};
-use crate::lisp::evaluator::aside::Aside;
-use crate::lisp::reader::Reader;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::plan::TaskId;
+use cram::TaskId;
+use lisp::evaluator::aside::Aside;
+use lisp::reader::Reader;
+use lisp::source::Place;
+use lisp::value::Value;
 
 use super::Session;
 use super::halting::halt_of;
-use crate::watch::{Halt, HaltKind};
 use choices::Choice;
 use commands::Command;
+use view::watch::{Halt, HaltKind};
 
 /// The stopped evaluations, innermost last, and what the next input is.
 #[derive(Default)]
 pub(super) struct Console {
-    pub(crate) is_interactive: bool,
+    pub is_interactive: bool,
     levels: Vec<Level>,
     /// Number of levels that there have been.
     opened: u64,
@@ -47,7 +47,7 @@ pub(super) struct Console {
     /// The value being inspected, last, after those through which it was reached.
     inspected: Vec<Value>,
     /// The poll at which the next input is to be interrupted.
-    pub(crate) interrupt_next: Option<u64>,
+    pub interrupt_next: Option<u64>,
 }
 
 impl Console {
@@ -77,9 +77,9 @@ enum Asking {
 
 /// A form whose evaluation is stopped, and the text that follows it.
 pub(super) struct Suspended {
-    pub(crate) form: Value,
-    pub(crate) place: Place,
-    pub(crate) rest: Reader,
+    pub form: Value,
+    pub place: Place,
+    pub rest: Reader,
 }
 
 /// A stopped evaluation.
@@ -122,7 +122,7 @@ impl Level {
 }
 
 impl Console {
-    pub(crate) fn level(&self) -> usize {
+    pub fn level(&self) -> usize {
         self.levels.len()
     }
 
@@ -133,7 +133,7 @@ impl Console {
     }
 
     /// Forgets everything that was stopped, without a word.
-    pub(crate) fn give_up(&mut self) {
+    pub fn give_up(&mut self) {
         *self = Console {
             is_interactive: self.is_interactive,
             opened: self.opened,
@@ -155,12 +155,12 @@ impl Console {
         })
     }
 
-    pub(crate) fn take_draft(&mut self) -> Option<String> {
+    pub fn take_draft(&mut self) -> Option<String> {
         self.draft.take()
     }
 
     /// The input that a second Ctrl-C stands for.
-    pub(crate) fn answer_to_interrupt(&self) -> Option<&'static str> {
+    pub fn answer_to_interrupt(&self) -> Option<&'static str> {
         match self.levels.last()?.cause {
             Cause::Interrupt => Some("abort"),
             Cause::Condition(_) => None,
@@ -168,7 +168,7 @@ impl Console {
     }
 
     /// What the prompt shows after the package's name.
-    pub(crate) fn prompt_suffix(&self) -> String {
+    pub fn prompt_suffix(&self) -> String {
         let level = match self.levels.last().map(|level| &level.cause) {
             None => String::new(),
             Some(Cause::Interrupt) => " stopped".to_owned(),

@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::lisp::source::Location;
-use crate::picture::Image;
+use lisp::source::Location;
+use view::picture::Image;
 
 /// An event during the evaluation of an input.
 #[derive(Clone, PartialEq, Debug)]
@@ -89,7 +89,7 @@ impl Abort {
     }
 
     /// A line for each of the enclosing actions.
-    pub(crate) fn performing(&self) -> impl Iterator<Item = String> {
+    pub fn performing(&self) -> impl Iterator<Item = String> {
         self.actions.iter().map(|action| match &action.place {
             Some(place) => format!("in {} at {place}", action.call),
             None => format!("in {}", action.call),

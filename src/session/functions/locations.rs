@@ -1,23 +1,23 @@
 //! Builtins for symbolic locations: the samples that generators give, what validators say of a
 //! pose, and the furniture by name.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::location::surfaces;
-use crate::plan::Reply;
-use crate::plan::designator::value::{as_designator, first};
-use crate::plan::pose::value::{as_placement, pose_stamped};
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::type_keyword;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::names::type_keyword;
+use cram::Reply;
+use cram::designator::value::{as_designator, first};
+use cram::pose::value::{as_placement, pose_stamped};
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::location::surfaces;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-LOCATION-COSTMAP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     control(
         "NEXT-LOCATION-SAMPLE",
         "location references",
@@ -70,7 +70,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(crate) static VISUALIZATION_TABLE: &[Builtin] = &[control(
+pub static VISUALIZATION_TABLE: &[Builtin] = &[control(
     "CLEAR-COSTMAP-VIS-OBJECT",
     "",
     "Shows no map of a location any more.",
@@ -79,7 +79,7 @@ pub(crate) static VISUALIZATION_TABLE: &[Builtin] = &[control(
 )];
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static FURNITURE_TABLE: &[Builtin] = &[control(
+pub static FURNITURE_TABLE: &[Builtin] = &[control(
     "LIST-SURFACES",
     "",
     "The furniture on which things can be put: the names that (urdf-name …) takes.",

@@ -5,34 +5,34 @@
 //! [`Person`] the state of the prompt, [`Audience`] the outputs that show the session. A
 //! builtin asks for the one that it needs; see [`call`].
 
-pub(crate) mod call;
+pub mod call;
 pub(super) mod parts;
 mod request;
 mod taped;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::copy::Copier;
-use crate::plan::TaskId;
-use crate::plan::designator::perform::MotionsBegun;
-use crate::session::audience::Audience;
-use crate::session::person::Person;
-use crate::session::simulation::Simulation;
+use crate::audience::Audience;
+use crate::person::Person;
+use crate::simulation::Simulation;
+use cram::TaskId;
+use cram::designator::perform::MotionsBegun;
+use lisp::image::Image;
+use lisp::value::copy::Copier;
 
 /// Everything outside Lisp that a task can use.
-pub(crate) struct SimulationHost {
+pub struct SimulationHost {
     /// The robot in its world.
-    pub(crate) simulation: Simulation,
+    pub simulation: Simulation,
     /// The state of the prompt.
-    pub(crate) person: Person,
+    pub person: Person,
     /// The outputs that show the session.
-    pub(crate) audience: Audience,
+    pub audience: Audience,
     /// The task whose request is being carried out.
     asking: TaskId,
 }
 
 impl SimulationHost {
     /// A host for the simulation.
-    pub(crate) fn new(simulation: Simulation, audience: Audience) -> Self {
+    pub fn new(simulation: Simulation, audience: Audience) -> Self {
         Self {
             simulation,
             person: Person::default(),

@@ -8,13 +8,13 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::{Copied, Copier};
-use crate::lisp::value::raise::Raise;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::frames::Restored;
-use crate::session::tape::{Entry, Frame};
+use crate::simulation::Simulation;
+use crate::simulation::frames::Restored;
+use crate::tape::{Entry, Frame};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::copy::{Copied, Copier};
+use lisp::value::raise::Raise;
 
 /// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;
@@ -23,7 +23,7 @@ const MOST_MOTIONS: usize = 64;
 
 /// The state at one time.
 #[derive(Clone)]
-pub(crate) enum Snapshot {
+pub enum Snapshot {
     /// In memory.
     Here(Rc<Restored>),
     /// As a frame of the tape, which takes little memory.
@@ -42,7 +42,7 @@ struct BeforeForm {
 
 /// All snapshots that are kept.
 #[derive(Default)]
-pub(crate) struct Snapshots {
+pub struct Snapshots {
     /// Before forms that changed the world, and before the last form; newest last.
     forms: VecDeque<BeforeForm>,
     named: IndexMap<String, Snapshot>,
@@ -165,17 +165,17 @@ impl Snapshots {
     }
 
     /// Sets whether snapshots before motions are kept.
-    pub(crate) fn keep_snapshots_of_motions(&mut self, keeps: bool) {
+    pub fn keep_snapshots_of_motions(&mut self, keeps: bool) {
         self.keeps_motions = keeps;
     }
 
     /// Sets whether evaluation is on top of a stopped form.
-    pub(crate) fn set_aside(&mut self, is_aside: bool) {
+    pub fn set_aside(&mut self, is_aside: bool) {
         self.is_aside = is_aside;
     }
 
     /// Call when a form at top level is about to be evaluated.
-    pub(crate) fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
+    pub fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
         self.motions.clear();
         if !self.is_touched
             && let Some(last) = self.forms.back_mut()
@@ -200,7 +200,7 @@ impl Snapshots {
     }
 
     /// Whether the world differs from before the last form at top level.
-    pub(crate) fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
+    pub fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
         let last = self.forms.back();
         last.is_some_and(|before| {
             !simulation.tape.is_beyond_end_unmoved() && before.hash != simulation.state_hash()
@@ -208,7 +208,7 @@ impl Snapshots {
     }
 
     /// Restores the world to before the last form at top level.
-    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
+    pub fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
         let last = self.forms.back();
         if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
             snapshot.restore(simulation, image);
@@ -216,12 +216,12 @@ impl Snapshots {
     }
 
     /// Call when something is requested from the world.
-    pub(crate) fn touch(&mut self) {
+    pub fn touch(&mut self) {
         self.is_touched = true;
     }
 
     /// Call when the next motion is about to begin.
-    pub(crate) fn begin_motion(&mut self, simulation: &Simulation) {
+    pub fn begin_motion(&mut self, simulation: &Simulation) {
         if !self.keeps_motions {
             return;
         }
@@ -229,7 +229,7 @@ impl Snapshots {
     }
 
     /// Call when a motion has begun on the tape.
-    pub(crate) fn note_motion(&mut self, begun_before: u64) {
+    pub fn note_motion(&mut self, begun_before: u64) {
         if self.keeps_motions {
             self.add_motion(begun_before, Snapshot::Absent);
         }
@@ -244,24 +244,19 @@ impl Snapshots {
 
     /// The numbers of the frames that the snapshots of forms and the named ones need; `None` if
     /// one of these is absent.
-    pub(crate) fn frames(&self) -> Option<Vec<u64>> {
+    pub fn frames(&self) -> Option<Vec<u64>> {
         let forms = self.forms.iter().map(|before| &before.snapshot);
         let all = forms.chain(self.named.values());
         all.map(Snapshot::frame).collect()
     }
 
     /// Whether the world can be restored to before the motion with that number.
-    pub(crate) fn has_motion_snapshot(&self, motion: u64) -> bool {
+    pub fn has_motion_snapshot(&self, motion: u64) -> bool {
         self.motions.iter().any(|(n, _)| *n == motion)
     }
 
     /// Restores the world to before the motion with that number, if there is a snapshot.
-    pub(crate) fn go_back_to(
-        &mut self,
-        simulation: &mut Simulation,
-        image: &mut Image,
-        motion: u64,
-    ) {
+    pub fn go_back_to(&mut self, simulation: &mut Simulation, image: &mut Image, motion: u64) {
         let found = self.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, snapshot)) = found.cloned() {
             snapshot.restore(simulation, image);
@@ -270,7 +265,7 @@ impl Snapshots {
 
     /// Restores the world to before the last `count` forms that changed it; returns the first
     /// of them.
-    pub(crate) fn rewind(
+    pub fn rewind(
         &mut self,
         simulation: &mut Simulation,
         image: &mut Image,
@@ -315,13 +310,13 @@ impl Snapshots {
     }
 
     /// Takes a named snapshot of the world.
-    pub(crate) fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
+    pub fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
         let snapshot = Snapshot::take(simulation, image);
         self.named.insert(name.to_owned(), snapshot);
     }
 
     /// Restores a named snapshot of the world.
-    pub(crate) fn restore_kept(
+    pub fn restore_kept(
         &mut self,
         simulation: &mut Simulation,
         image: &mut Image,
@@ -349,7 +344,7 @@ impl Snapshots {
     }
 
     /// The names of the named snapshots.
-    pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
+    pub fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
     }
 }

@@ -3,75 +3,75 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::interruption::interruptible;
-use crate::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
-use crate::plan::{TaskId, Ticket};
-use crate::watch::{self, About};
-use crate::world::World;
+use cram::{TaskId, Ticket};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::interruption::interruptible;
+use robotics::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
+use robotics::world::World;
+use view::watch::{self, About};
 
 /// A motion that a task waits for.
-pub(crate) struct Job {
-    pub(crate) ticket: Ticket,
-    pub(crate) module: ProcessModule,
+pub struct Job {
+    pub ticket: Ticket,
+    pub module: ProcessModule,
     motion: Box<dyn Motion>,
     /// The designator named in failures.
-    pub(crate) subject: Value,
+    pub subject: Value,
     /// The task that waits.
-    pub(crate) task: TaskId,
+    pub task: TaskId,
     /// The kind of motion, for display.
-    pub(crate) name: String,
+    pub name: String,
     /// What followers are told of it.
-    pub(crate) told: Told,
-    pub(crate) is_paused: bool,
+    pub told: Told,
+    pub is_paused: bool,
 }
 
 /// What followers are told of a motion, if there are any when it begins.
 #[derive(Clone, Default)]
-pub(crate) struct Told {
+pub struct Told {
     /// The action or the task that performs it.
-    pub(crate) parent: Option<watch::TaskId>,
+    pub parent: Option<watch::TaskId>,
     /// What it is.
-    pub(crate) about: Option<Arc<About>>,
+    pub about: Option<Arc<About>>,
 }
 
 /// All motions.
 #[derive(Default)]
-pub(crate) struct Jobs {
+pub struct Jobs {
     /// Active motions, in the order in which they started.
-    pub(crate) active: Vec<Job>,
+    pub active: Vec<Job>,
     /// Motions that have been cancelled and brake.
-    pub(crate) leaving: Vec<Job>,
+    pub leaving: Vec<Job>,
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     /// What has been done for the next step, if an interrupt came in between.
-    pub(crate) partial_step: Option<PartialStep>,
+    pub partial_step: Option<PartialStep>,
     /// Number of motions begun so far.
-    pub(crate) begun: u64,
+    pub begun: u64,
 }
 
 /// An incomplete step of the world: what motions have done for it so far.
 #[derive(Default)]
-pub(crate) struct PartialStep {
+pub struct PartialStep {
     /// Motions that have set their joints.
-    pub(crate) ticked: Vec<Ticket>,
+    pub ticked: Vec<Ticket>,
     /// Motions that have ended in this step.
-    pub(crate) completions: Vec<Completion>,
+    pub completions: Vec<Completion>,
 }
 
 /// How a motion has ended.
-pub(crate) type Completion = (Ticket, Result<Value, Box<Raise>>);
+pub type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Job {
     /// Whether the robot would not be at rest if the motion were left alone now.
-    pub(crate) fn is_moving(&self) -> bool {
+    pub fn is_moving(&self) -> bool {
         self.motion.is_moving()
     }
 
     /// Lets the motion set joints for a step of braking.
-    pub(crate) fn brake(&mut self, world: &mut World) {
+    pub fn brake(&mut self, world: &mut World) {
         if self.motion.is_moving() {
             self.motion.brake(world);
         }
@@ -79,7 +79,7 @@ impl Job {
 
     /// Lets the motion set joints; `None` if an interrupt came before or while it planned, in
     /// which case it is unchanged.
-    pub(crate) fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
+    pub fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
         let Some(before) = self.motion.before_planning() else {
             return Some(self.motion.tick(world));
         };
@@ -97,7 +97,7 @@ impl Job {
 
 impl Jobs {
     /// Adds a motion, which begins as soon as its process module is free.
-    pub(crate) fn add(
+    pub fn add(
         &mut self,
         motion: Box<dyn Motion>,
         subject: Value,
@@ -121,7 +121,7 @@ impl Jobs {
     }
 
     /// Starts the motions whose process modules are free.
-    pub(crate) fn admit_waiting(&mut self) {
+    pub fn admit_waiting(&mut self) {
         if self.partial_step.is_some() {
             return;
         }
@@ -139,7 +139,7 @@ impl Jobs {
     }
 
     /// Ends a motion and removes it. Until [`Self::leave`] it goes on moving.
-    pub(crate) fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
+    pub fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
         let is_it = |job: &Job| job.ticket == ticket;
         let mut cancelled = match self.active.iter().position(is_it) {
             Some(place) => Some(self.active.remove(place)),
@@ -159,20 +159,20 @@ impl Jobs {
     }
 
     /// Lets a cancelled motion brake in the next steps.
-    pub(crate) fn leave(&mut self, job: Job) {
+    pub fn leave(&mut self, job: Job) {
         if job.is_moving() {
             self.leaving.push(job);
         }
     }
 
     /// Whether motions brake that have been cancelled or paused.
-    pub(crate) fn is_braking(&self) -> bool {
+    pub fn is_braking(&self) -> bool {
         let paused = self.active.iter().filter(|job| job.is_paused);
         self.leaving.iter().chain(paused).any(Job::is_moving)
     }
 
     /// Pauses a motion or lets it continue.
-    pub(crate) fn set_paused(&mut self, ticket: Ticket, paused: bool) {
+    pub fn set_paused(&mut self, ticket: Ticket, paused: bool) {
         for job in self.active.iter_mut().chain(&mut self.waiting) {
             if job.ticket == ticket {
                 job.is_paused = paused;
@@ -181,18 +181,18 @@ impl Jobs {
     }
 
     /// What a motion is about.
-    pub(crate) fn subject(&self, ticket: Ticket) -> Option<&Value> {
+    pub fn subject(&self, ticket: Ticket) -> Option<&Value> {
         let mut all = self.active.iter().chain(&self.waiting);
         all.find(|job| job.ticket == ticket).map(|job| &job.subject)
     }
 
     /// Whether no motion is active or waiting.
-    pub(crate) fn is_idle(&self) -> bool {
+    pub fn is_idle(&self) -> bool {
         self.active.is_empty() && self.waiting.is_empty() && self.leaving.is_empty()
     }
 
     /// No motions, after so many.
-    pub(crate) fn after(begun: u64) -> Self {
+    pub fn after(begun: u64) -> Self {
         Jobs {
             begun,
             ..Jobs::default()
@@ -200,7 +200,7 @@ impl Jobs {
     }
 
     /// Forgets all motions.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.active.clear();
         self.leaving.clear();
         self.partial_step = None;
@@ -208,14 +208,14 @@ impl Jobs {
     }
 
     /// The trajectories that motions follow, with the motions' numbers.
-    pub(crate) fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
+    pub fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
         let jobs = self.active.iter();
         jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
             .collect()
     }
 
     /// What each motion is doing, and its progress.
-    pub(crate) fn progress(&self) -> impl Iterator<Item = String> {
+    pub fn progress(&self) -> impl Iterator<Item = String> {
         let jobs = self.active.iter().filter(|job| !job.is_paused);
         jobs.map(|job| {
             let progress = job.motion.progress();

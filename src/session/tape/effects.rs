@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageId;
+use lisp::image::Image;
+use lisp::value::package::PackageId;
 
 /// The state of the image before a call.
 #[derive(Clone, Copy)]
-pub(crate) struct Mark {
+pub struct Mark {
     written: usize,
     symbols: usize,
     polls: u64,
@@ -16,7 +16,7 @@ pub(crate) struct Mark {
 
 /// What a call has changed.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) struct Effects {
+pub struct Effects {
     /// What it wrote.
     text: String,
     /// The symbols that it made, with their packages.
@@ -28,7 +28,7 @@ pub(crate) struct Effects {
 }
 
 impl Mark {
-    pub(crate) fn of(image: &Image) -> Mark {
+    pub fn of(image: &Image) -> Mark {
         Mark {
             written: image.output.len(),
             symbols: image.symbols.len(),
@@ -39,7 +39,7 @@ impl Mark {
 
     /// What has changed since; `None` if that cannot be repeated. `begun` is the number of motions
     /// begun.
-    pub(crate) fn effects(&self, image: &Image, begun: u64) -> Option<Effects> {
+    pub fn effects(&self, image: &Image, begun: u64) -> Option<Effects> {
         // An object that was printed got a number, and nobody knows which object that was.
         if image.printed.borrow().given() != self.identities {
             return None;
@@ -57,7 +57,7 @@ impl Mark {
 
 impl Effects {
     /// Changes the same things.
-    pub(crate) fn repeat(&self, image: &mut Image) {
+    pub fn repeat(&self, image: &mut Image) {
         for (package, name) in &self.symbols {
             image.intern(PackageId(*package), name);
         }
@@ -68,7 +68,7 @@ impl Effects {
     }
 
     /// The number of motions begun so far.
-    pub(crate) fn begun(&self) -> u64 {
+    pub fn begun(&self) -> u64 {
         self.begun
     }
 }

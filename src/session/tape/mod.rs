@@ -31,14 +31,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::lisp::value::Value;
+use lisp::value::Value;
 
-pub(crate) use data::{Data, Name, RaiseData};
-pub(crate) use effects::Mark;
-pub(crate) use entry::{Answer, Done, Entry};
-pub(crate) use frame::Frame;
-pub(crate) use part::Part;
-pub(crate) use request::checksum;
+pub use data::{Data, Name, RaiseData};
+pub use effects::Mark;
+pub use entry::{Answer, Done, Entry};
+pub use frame::Frame;
+pub use part::Part;
+pub use request::checksum;
 
 /// Most bytes of answers during one input; an input with more is spoilt.
 const MOST_BYTES: usize = 1 << 26;
@@ -62,7 +62,7 @@ enum Mode {
 
 /// The tape of a session, and how the world stands to it.
 #[derive(Default)]
-pub(crate) struct Tape {
+pub struct Tape {
     mode: Mode,
     /// Whether anything has looked at the physical state, or changed it, since the last mark.
     is_touched: Cell<bool>,
@@ -98,12 +98,12 @@ pub(crate) struct Tape {
 
 impl Tape {
     /// Has the world always answered itself, without anything being written down?
-    pub(crate) fn is_off(&self) -> bool {
+    pub fn is_off(&self) -> bool {
         matches!(self.mode, Mode::Off) && !self.is_stale && self.last.is_none() && self.begun == 0
     }
 
     /// Something looks at the physical state.
-    pub(crate) fn note_read(&self) {
+    pub fn note_read(&self) {
         self.is_touched.set(true);
         if self.is_stale {
             self.fail();
@@ -111,49 +111,49 @@ impl Tape {
     }
 
     /// Something changes the physical state.
-    pub(crate) fn note_change(&mut self) {
+    pub fn note_change(&mut self) {
         self.note_read();
         self.is_changed = true;
     }
 
     /// An operation that the tape answers for by itself changes the physical state.
-    pub(crate) fn note_change_apart(&mut self) {
+    pub fn note_change_apart(&mut self) {
         self.is_changed = true;
     }
 
     /// A call that the tape does not answer for has looked at the physical state, or has an effect
     /// on values that outlast it: the present input cannot be played.
-    pub(crate) fn note_lasting_effect(&self) {
+    pub fn note_lasting_effect(&self) {
         self.has_lasting_effect.set(true);
     }
 
     /// Begins to watch accesses.
-    pub(crate) fn watch(&self) {
+    pub fn watch(&self) {
         self.is_touched.set(false);
     }
 
     /// Whether there have been accesses since.
-    pub(crate) fn is_touched(&self) -> bool {
+    pub fn is_touched(&self) -> bool {
         self.is_touched.get()
     }
 
     /// Whether the physical state is an old one.
-    pub(crate) fn is_stale(&self) -> bool {
+    pub fn is_stale(&self) -> bool {
         self.is_stale
     }
 
     /// Whether answers are recorded.
-    pub(crate) fn is_recording(&self) -> bool {
+    pub fn is_recording(&self) -> bool {
         matches!(self.mode, Mode::Recording(_))
     }
 
     /// Whether answers are played.
-    pub(crate) fn is_playing(&self) -> bool {
+    pub fn is_playing(&self) -> bool {
         matches!(self.mode, Mode::Playing { .. })
     }
 
     /// The playing has failed: the evaluation stops, and its result counts for nothing.
-    pub(crate) fn fail(&self) {
+    pub fn fail(&self) {
         if let Mode::Playing { stop, .. } = &self.mode {
             self.is_broken.set(true);
             stop.store(true, Ordering::Relaxed);
@@ -161,7 +161,7 @@ impl Tape {
     }
 
     /// The present input cannot be played.
-    pub(crate) fn spoil(&mut self) {
+    pub fn spoil(&mut self) {
         self.is_spoilt = true;
         if let Mode::Recording(entries) = &mut self.mode {
             *entries = Vec::new();
@@ -169,7 +169,7 @@ impl Tape {
     }
 
     /// Writes an answer down. One that is part of another answer cannot be told from that one.
-    pub(crate) fn put(&mut self, entry: &Entry) {
+    pub fn put(&mut self, entry: &Entry) {
         if self.is_open {
             self.spoil();
         }
@@ -187,7 +187,7 @@ impl Tape {
 
     /// The call that is being recorded has ended with that answer; without one, the input is
     /// spoilt.
-    pub(crate) fn close(&mut self, entry: Option<Entry>) {
+    pub fn close(&mut self, entry: Option<Entry>) {
         self.is_open = false;
         match entry {
             Some(entry) => self.put(&entry),
@@ -196,7 +196,7 @@ impl Tape {
     }
 
     /// A call begins to be recorded. One that was left before its end has left no answer.
-    pub(crate) fn open(&mut self) {
+    pub fn open(&mut self) {
         if std::mem::replace(&mut self.is_open, true) {
             self.spoil();
         }
@@ -204,7 +204,7 @@ impl Tape {
     }
 
     /// The next answer; `None` if there is none, which ends the playing.
-    pub(crate) fn next(&mut self) -> Option<Entry> {
+    pub fn next(&mut self) -> Option<Entry> {
         if self.is_broken.get() {
             self.fail();
             return None;
@@ -226,14 +226,14 @@ impl Tape {
     }
 
     /// An answer was played that the world has not given: it is stale from here on.
-    pub(crate) fn make_stale(&mut self) {
+    pub fn make_stale(&mut self) {
         self.is_stale = true;
         self.has_moved = true;
         self.last = None;
     }
 
     /// The world is in the state of that frame.
-    pub(crate) fn has_loaded(&mut self, frame: Rc<Frame>) {
+    pub fn has_loaded(&mut self, frame: Rc<Frame>) {
         self.is_stale = false;
         self.is_changed = false;
         self.next = self.next.max(frame.number + 1);
@@ -241,12 +241,12 @@ impl Tape {
     }
 
     /// The frame of the present state, if it has one.
-    pub(crate) fn present(&self) -> Option<Rc<Frame>> {
+    pub fn present(&self) -> Option<Rc<Frame>> {
         self.last.clone().filter(|_| !self.is_changed)
     }
 
     /// Takes a frame of a state with that hash.
-    pub(crate) fn take(&mut self, hash: u64, state: &impl Serialize) -> Option<Rc<Frame>> {
+    pub fn take(&mut self, hash: u64, state: &impl Serialize) -> Option<Rc<Frame>> {
         let frame = Rc::new(Frame::of(self.next, hash, state)?);
         self.next += 1;
         self.taken.push(Rc::clone(&frame));
@@ -254,18 +254,18 @@ impl Tape {
     }
 
     /// The frame is that of the present state.
-    pub(crate) fn is_at(&mut self, frame: &Rc<Frame>) {
+    pub fn is_at(&mut self, frame: &Rc<Frame>) {
         self.last = Some(Rc::clone(frame));
         self.is_changed = false;
     }
 
     /// A frame of the earlier session.
-    pub(crate) fn frame(&self, number: u64) -> Option<Rc<Frame>> {
+    pub fn frame(&self, number: u64) -> Option<Rc<Frame>> {
         self.known.get(&number).cloned()
     }
 
     /// Makes frames of an earlier session known.
-    pub(crate) fn know(&mut self, frames: Vec<Rc<Frame>>) {
+    pub fn know(&mut self, frames: Vec<Rc<Frame>>) {
         for frame in frames {
             self.next = self.next.max(frame.number + 1);
             self.known.insert(frame.number, frame);
@@ -273,35 +273,35 @@ impl Tape {
     }
 
     /// The number of motions begun so far, as far as answers have told it.
-    pub(crate) fn begun(&self) -> u64 {
+    pub fn begun(&self) -> u64 {
         self.begun
     }
 
     /// An answer says how many motions have begun so far.
-    pub(crate) fn set_begun(&mut self, begun: u64) {
+    pub fn set_begun(&mut self, begun: u64) {
         self.begun = begun;
     }
 
     /// A motion is under way on the tape.
-    pub(crate) fn begin_motion(&mut self, ticket: u64, subject: Value) {
+    pub fn begin_motion(&mut self, ticket: u64, subject: Value) {
         self.motions.push((ticket, subject));
     }
 
     /// A motion on the tape has ended or is cancelled; returns what it was about.
-    pub(crate) fn end_motion(&mut self, ticket: u64) -> Option<Value> {
+    pub fn end_motion(&mut self, ticket: u64) -> Option<Value> {
         let at = self.motions.iter().position(|(t, _)| *t == ticket)?;
         Some(self.motions.remove(at).1)
     }
 
     /// Notes how a motion has ended; `None` if that cannot be written down.
-    pub(crate) fn note_end(&mut self, ticket: u64, done: Option<Done>) {
+    pub fn note_end(&mut self, ticket: u64, done: Option<Done>) {
         if self.is_recording() {
             self.ended.push((ticket, done));
         }
     }
 
     /// How the motions have ended that were noted; `None` if one cannot be written down.
-    pub(crate) fn take_ended(&mut self) -> Option<Vec<(u64, Done)>> {
+    pub fn take_ended(&mut self) -> Option<Vec<(u64, Done)>> {
         let ended = std::mem::take(&mut self.ended);
         ended
             .into_iter()
@@ -310,13 +310,13 @@ impl Tape {
     }
 
     /// Records the next input.
-    pub(crate) fn record(&mut self) {
+    pub fn record(&mut self) {
         self.begin(Mode::Recording(Vec::new()));
     }
 
     /// Plays the next input; `stop` ends its evaluation if that fails. Returns false if the part is
     /// damaged.
-    pub(crate) fn play(&mut self, part: &Part, stop: Arc<AtomicBool>) -> bool {
+    pub fn play(&mut self, part: &Part, stop: Arc<AtomicBool>) -> bool {
         let Some(entries) = part.entries() else {
             return false;
         };
@@ -326,7 +326,7 @@ impl Tape {
     }
 
     /// Neither records nor plays.
-    pub(crate) fn stop(&mut self) {
+    pub fn stop(&mut self) {
         self.begin(Mode::Off);
     }
 
@@ -342,7 +342,7 @@ impl Tape {
     }
 
     /// Whether the input was played from the first to the last answer.
-    pub(crate) fn was_played(&self) -> bool {
+    pub fn was_played(&self) -> bool {
         match &self.mode {
             Mode::Playing { entries, at, .. } => !self.is_broken.get() && *at == entries.len(),
             _ => false,
@@ -351,7 +351,7 @@ impl Tape {
 
     /// Whether the input that is played goes on after the last answer, without having moved the
     /// world: it was interrupted, which it was not when it was recorded.
-    pub(crate) fn is_beyond_end_unmoved(&self) -> bool {
+    pub fn is_beyond_end_unmoved(&self) -> bool {
         match &self.mode {
             Mode::Playing { entries, at, .. } => *at == entries.len() && !self.has_moved,
             _ => false,
@@ -359,12 +359,12 @@ impl Tape {
     }
 
     /// Whether the world would have moved during this input.
-    pub(crate) fn has_moved(&self) -> bool {
+    pub fn has_moved(&self) -> bool {
         self.has_moved
     }
 
     /// Whether the playing has failed.
-    pub(crate) fn has_failed(&self) -> bool {
+    pub fn has_failed(&self) -> bool {
         match &self.mode {
             Mode::Playing { .. } => self.is_broken.get(),
             _ => false,
@@ -373,7 +373,7 @@ impl Tape {
 
     /// The part of the tape for the input that has just ended; `end` is the frame of the state in
     /// which it left the world at rest, and `needed` are those that snapshots refer to.
-    pub(crate) fn finish(&mut self, end: Option<u64>, needed: Vec<u64>) -> Option<Part> {
+    pub fn finish(&mut self, end: Option<u64>, needed: Vec<u64>) -> Option<Part> {
         let Mode::Recording(entries) = &mut self.mode else {
             return None;
         };

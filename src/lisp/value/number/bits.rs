@@ -6,17 +6,17 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::convert::{from_big, to_big};
 use super::error::{NumberResult, not_an_integer};
 use super::power::{MAX_BITS, too_large};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// `(byte size position)`: a run of bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct ByteSpecifier {
+pub struct ByteSpecifier {
     /// Number of bits.
-    pub(crate) size: u32,
+    pub size: u32,
     /// Number of bits below.
-    pub(crate) position: u32,
+    pub position: u32,
 }
 
 fn big(value: &Value) -> Result<BigInt, Box<Raise>> {
@@ -26,7 +26,7 @@ fn big(value: &Value) -> Result<BigInt, Box<Raise>> {
 macro_rules! bitwise {
     ($($(#[$doc:meta])* $name:ident = $operator:tt;)*) => {
         $($(#[$doc])*
-        pub(crate) fn $name(a: &Value, b: &Value) -> NumberResult {
+        pub fn $name(a: &Value, b: &Value) -> NumberResult {
             match (a, b) {
                 (Value::Int(x), Value::Int(y)) => Ok(Value::Int(x $operator y)),
                 _ => Ok(from_big(big(a)? $operator big(b)?)),
@@ -45,7 +45,7 @@ bitwise! {
 }
 
 /// `(lognot a)`.
-pub(crate) fn not(a: &Value) -> NumberResult {
+pub fn not(a: &Value) -> NumberResult {
     match a {
         Value::Int(x) => Ok(Value::Int(!x)),
         other => Ok(from_big(!big(other)?)),
@@ -53,7 +53,7 @@ pub(crate) fn not(a: &Value) -> NumberResult {
 }
 
 /// `(ash a count)`: shifted to the left, or to the right if negative.
-pub(crate) fn ash(a: &Value, count: &Value) -> NumberResult {
+pub fn ash(a: &Value, count: &Value) -> NumberResult {
     let n = big(a)?;
     let count = match count {
         Value::Int(count) => *count,
@@ -78,14 +78,14 @@ pub(crate) fn ash(a: &Value, count: &Value) -> NumberResult {
 }
 
 /// `(integer-length a)`.
-pub(crate) fn bit_length(a: &Value) -> NumberResult {
+pub fn bit_length(a: &Value) -> NumberResult {
     let n = big(a)?;
     let n = if n.is_negative() { !n } else { n };
     Ok(Value::Int(i64::try_from(n.bits()).unwrap_or(i64::MAX)))
 }
 
 /// `(logcount a)`: the bits that differ from the sign.
-pub(crate) fn bit_count(a: &Value) -> NumberResult {
+pub fn bit_count(a: &Value) -> NumberResult {
     let n = big(a)?;
     let n = if n.is_negative() { !n } else { n };
     Ok(Value::Int(
@@ -94,7 +94,7 @@ pub(crate) fn bit_count(a: &Value) -> NumberResult {
 }
 
 /// `(logbitp index a)`.
-pub(crate) fn is_bit_set(index: &Value, a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_bit_set(index: &Value, a: &Value) -> Result<bool, Box<Raise>> {
     let n = big(a)?;
     match index {
         Value::Int(i) if *i >= 0 => Ok(n.bit(i.unsigned_abs())),
@@ -108,7 +108,7 @@ fn mask(size: u32) -> BigInt {
 }
 
 /// `(ldb byte a)`.
-pub(crate) fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
+pub fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
     let n = big(a)?;
     if let (Some(small), true) = (n.to_i64(), byte.size < 63) {
         let shifted = small >> byte.position.min(63);
@@ -121,7 +121,7 @@ pub(crate) fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
 }
 
 /// `(dpb new byte a)`.
-pub(crate) fn deposit(new: &Value, byte: ByteSpecifier, a: &Value) -> NumberResult {
+pub fn deposit(new: &Value, byte: ByteSpecifier, a: &Value) -> NumberResult {
     let (new, n) = (big(new)?, big(a)?);
     if u64::from(byte.size) + u64::from(byte.position) > MAX_BITS {
         return Err(too_large("DPB"));

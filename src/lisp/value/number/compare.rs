@@ -8,15 +8,15 @@ use super::complex;
 use super::complex::is_complex;
 use super::convert::{exact, fraction_of, is_number, is_rational, is_real};
 use super::error::{NumberResult, not_a_number, not_an_integer, not_real};
-use crate::lisp::value::Value;
-use crate::lisp::value::operation::Comparison;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::operation::Comparison;
+use crate::value::raise::Raise;
 
 /// Integers up to this magnitude are exact as double floats.
 const EXACT_IN_DOUBLE: u64 = 1 << 53;
 
 /// The order of two real numbers; `None` if one is not a number (NaN).
-pub(crate) fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
+pub fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(Some(x.cmp(y))),
         (Value::Double(x), Value::Double(y)) => Ok(x.partial_cmp(y)),
@@ -73,13 +73,13 @@ fn compare_rationals(a: &Value, b: &Value) -> Option<Ordering> {
 }
 
 /// Are two numbers of whatever types equal in value? False unless both are numbers.
-pub(crate) fn equal_by_value(a: &Value, b: &Value) -> bool {
+pub fn equal_by_value(a: &Value, b: &Value) -> bool {
     is_number(a) && is_number(b) && matches!(number_equal(a, b), Ok(true))
 }
 
 /// `(= a b)`.
 #[inline]
-pub(crate) fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x == y),
         (Value::Double(x), Value::Double(y)) => Ok(x == y),
@@ -99,7 +99,7 @@ pub(crate) fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(< a b)`.
 #[inline]
-pub(crate) fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x < y),
         (Value::Double(x), Value::Double(y)) => Ok(x < y),
@@ -109,7 +109,7 @@ pub(crate) fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(> a b)`.
 #[inline]
-pub(crate) fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x > y),
         (Value::Double(x), Value::Double(y)) => Ok(x > y),
@@ -119,7 +119,7 @@ pub(crate) fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(<= a b)`.
 #[inline]
-pub(crate) fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x <= y),
         (Value::Double(x), Value::Double(y)) => Ok(x <= y),
@@ -129,7 +129,7 @@ pub(crate) fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(>= a b)`.
 #[inline]
-pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x >= y),
         (Value::Double(x), Value::Double(y)) => Ok(x >= y),
@@ -139,11 +139,7 @@ pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// Do two numbers compare like that?
 #[inline(always)]
-pub(crate) fn compare_like(
-    comparison: Comparison,
-    a: &Value,
-    b: &Value,
-) -> Result<bool, Box<Raise>> {
+pub fn compare_like(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(comparison.holds(*x, *y)),
         _ => compare_any(comparison, a, b),
@@ -162,17 +158,17 @@ fn compare_any(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box
 }
 
 /// The larger of two numbers, unconverted; the first if they are equal.
-pub(crate) fn maximum(a: &Value, b: &Value) -> NumberResult {
+pub fn maximum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(a, b)? { b.clone() } else { a.clone() })
 }
 
 /// The smaller of two numbers, unconverted; the first if they are equal.
-pub(crate) fn minimum(a: &Value, b: &Value) -> NumberResult {
+pub fn minimum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(b, a)? { b.clone() } else { a.clone() })
 }
 
 /// `(zerop a)`.
-pub(crate) fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(*n == 0),
         Value::Double(x) => Ok(*x == 0.0),
@@ -184,17 +180,17 @@ pub(crate) fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
 }
 
 /// `(plusp a)`.
-pub(crate) fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
     greater(a, &Value::Int(0))
 }
 
 /// `(minusp a)`.
-pub(crate) fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
     less(a, &Value::Int(0))
 }
 
 /// `(evenp a)`.
-pub(crate) fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(n % 2 == 0),
         Value::Big(n) => Ok(n.is_even()),

@@ -12,15 +12,15 @@ use super::convert::{is_integer, is_rational, is_real, to_double, to_f64, to_sin
 use super::error::{NumberResult, division_by_zero, not_a_number, not_real};
 use super::power::finite;
 use super::transcendental::{atan2, cos, exp, sin};
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A complex number.
-pub(crate) struct Complex {
+pub struct Complex {
     /// The real part.
     re: Value,
     /// The imaginary part.
@@ -49,12 +49,12 @@ impl Foreign for Complex {
 }
 
 /// Is this a complex number that is not real?
-pub(crate) fn is_complex(value: &Value) -> bool {
+pub fn is_complex(value: &Value) -> bool {
     value.as_foreign::<Complex>().is_some()
 }
 
 /// `(complex re im)`: a real number if both parts are rational and the second is zero.
-pub(crate) fn complex(re: &Value, im: &Value) -> NumberResult {
+pub fn complex(re: &Value, im: &Value) -> NumberResult {
     for part in [re, im] {
         if !is_real(part) {
             return Err(not_real(part));
@@ -83,12 +83,12 @@ pub(crate) fn complex(re: &Value, im: &Value) -> NumberResult {
 }
 
 /// `(realpart z)`.
-pub(crate) fn real_part(value: &Value) -> NumberResult {
+pub fn real_part(value: &Value) -> NumberResult {
     parts(value).map(|(re, _)| re)
 }
 
 /// `(imagpart z)`.
-pub(crate) fn imaginary_part(value: &Value) -> NumberResult {
+pub fn imaginary_part(value: &Value) -> NumberResult {
     parts(value).map(|(_, im)| im)
 }
 
@@ -102,7 +102,7 @@ fn parts(value: &Value) -> Result<(Value, Value), Box<Raise>> {
 }
 
 /// Applies an operation of two complex numbers if one of the operands is one.
-pub(crate) fn operate(operation: Sym, a: &Value, b: &Value) -> Option<NumberResult> {
+pub fn operate(operation: Sym, a: &Value, b: &Value) -> Option<NumberResult> {
     if !is_complex(a) && !is_complex(b) {
         return None;
     }
@@ -137,7 +137,7 @@ fn divide(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(conjugate z)`.
-pub(crate) fn conjugate(value: &Value) -> NumberResult {
+pub fn conjugate(value: &Value) -> NumberResult {
     match value.as_foreign::<Complex>() {
         Some(z) => complex(&z.re, &negate(&z.im)?),
         None if is_real(value) => Ok(value.clone()),
@@ -146,7 +146,7 @@ pub(crate) fn conjugate(value: &Value) -> NumberResult {
 }
 
 /// Are two numbers equal, at least one of which is complex?
-pub(crate) fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     let ((a_re, a_im), (b_re, b_im)) = (parts(a)?, parts(b)?);
     Ok(number_equal(&a_re, &b_re)? && number_equal(&a_im, &b_im)?)
 }
@@ -167,24 +167,24 @@ pub(super) fn float(re: f64, im: f64, is_double: bool) -> NumberResult {
 }
 
 /// The magnitude of a complex number.
-pub(crate) fn magnitude(value: &Value) -> NumberResult {
+pub fn magnitude(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     finite(libm::hypot(re, im), is_double, known::SQRT, &[value])
 }
 
 /// `(phase z)`: the angle (rad) of the number in the plane.
-pub(crate) fn phase(value: &Value) -> NumberResult {
+pub fn phase(value: &Value) -> NumberResult {
     let (re, im) = parts(value)?;
     atan2(&im, &re)
 }
 
 /// `(cis angle)`: the number of magnitude one at an angle (rad).
-pub(crate) fn cis(angle: &Value) -> NumberResult {
+pub fn cis(angle: &Value) -> NumberResult {
     complex(&cos(angle)?, &sin(angle)?)
 }
 
 /// The square root of a negative or complex number: that in the right half of the plane.
-pub(crate) fn square_root(value: &Value) -> NumberResult {
+pub fn square_root(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     let im = if is_complex(value) { im } else { 0.0 };
     // Numbers whose magnitude would overflow are made smaller by a square.
@@ -206,20 +206,20 @@ pub(crate) fn square_root(value: &Value) -> NumberResult {
 }
 
 /// The natural logarithm of a negative or complex number.
-pub(crate) fn logarithm(value: &Value) -> NumberResult {
+pub fn logarithm(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     let angle = libm::atan2(if is_complex(value) { im } else { 0.0 }, re);
     float(libm::log(libm::hypot(re, im)), angle, is_double)
 }
 
 /// e to the power of a complex number.
-pub(crate) fn exponential(value: &Value) -> NumberResult {
+pub fn exponential(value: &Value) -> NumberResult {
     let (re, im) = parts(value)?;
     mul(&exp(&re)?, &cis(&im)?)
 }
 
 /// A power with a complex base or exponent, or a fractional power of a negative number.
-pub(crate) fn power(base: &Value, exponent: &Value) -> NumberResult {
+pub fn power(base: &Value, exponent: &Value) -> NumberResult {
     if is_integer(exponent) && is_exact(base) {
         return exact_power(base, exponent);
     }
@@ -232,8 +232,7 @@ pub(crate) fn power(base: &Value, exponent: &Value) -> NumberResult {
         let (sine, cosine) = libm::sincos(PI * y.0);
         return float(radius * cosine, radius * sine, x.2 || y.2);
     }
-    let logarithm =
-        crate::lisp::value::number::transcendental::log(&as_contagious(base, exponent)?)?;
+    let logarithm = crate::value::number::transcendental::log(&as_contagious(base, exponent)?)?;
     exponential(&mul(exponent, &logarithm)?)
 }
 
@@ -256,14 +255,14 @@ fn as_contagious(base: &Value, exponent: &Value) -> NumberResult {
 
 fn exact_power(base: &Value, exponent: &Value) -> NumberResult {
     let Value::Int(n) = exponent else {
-        return Err(crate::lisp::value::number::power::too_large("EXPT"));
+        return Err(crate::value::number::power::too_large("EXPT"));
     };
     // Squares of squares: as many steps as the exponent has bits.
     let mut result = Value::Int(1);
     let mut square = base.clone();
     let mut rest = n.unsigned_abs();
     if rest > 1 << 16 {
-        return Err(crate::lisp::value::number::power::too_large("EXPT"));
+        return Err(crate::value::number::power::too_large("EXPT"));
     }
     while rest > 0 {
         if rest % 2 == 1 {

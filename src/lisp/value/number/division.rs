@@ -10,14 +10,14 @@ use super::arithmetic::{mul, sub};
 use super::convert::{exact_fraction, fraction_of, from_big, is_rational, is_real, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_real, overflow};
 use super::large;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Which integer a quotient becomes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Rounding {
+pub enum Rounding {
     /// The one below or equal.
     Floor,
     /// The one above or equal.
@@ -40,11 +40,7 @@ impl Rounding {
 }
 
 /// Quotient, an integer, and remainder of `a` by `b`: `a = quotient * b + remainder`.
-pub(crate) fn divide(
-    a: &Value,
-    b: &Value,
-    rounding: Rounding,
-) -> Result<(Value, Value), Box<Raise>> {
+pub fn divide(a: &Value, b: &Value, rounding: Rounding) -> Result<(Value, Value), Box<Raise>> {
     if let (Value::Int(x), Value::Int(y)) = (a, b)
         && *y != 0
         && *y != -1
@@ -202,7 +198,7 @@ fn integer_of(x: f64) -> Value {
 }
 
 /// Like [`divide`], but the quotient is a float (`ffloor` and so on).
-pub(crate) fn divide_to_float(
+pub fn divide_to_float(
     a: &Value,
     b: &Value,
     rounding: Rounding,
@@ -210,43 +206,43 @@ pub(crate) fn divide_to_float(
     let (quotient, rest) = divide(a, b, rounding)?;
     let is_double = matches!(a, Value::Double(_)) || matches!(b, Value::Double(_));
     let quotient = if is_double {
-        crate::lisp::value::number::convert::to_double(&quotient)?
+        crate::value::number::convert::to_double(&quotient)?
     } else {
-        crate::lisp::value::number::convert::to_single(&quotient)?
+        crate::value::number::convert::to_single(&quotient)?
     };
     Ok((quotient, rest))
 }
 
 /// `(floor a b)`.
 #[cfg(test)]
-pub(crate) fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Floor)
 }
 
 /// `(ceiling a b)`.
 #[cfg(test)]
-pub(crate) fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Ceiling)
 }
 
 /// `(truncate a b)`.
 #[cfg(test)]
-pub(crate) fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Truncate)
 }
 
 /// `(round a b)`.
 #[cfg(test)]
-pub(crate) fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Round)
 }
 
 /// `(mod a b)`.
-pub(crate) fn modulo(a: &Value, b: &Value) -> NumberResult {
+pub fn modulo(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Floor)?.1)
 }
 
 /// `(rem a b)`.
-pub(crate) fn remainder(a: &Value, b: &Value) -> NumberResult {
+pub fn remainder(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Truncate)?.1)
 }

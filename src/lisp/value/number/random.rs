@@ -10,17 +10,17 @@ use rand_pcg::rand_core::Rng;
 use super::convert::from_big;
 use super::error::NumberResult;
 use super::large;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A generator of its own, or the image's: the value of `*random-state*`.
-pub(crate) struct RandomState {
+pub struct RandomState {
     /// None for the image's generator.
-    pub(crate) generator: Option<RefCell<Pcg64>>,
+    pub generator: Option<RefCell<Pcg64>>,
 }
 
 impl Foreign for RandomState {
@@ -41,7 +41,7 @@ impl Foreign for RandomState {
 
 /// `(make-random-state state)`: a generator that continues as another one would (for `NIL`, the
 /// image's) or, for `T`, unlike any other.
-pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
+pub fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
         (Value::Symbol(known::NIL, ..), _) => default.clone(),
         (Value::Symbol(known::T, ..), _) => {
@@ -60,7 +60,7 @@ pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberRes
 }
 
 /// `(random limit state)`
-pub(crate) fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> NumberResult {
+pub fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> NumberResult {
     match state.as_foreign::<RandomState>() {
         Some(RandomState {
             generator: Some(generator),
@@ -71,7 +71,7 @@ pub(crate) fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> 
 }
 
 /// `(random limit)`: an integer or float from zero up to, but not including, the limit.
-pub(crate) fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
+pub fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
     match limit {
         Value::Int(n) if *n > 0 => {
             // The high word of the product: no modulo, and no bias that could be seen.
