@@ -77,7 +77,7 @@ pub trait Host {
 /// A host without a world.
 #[cfg(test)]
 #[derive(Default, Clone, Copy, Debug)]
-pub struct NullHost;
+pub(crate) struct NullHost;
 
 #[cfg(test)]
 impl Host for NullHost {

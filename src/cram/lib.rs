@@ -15,7 +15,7 @@ mod install;
 pub mod journal;
 mod library;
 mod names;
-pub mod open_action;
+pub(crate) mod open_action;
 mod overview;
 pub mod package;
 pub mod packages;
@@ -29,7 +29,7 @@ mod tree;
 
 pub use handlers::Handlers;
 #[cfg(test)]
-pub use host::NullHost;
+pub(crate) use host::NullHost;
 pub use host::{Advance, Host, Reply, Ticket};
 pub use install::install;
 pub use overview::tell_overview;

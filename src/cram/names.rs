@@ -91,7 +91,7 @@ macro_rules! names {
         #[derive(Clone, Copy)]
         pub struct Names {
             $($(pub $id: Sym,)*)*
-            pub inherit_parent_value: Sym,
+            pub(crate) inherit_parent_value: Sym,
         }
 
         impl Names {

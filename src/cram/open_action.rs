@@ -14,7 +14,7 @@ use lisp::value::Value;
 
 /// An action while it is performed. When it is dropped, with the stack frame of its plan, the
 /// action has ended.
-pub struct OpenAction {
+pub(crate) struct OpenAction {
     plan: Rc<Plan>,
     task: TaskId,
     begun: BegunAction,
@@ -46,7 +46,7 @@ impl OpenAction {
     }
 
     /// The action has succeeded with a value.
-    pub fn succeed(&self, value: &Value) {
+    pub(crate) fn succeed(&self, value: &Value) {
         self.value.replace(Some(value.clone()));
     }
 }

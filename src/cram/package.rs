@@ -17,7 +17,7 @@ pub struct PackageDefinition {
     pub exports: &'static [&'static str],
     /// Packages whose exported symbols it also exports, except those with the same name as one of
     /// its own symbols.
-    pub reexports: &'static [&'static str],
+    pub(crate) reexports: &'static [&'static str],
 }
 
 /// Makes the package, or completes an existing one with that name.
@@ -45,7 +45,7 @@ pub fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
 }
 
 /// Exports what another package exports, except names of the package's own symbols.
-pub fn reexport(image: &mut Image, id: PackageId, source: &str) {
+pub(crate) fn reexport(image: &mut Image, id: PackageId, source: &str) {
     let Some(source) = image.packages.find(source) else {
         return;
     };

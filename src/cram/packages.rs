@@ -254,7 +254,7 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
 ];
 
 /// The package with that name, made if necessary, with the nicknames.
-pub fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
+pub(crate) fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
     let id = match image.packages.find(name) {
         Some(id) => id,
         // The name is free, so `make` fails only if there are 65536 packages.
@@ -273,7 +273,7 @@ pub fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
 }
 
 /// Gives a symbol without a name a name and a home package, from which it is exported.
-pub fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name: &str) {
+pub(crate) fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name: &str) {
     let data = image.symbols.get_mut(sym);
     data.name = name.into();
     data.package = Some(package);

@@ -49,7 +49,7 @@ pub enum Request {
 
 /// When a group of tasks has ended, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum GroupKind {
+pub(crate) enum GroupKind {
     /// All must succeed.
     All,
     /// The first to succeed decides; any failure fails the group.

@@ -28,7 +28,7 @@ pub struct Plan {
     woken: RefCell<Vec<Waiter>>,
     /// Special variables that every task binds, in order of definition: to their value in the task
     /// that starts it, or to what a function computes from that.
-    pub task_variables: RefCell<Vec<(Sym, Option<Value>)>>,
+    pub(crate) task_variables: RefCell<Vec<(Sym, Option<Value>)>>,
     /// Task trees of named top-level plans.
     pub trees: RefCell<IndexMap<Sym, Rc<TreeNode>>>,
     /// Changes in the states of tasks.
@@ -122,7 +122,7 @@ impl Plan {
     }
 
     /// A number for a generated name.
-    pub fn fresh_number(&self) -> u64 {
+    pub(crate) fn fresh_number(&self) -> u64 {
         self.numbers.set(self.numbers.get() + 1);
         self.numbers.get()
     }

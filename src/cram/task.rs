@@ -44,7 +44,7 @@ pub enum Status {
 
 impl Status {
     /// Whether the task has ended.
-    pub fn is_dead(self) -> bool {
+    pub(crate) fn is_dead(self) -> bool {
         matches!(
             self,
             Status::Succeeded | Status::Failed | Status::Evaporated
@@ -52,7 +52,7 @@ impl Status {
     }
 
     /// Whether the task has ended without a failure.
-    pub fn is_done(self) -> bool {
+    pub(crate) fn is_done(self) -> bool {
         matches!(self, Status::Succeeded | Status::Evaporated)
     }
 

@@ -90,14 +90,14 @@ impl TreeNode {
     }
 
     /// The remembered nodes below, in the order of their parts' first calls.
-    pub fn children(&self) -> Vec<Rc<TreeNode>> {
+    pub(crate) fn children(&self) -> Vec<Rc<TreeNode>> {
         let children = self.children.borrow();
         let both = |c: &Child| std::iter::once(c.first.clone()).chain(c.last.clone());
         children.iter().flat_map(both).collect()
     }
 
     /// The number of nodes there have been below.
-    pub fn child_count(&self) -> i64 {
+    pub(crate) fn child_count(&self) -> i64 {
         self.children.borrow().iter().map(|c| c.most).sum()
     }
 
@@ -141,7 +141,7 @@ fn numbered(part: &Value, n: i64, call_marker: Sym) -> Value {
 }
 
 /// A tree node as a Lisp value.
-pub struct NodeObject {
+pub(crate) struct NodeObject {
     /// The node.
     pub node: Rc<TreeNode>,
     type_symbol: Sym,

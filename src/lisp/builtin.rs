@@ -97,7 +97,7 @@ pub fn arity(lambda_list: &str) -> (u16, Option<u16>) {
 }
 
 /// Expands a macro call: maps the whole form to its expansion.
-pub type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
+pub(crate) type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
 
 /// A macro written in Rust, or a special operator.
 pub struct Operator {

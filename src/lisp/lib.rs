@@ -9,7 +9,7 @@ pub mod evaluator;
 pub mod guard;
 pub mod image;
 pub mod library;
-pub mod loop_macro;
+pub(crate) mod loop_macro;
 pub mod native;
 pub mod object;
 pub mod print;

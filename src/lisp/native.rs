@@ -15,7 +15,7 @@ use super::vm::step::Step;
 /// A builtin that returns at once and calls no Lisp function.
 pub type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
 /// A builtin that may call functions, wait, or unwind.
-pub type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
+pub(crate) type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
 /// A pure builtin with data of its own (a structure's accessor, a constant function).
 type MadeFn = dyn Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
 /// A control builtin with data of its own.
@@ -116,7 +116,7 @@ impl Image {
 
     /// The Rust function of a builtin that returns at once and carries no data.
     #[inline(always)]
-    pub fn pure_call(&self, native: &Native) -> Option<PureFn> {
+    pub(crate) fn pure_call(&self, native: &Native) -> Option<PureFn> {
         match native.body {
             NativeBody::Builtin(number) => match self.natives[number as usize] {
                 BuiltinCall::Pure(f) => Some(f),

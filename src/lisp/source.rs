@@ -87,7 +87,7 @@ impl Sources {
     }
 
     /// Adds a text of the part of the language that is written in Lisp.
-    pub fn add_library(&mut self, name: &str, text: &str) -> SourceId {
+    pub(crate) fn add_library(&mut self, name: &str, text: &str) -> SourceId {
         self.add_text(name, text, true)
     }
 

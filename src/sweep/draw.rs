@@ -12,7 +12,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// One number of two: the seed of a world, from the seed of its sweep and its number. Each of the two
 /// passes through the finaliser of SplitMix64.
-pub fn mix(seed: u64, world: u64) -> u64 {
+pub(crate) fn mix(seed: u64, world: u64) -> u64 {
     finalised(finalised(seed.wrapping_add(GOLDEN)) ^ world.wrapping_mul(GOLDEN))
 }
 
@@ -54,7 +54,7 @@ impl Draws {
     }
 
     /// Puts things into a random order: the method of Fisher and Yates.
-    pub fn shuffle<T>(&mut self, things: &mut [T]) {
+    pub(crate) fn shuffle<T>(&mut self, things: &mut [T]) {
         for last in (1..things.len()).rev() {
             // The cast rounds down.
             let other = (self.unit() * (last + 1) as f64) as usize;

@@ -4,11 +4,11 @@ use super::beta::beta_quantile;
 use super::normal::normal_quantile;
 
 /// An interval of rates.
-pub type Interval = [f64; 2];
+pub(crate) type Interval = [f64; 2];
 
 /// The interval in which the true rate lies with that confidence, if `hits` of `count` worlds are
 /// hits: Wilson's (1927), which also does for rates near 0 and 1.
-pub fn wilson(hits: usize, count: usize, confidence: f64) -> Interval {
+pub(crate) fn wilson(hits: usize, count: usize, confidence: f64) -> Interval {
     if count == 0 {
         return [0.0, 1.0];
     }
@@ -33,7 +33,7 @@ pub fn wilson(hits: usize, count: usize, confidence: f64) -> Interval {
 
 /// The rate that the true one exceeds with that confidence: Clopper and Pearson's (1934), which errs
 /// at most as often as it says, for claims of the form "at least".
-pub fn at_least(hits: usize, count: usize, confidence: f64) -> f64 {
+pub(crate) fn at_least(hits: usize, count: usize, confidence: f64) -> f64 {
     if hits == 0 {
         return 0.0;
     }

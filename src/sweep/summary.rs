@@ -46,7 +46,7 @@ pub struct Summary<'r> {
     /// Worlds in which the plan was tried.
     pub tried: usize,
     /// Worlds in which it worked.
-    pub successes: usize,
+    pub(crate) successes: usize,
 }
 
 impl<'r> Summary<'r> {

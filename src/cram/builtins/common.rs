@@ -15,7 +15,7 @@ pub static TABLE: &[Builtin] = &[control(
 )];
 
 /// The clock of the simulation, in package `SYSTEM`.
-pub static CLOCK: &[Builtin] = &[pure(
+pub(crate) static CLOCK: &[Builtin] = &[pure(
     "CLOCK",
     "",
     "Simulated seconds since the session began.",

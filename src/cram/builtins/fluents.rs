@@ -109,7 +109,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places.
-pub static SETTERS: &[Builtin] = &[control(
+pub(crate) static SETTERS: &[Builtin] = &[control(
     "VALUE",
     "new-value fluent",
     "Stores a value in a fluent.",

@@ -38,10 +38,10 @@ pub static SYSTEM: &[&[Builtin]] = &[
 ];
 
 /// What `setf` calls for places in the plan language.
-pub static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
+pub(crate) static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
 
 /// Functions of package `COMMON-LISP` that need the scheduler.
-pub static COMMON_LISP: &[Builtin] = common::TABLE;
+pub(crate) static COMMON_LISP: &[Builtin] = common::TABLE;
 
 /// The clock, which the library of the language asks for the time.
-pub static CLOCK: &[Builtin] = common::CLOCK;
+pub(crate) static CLOCK: &[Builtin] = common::CLOCK;

@@ -149,7 +149,7 @@ fn keyword(image: &Image, value: &Value) -> Option<Sym> {
 }
 
 /// Checks one value of a designator of a class.
-pub fn check_value(
+pub(crate) fn check_value(
     image: &mut Image,
     class: Class,
     key: &Key,
@@ -176,7 +176,7 @@ pub fn check_value(
 }
 
 /// Checks the properties that a row of the schema lists, and those of nested designators.
-pub fn check_row(image: &mut Image, designator: &Designator, row: &TypeRow) -> Result<()> {
+pub(crate) fn check_row(image: &mut Image, designator: &Designator, row: &TypeRow) -> Result<()> {
     for (key, values) in designator.properties() {
         let Some(name) = key.as_symbol().map(|s| image.name(s).to_owned()) else {
             continue;
@@ -191,7 +191,7 @@ pub fn check_row(image: &mut Image, designator: &Designator, row: &TypeRow) -> R
 }
 
 /// Checks object and location designators by the keys of their classes.
-pub fn check_inside(image: &mut Image, value: &Value, depth: usize) -> Result<()> {
+pub(crate) fn check_inside(image: &mut Image, value: &Value, depth: usize) -> Result<()> {
     let Some(designator) = value::as_designator(value) else {
         return Ok(());
     };
@@ -217,7 +217,7 @@ pub fn check_inside(image: &mut Image, value: &Value, depth: usize) -> Result<()
 }
 
 /// Checks one property as the goal `(spec:property ?designator (:key ?value))` does.
-pub fn check_property(
+pub(crate) fn check_property(
     image: &mut Image,
     designator: &Designator,
     name: &str,

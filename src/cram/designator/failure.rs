@@ -80,7 +80,7 @@ fn with_data(
 
 /// Why a designator cannot be resolved.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub struct Unresolved {
+pub(crate) struct Unresolved {
     /// A sentence; empty if nothing is known.
     pub reason: String,
     /// The name that was probably meant.
@@ -98,7 +98,11 @@ impl Unresolved {
 }
 
 /// The failure of `perform`: "Designator … could not be resolved."
-pub fn reference_failure(image: &mut Image, designator: &Value, why: &Unresolved) -> Box<Raise> {
+pub(crate) fn reference_failure(
+    image: &mut Image,
+    designator: &Value,
+    why: &Unresolved,
+) -> Box<Raise> {
     let class = packages::symbol(image, "CRAM-EXECUTIVE", "DESIGNATOR-REFERENCE-FAILURE");
     let shown = print::to_string(image, designator, false);
     let text = format!("Designator {shown} could not be resolved.\n{}", why.reason);
@@ -108,7 +112,7 @@ pub fn reference_failure(image: &mut Image, designator: &Value, why: &Unresolved
 }
 
 /// A `DESIGNATOR-ERROR` with a text, and the reason on a separate line.
-pub fn designator_error(
+pub(crate) fn designator_error(
     image: &mut Image,
     designator: &Value,
     text: &str,
@@ -134,7 +138,7 @@ pub fn no_process_module(image: &mut Image, shown: &str) -> Box<Raise> {
 }
 
 /// A plain plan failure with a text.
-pub fn simple_failure(image: &mut Image, text: String) -> Box<Raise> {
+pub(crate) fn simple_failure(image: &mut Image, text: String) -> Box<Raise> {
     let class = plan_failure(image).unwrap_or(known::SIMPLE_ERROR);
     Raise::new(class, text)
 }

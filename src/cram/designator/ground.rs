@@ -16,7 +16,7 @@ use lisp::value::Value;
 use lisp::value::raise::Raise;
 
 /// Why a designator cannot be grounded.
-pub enum Refusal {
+pub(crate) enum Refusal {
     /// A value has the wrong type, which is an error of its own.
     Error(Box<Raise>),
     /// There is no such type of action or motion.
@@ -36,7 +36,7 @@ impl Refusal {
 }
 
 /// An action or motion whose type is known and whose keys are valid.
-pub struct Grounding {
+pub(crate) struct Grounding {
     /// The row of the schema.
     pub row: Rc<TypeRow>,
     /// Keys in upper case, aliases resolved, with their values; the type is not included.
@@ -44,7 +44,7 @@ pub struct Grounding {
 }
 
 /// Finds the row of the schema that matches the designator.
-pub fn ground(image: &mut Image, designator: &Designator) -> Result<Grounding, Refusal> {
+pub(crate) fn ground(image: &mut Image, designator: &Designator) -> Result<Grounding, Refusal> {
     let class = designator.class;
     let kind = class.name().to_lowercase();
     let Some(type_name) = designator.type_name(image) else {
@@ -212,7 +212,7 @@ fn properties(image: &mut Image, designator: &Designator, row: &TypeRow) -> Vec<
 }
 
 /// The call of an action's plan: the function and keyword arguments.
-pub fn plan_call(image: &mut Image, grounding: &Grounding) -> (Value, Vec<Value>) {
+pub(crate) fn plan_call(image: &mut Image, grounding: &Grounding) -> (Value, Vec<Value>) {
     let mut args = Vec::new();
     for (name, value) in &grounding.properties {
         args.push(image.keyword(name).into());

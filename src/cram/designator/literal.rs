@@ -13,7 +13,7 @@ use lisp::value::known;
 use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// Notes the mistakes in the properties of a designator of a class.
-pub fn note_mistakes(image: &mut Image, class: Class, properties: &[Value], place: Place) {
+pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value], place: Place) {
     let written: Vec<(String, Value)> = properties
         .iter()
         .filter_map(|property| named(image, property))

@@ -50,7 +50,11 @@ pub async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
 
 /// Like [`reference()`], but with a plan failure if there is no solution; its text is the message, if
 /// there is one, instead of the reason.
-pub async fn try_reference(calls: &Calls, designator: &Value, message: String) -> Result<Value> {
+pub(crate) async fn try_reference(
+    calls: &Calls,
+    designator: &Value,
+    message: String,
+) -> Result<Value> {
     match first_solution(calls, designator).await? {
         Found::Pose(pose) => Ok(pose),
         Found::Nothing(reason) => {
@@ -325,7 +329,7 @@ impl Search {
 }
 
 /// The next solution, as a designator equated with this one; `NIL` if there is none.
-pub async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
+pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
     if let Found::Nothing(_) = first_solution(calls, designator).await? {
         return Ok(Value::NIL);
     }

@@ -107,7 +107,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-DESIGNATORS` that call rules.
-pub static CONTROL_TABLE: &[Builtin] = &[control(
+pub(crate) static CONTROL_TABLE: &[Builtin] = &[control(
     GROUNDING,
     "designator",
     "The generator of the poses that a location lists, and of those that the rules LOCATION-GROUNDING give.",

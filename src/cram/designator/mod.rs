@@ -3,12 +3,12 @@
 //! This folder defines their syntax, their types and keys, and how they are resolved; it moves
 //! nothing. A motion becomes a request to the host.
 
-pub mod access;
+pub(crate) mod access;
 pub mod check;
-pub mod def_action;
+pub(crate) mod def_action;
 pub mod failure;
 mod functors;
-pub mod ground;
+pub(crate) mod ground;
 pub mod literal;
 pub mod location;
 mod location_registry;
@@ -18,7 +18,7 @@ pub mod perform;
 pub mod reference;
 pub mod request;
 pub mod schema;
-pub mod syntax;
+pub(crate) mod syntax;
 pub mod value;
 
 pub use request::MotionRequest;

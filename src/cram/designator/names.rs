@@ -84,7 +84,7 @@ pub fn rosify(name: &str) -> String {
 }
 
 /// Any spelling of a name as `BOTTLE-1`.
-pub fn canonical(name: &str) -> String {
+pub(crate) fn canonical(name: &str) -> String {
     name.to_uppercase().replace('_', "-")
 }
 

@@ -33,9 +33,9 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// The data that the designator of a perceived object refers to.
-pub struct ObjectData {
+pub(crate) struct ObjectData {
     /// The object's name in the world.
-    pub identifier: Value,
+    pub(crate) identifier: Value,
     /// Where it was seen, in the robot's base frame.
     pub pose: Value,
     class_symbol: Sym,
@@ -128,7 +128,7 @@ fn property(image: &mut Image, key: &str, value: Value) -> Value {
 }
 
 /// One of the poses of a perceived object, by its key (`"POSE"`, `"POSE-IN-MAP"`, …).
-pub fn pose_property(image: &Image, object: &Value, key: &str) -> Option<Value> {
+pub(crate) fn pose_property(image: &Image, object: &Value, key: &str) -> Option<Value> {
     let designator = value::as_class(object, Class::Object)?;
     let poses = designator.property_named(image, "POSE")?;
     poses

@@ -57,7 +57,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-EXECUTIVE`.
-pub static EXECUTIVE_TABLE: &[Builtin] = &[control(
+pub(crate) static EXECUTIVE_TABLE: &[Builtin] = &[control(
     "TRY-REFERENCE-DESIGNATOR",
     "designator &optional message",
     "Like REFERENCE; a plan failure if the designator stands for nothing.",
@@ -106,7 +106,7 @@ fn unknown(image: &mut Image, designator: &Value, class: Class) -> Box<Raise> {
 }
 
 /// The list of groundings that rules give for an action or a motion.
-pub async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
+pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
     let is_action = value::as_class(designator, Class::Action).is_some();
     let name = if is_action {
         "ACTION-GROUNDING"
@@ -121,7 +121,7 @@ pub async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
 
 /// The list of values given by rules `(functor designator ?value)`, restricted to those for which
 /// `(condition ?value)` holds if there are rules about the condition.
-pub async fn solutions_of(
+pub(crate) async fn solutions_of(
     calls: &Calls,
     functor: Sym,
     condition: Option<Sym>,
@@ -240,7 +240,7 @@ fn next_grounding(image: &mut Image, designator: &Value) -> Result<Value> {
 }
 
 /// A designator with the same description.
-pub fn same_description(image: &mut Image, target: &Designator) -> Value {
+pub(crate) fn same_description(image: &mut Image, target: &Designator) -> Value {
     let description = target.description.borrow().clone();
     let new = Designator::new(image, target.class, target.quantifier, description);
     Value::foreign(new)
@@ -268,7 +268,7 @@ fn try_reference(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 }
 
 /// Converts a designator error to a plan failure; returns other errors unchanged.
-pub fn as_failure(
+pub(crate) fn as_failure(
     image: &mut Image,
     designator: &Value,
     raise: Box<Raise>,

@@ -106,7 +106,7 @@ pub struct Designator {
     /// What it refers to, once resolved.
     pub data: RefCell<Option<Value>>,
     /// Whether `data` comes from perception or another effect rather than from the description.
-    pub is_effective: Cell<bool>,
+    pub(crate) is_effective: Cell<bool>,
     /// Further solutions after `data`: a list, or `NIL`.
     pub solutions: RefCell<Option<Value>>,
     /// What a search for solutions remembers; the first designator of a chain has it.

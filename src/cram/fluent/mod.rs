@@ -24,8 +24,9 @@ use lisp::value::slot::Slot;
 use lisp::value::symbol::Sym;
 
 pub use evaluation::{read, value};
-pub use propagation::{Propagation, pulse, settle, store};
-pub use reference::FluentRef;
+pub(crate) use propagation::{Propagation, pulse};
+pub use propagation::{settle, store};
+pub(crate) use reference::FluentRef;
 
 /// A waiting task, at a particular wait.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -39,7 +40,7 @@ pub struct Waiter {
 }
 
 /// A fluent.
-pub struct Fluent {
+pub(crate) struct Fluent {
     name: FluentName,
     kind: Kind,
     /// Greater than that of every fluent that this one depends on.
@@ -96,7 +97,7 @@ enum Kind {
 
 /// How a network computes its value from those of its arguments.
 #[derive(Clone)]
-pub enum Operation {
+pub(crate) enum Operation {
     /// By a function that needs no machine.
     Pure(PureFn),
     /// The last value, or `NIL` as soon as one is `NIL`.
@@ -111,7 +112,7 @@ pub enum Operation {
 
 /// What a pulse fluent does about pulses for which no task was waiting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Missed {
+pub(crate) enum Missed {
     /// Those before its creation do not count; later ones count as one.
     Never,
     /// All count as one.
@@ -130,7 +131,7 @@ impl Fluent {
     }
 
     /// The name that was given, if any.
-    pub fn given_name(&self) -> Option<Value> {
+    pub(crate) fn given_name(&self) -> Option<Value> {
         match &self.name {
             FluentName::Given(name) => Some(name.clone()),
             FluentName::Numbered(..) => None,
@@ -138,7 +139,7 @@ impl Fluent {
     }
 
     /// The value, if it is known without computing it.
-    pub fn known_value(&self) -> Option<Value> {
+    pub(crate) fn known_value(&self) -> Option<Value> {
         let value = match &self.kind {
             Kind::Value { value, .. } => value.get(),
             Kind::Net {
@@ -152,7 +153,7 @@ impl Fluent {
     }
 
     /// Whether its value can be set.
-    pub fn is_settable(&self) -> bool {
+    pub(crate) fn is_settable(&self) -> bool {
         matches!(self.kind, Kind::Value { .. })
     }
 
@@ -165,7 +166,7 @@ impl Fluent {
     }
 
     /// Whether its value is valid until it is pulsed.
-    pub fn is_cacheable(&self) -> bool {
+    pub(crate) fn is_cacheable(&self) -> bool {
         match &self.kind {
             Kind::Value { .. } => true,
             Kind::Net { is_cacheable, .. } => *is_cacheable,
@@ -174,12 +175,12 @@ impl Fluent {
     }
 
     /// Waits for the next pulse.
-    pub fn add_waiter(&self, waiter: Waiter) {
+    pub(crate) fn add_waiter(&self, waiter: Waiter) {
         self.waiters.borrow_mut().push(waiter);
     }
 
     /// Stops waiting.
-    pub fn remove_waiter(&self, token: u64) {
+    pub(crate) fn remove_waiter(&self, token: u64) {
         self.waiters.borrow_mut().retain(|w| w.token != token);
     }
 
@@ -201,7 +202,7 @@ impl Fluent {
     }
 
     /// Removes a callback; returns whether it existed.
-    pub fn remove_callback(&self, name: &Value) -> bool {
+    pub(crate) fn remove_callback(&self, name: &Value) -> bool {
         let mut callbacks = self.callbacks.borrow_mut();
         let before = callbacks.len();
         callbacks.retain(|(n, _)| !n.is_eql(name));

@@ -16,7 +16,7 @@ use lisp::vm::step::Step;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// A change being propagated.
-pub struct Propagation {
+pub(crate) struct Propagation {
     plan: Rc<Plan>,
     /// Networks to check, by rank and age.
     pending: BTreeMap<(u32, u64), FluentRef>,
@@ -47,7 +47,7 @@ pub fn store(machine: &mut Machine<'_>, fluent: &FluentRef, new: Value) -> Resul
 }
 
 /// Pulses a fluent.
-pub fn pulse(machine: &mut Machine<'_>, fluent: &FluentRef) -> Result<Step> {
+pub(crate) fn pulse(machine: &mut Machine<'_>, fluent: &FluentRef) -> Result<Step> {
     spread(machine, fluent, Value::NIL)
 }
 

@@ -12,7 +12,7 @@ use lisp::value::slot::Slot;
 
 /// A counted reference to a fluent.
 #[derive(Clone)]
-pub struct FluentRef(Rc<ForeignBox>);
+pub(crate) struct FluentRef(Rc<ForeignBox>);
 
 impl FluentRef {
     fn make(plan: &Plan, name: FluentName, kind: Kind, rank: u32) -> FluentRef {
@@ -39,12 +39,17 @@ impl FluentRef {
     }
 
     /// A value fluent.
-    pub fn with_value(plan: &Plan, name: Value, value: Value) -> FluentRef {
+    pub(crate) fn with_value(plan: &Plan, name: Value, value: Value) -> FluentRef {
         FluentRef::value_fluent(plan, Some(name), value, Value::NIL)
     }
 
     /// A value fluent with a test that determines what counts as a change (`NIL`: `eql`).
-    pub fn value_fluent(plan: &Plan, name: Option<Value>, value: Value, test: Value) -> FluentRef {
+    pub(crate) fn value_fluent(
+        plan: &Plan,
+        name: Option<Value>,
+        value: Value,
+        test: Value,
+    ) -> FluentRef {
         let name = match name {
             Some(name) => FluentName::Given(name),
             None => FluentName::Numbered("FLUENT-", plan.fresh_number()),
@@ -85,7 +90,7 @@ impl FluentRef {
     }
 
     /// A fluent that is true once per pulse of the source.
-    pub fn pulses(plan: &Plan, source: &FluentRef, mode: Missed) -> FluentRef {
+    pub(crate) fn pulses(plan: &Plan, source: &FluentRef, mode: Missed) -> FluentRef {
         let processed = match mode {
             Missed::Never => source.get().pulses.get(),
             Missed::Once | Missed::Always => 0,
@@ -130,7 +135,7 @@ impl FluentRef {
     }
 
     /// Adds a callback; false if the name is taken.
-    pub fn add_callback(&self, name: &Value, function: &Value) -> bool {
+    pub(crate) fn add_callback(&self, name: &Value, function: &Value) -> bool {
         self.note();
         self.get().add_callback(name, function)
     }

@@ -75,7 +75,7 @@ pub fn quaternion(image: &Image, argument: &Value) -> Result<Quaternion> {
 }
 
 /// A position and an orientation written as `((x y z) (x y z w))`.
-pub fn placement_list(image: &Image, list: &Value) -> Result<Placement> {
+pub(crate) fn placement_list(image: &Image, list: &Value) -> Result<Placement> {
     let parts = list.list_to_vec().unwrap_or_default();
     let [position, orientation] = parts.as_slice() else {
         return Err(Raise::simple(format!(
@@ -112,7 +112,7 @@ pub fn placement(image: &Image, argument: &Value) -> Result<Placement> {
 }
 
 /// Any pose or transform; `expected` is the type named in errors.
-pub fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
+pub(crate) fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
     value::as_placement(argument).ok_or_else(|| Raise::type_error(argument, expected))
 }
 

@@ -4,11 +4,11 @@
 //! elsewhere. Lengths are in metres, angles in radians, quaternions in the order x y z w. A
 //! quaternion is stored as given, for printing, and normalised for every computation.
 
-pub mod algebra;
+pub(crate) mod algebra;
 pub mod argument;
-pub mod construct;
+pub(crate) mod construct;
 pub mod names;
-pub mod pose_functions;
+pub(crate) mod pose_functions;
 pub mod rotation;
 pub mod stamped;
 pub mod tutorial;

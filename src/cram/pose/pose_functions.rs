@@ -126,7 +126,7 @@ pub fn invert(transform: &Value) -> Result<Value> {
 }
 
 /// Position and orientation as `((x y z) (x y z w))`.
-pub fn placement_to_list(image: &Image, pose: &Value) -> Result<Value> {
+pub(crate) fn placement_to_list(image: &Image, pose: &Value) -> Result<Value> {
     let placement = argument::placement(image, pose)?;
     Ok(Value::list([
         Value::list(placement.position.0.map(Value::Double)),

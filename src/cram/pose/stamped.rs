@@ -144,7 +144,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-TF`.
-pub static CRAM_TABLE: &[Builtin] = &[
+pub(crate) static CRAM_TABLE: &[Builtin] = &[
     pure(
         "POSE->LIST",
         "pose",

@@ -24,7 +24,7 @@ pub struct Quaternion(pub [f64; 4]);
 
 impl Quaternion {
     /// No rotation.
-    pub const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
+    pub(crate) const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
 
     /// Whether it is finite and long enough to stand for a rotation.
     pub fn is_rotation(&self) -> bool {
@@ -61,7 +61,7 @@ pub struct Placement {
 
 impl Placement {
     /// At the origin, unrotated.
-    pub const IDENTITY: Placement = Placement {
+    pub(crate) const IDENTITY: Placement = Placement {
         position: Vector3([0.0; 3]),
         orientation: Quaternion::IDENTITY,
     };
@@ -86,9 +86,9 @@ impl Placement {
 
 /// A pose or transform without frames.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Unstamped {
+pub(crate) struct Unstamped {
     /// Whether it is a transform rather than a pose.
-    pub is_transform: bool,
+    pub(crate) is_transform: bool,
     /// Where.
     pub placement: Placement,
 }
@@ -158,7 +158,7 @@ pub fn pose_stamped(frame: &str, pose: &spatial::Pose) -> Value {
 }
 
 /// A pose in a frame at a time (s).
-pub fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
+pub(crate) fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
     Value::foreign(PoseStamped {
         frame: frame.into(),
         stamp,
@@ -172,7 +172,12 @@ pub fn transform_stamped(frame: &str, child: &str, pose: &spatial::Pose) -> Valu
 }
 
 /// A transform from a frame to a child frame at a time (s).
-pub fn transform_stamped_at(frame: &str, child: &str, stamp: f64, placement: Placement) -> Value {
+pub(crate) fn transform_stamped_at(
+    frame: &str,
+    child: &str,
+    stamp: f64,
+    placement: Placement,
+) -> Value {
     Value::foreign(TransformStamped {
         frame: frame.into(),
         child: child.into(),
@@ -182,12 +187,12 @@ pub fn transform_stamped_at(frame: &str, child: &str, stamp: f64, placement: Pla
 }
 
 /// The pose in a frame, if the value is one.
-pub fn as_pose_stamped(value: &Value) -> Option<PoseStamped> {
+pub(crate) fn as_pose_stamped(value: &Value) -> Option<PoseStamped> {
     value.as_foreign::<PoseStamped>().cloned()
 }
 
 /// The transform between frames, if the value is one.
-pub fn as_transform_stamped(value: &Value) -> Option<TransformStamped> {
+pub(crate) fn as_transform_stamped(value: &Value) -> Option<TransformStamped> {
     value.as_foreign::<TransformStamped>().cloned()
 }
 

@@ -81,7 +81,7 @@ impl Engine {
 
     /// A prover for a query some of whose variables are bound already: a list of pairs, the last
     /// variable first.
-    pub fn with_bindings(image: &mut Image, query: &Value, known: &Value) -> Result<Engine> {
+    pub(crate) fn with_bindings(image: &mut Image, query: &Value, known: &Value) -> Result<Engine> {
         let mut bindings = Bindings::default();
         let mut naming = Naming::default();
         let Some(pairs) = known.list_to_vec() else {

@@ -22,7 +22,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// `(<- head goal…)`: the head holds if the goals do.
 #[derive(Clone)]
-pub struct Clause {
+pub(crate) struct Clause {
     /// The head: a list, or just a symbol.
     pub head: Value,
     /// The list of goals.
@@ -39,7 +39,7 @@ pub struct Facts {
 
 impl Facts {
     /// The clauses of a functor, in order of definition.
-    pub fn clauses(&self, functor: Sym) -> Vec<Clause> {
+    pub(crate) fn clauses(&self, functor: Sym) -> Vec<Clause> {
         self.groups
             .borrow()
             .values()
@@ -124,7 +124,7 @@ pub fn of(image: &Image) -> Rc<Facts> {
 }
 
 /// Adds functors.
-pub fn install_functors(image: &Image, table: &'static [Functor]) {
+pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
     let facts = of(image);
     let mut functors = facts.functors.borrow_mut();
     functors.extend(table.iter().map(|functor| (functor.name, functor)));

@@ -64,11 +64,11 @@ pub struct Call<'c> {
     /// The arguments, as many as the functor takes.
     pub args: &'c [Value],
     /// Number of choice points when the clause of the goal was entered: `!` cuts back to that many.
-    pub clause: usize,
+    pub(crate) clause: usize,
     /// Number of choice points.
-    pub barrier: usize,
+    pub(crate) barrier: usize,
     /// The number of the next choice point.
-    pub next_choice: u64,
+    pub(crate) next_choice: u64,
 }
 
 impl Call<'_> {

@@ -16,5 +16,5 @@ pub mod functors;
 pub mod goal;
 mod goal_chain;
 pub mod search;
-pub mod term;
+pub(crate) mod term;
 mod warnings;

@@ -20,7 +20,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const MOST_AHEAD: usize = 1000;
 
 /// A search.
-pub struct Search {
+pub(crate) struct Search {
     engine: RefCell<Engine>,
     /// The call at which the search stopped, since nobody had asked for the proof after it yet.
     call: RefCell<Option<(Value, Vec<Value>)>>,
@@ -65,7 +65,7 @@ impl Foreign for Search {
 /// The next proofs of a search: `(more . proofs)`. After the first one, the search goes on as long as
 /// it calls no functions, since nobody can notice that: an ordinary list comes of an ordinary question.
 /// Is there perhaps a further proof behind those, MORE is true.
-pub struct NextProofs {
+pub(crate) struct NextProofs {
     search: Value,
     found: Vec<Value>,
     is_begun: bool,

@@ -82,7 +82,7 @@ impl Bindings {
     }
 
     /// Restores an earlier state.
-    pub fn undo(&mut self, mark: Mark) {
+    pub(crate) fn undo(&mut self, mark: Mark) {
         for index in self.trail.drain(mark.trail..) {
             if let Some(slot) = self.values.get_mut(index) {
                 *slot = None;
@@ -156,7 +156,7 @@ impl Bindings {
     }
 
     /// The term with all bound variables replaced; unbound ones remain.
-    pub fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
+    pub(crate) fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
         self.resolve_at(term, 0)
     }
 
@@ -199,7 +199,7 @@ impl Bindings {
     }
 
     /// The term with fresh variables in place of its unbound ones, except those that are kept.
-    pub fn localized(&mut self, term: &Value, kept: &[Value]) -> Result<Value, Box<Raise>> {
+    pub(crate) fn localized(&mut self, term: &Value, kept: &[Value]) -> Result<Value, Box<Raise>> {
         let term = self.resolve(term)?;
         let mut fresh: Vec<(usize, Value)> = kept
             .iter()
@@ -231,7 +231,7 @@ impl Bindings {
     }
 
     /// Whether the term contains no unbound variables.
-    pub fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
+    pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];
         while let Some(term) = pending.pop() {
             match &term {

@@ -15,7 +15,7 @@ use lisp::value::raise::Raise;
 /// The tasks of a form.
 pub(super) struct Group {
     pub kind: GroupKind,
-    pub children: Vec<TaskRef>,
+    pub(crate) children: Vec<TaskRef>,
 }
 
 /// The state of a group.
@@ -109,7 +109,11 @@ impl Scheduler {
 }
 
 /// A failure that contains other failures.
-pub fn composite(plan: &Plan, image: &Image, failures: Vec<Value>) -> Result<Value, Box<Raise>> {
+pub(crate) fn composite(
+    plan: &Plan,
+    image: &Image,
+    failures: Vec<Value>,
+) -> Result<Value, Box<Raise>> {
     let initargs = [plan.names.failures.into(), Value::list(failures)];
     condition::make_condition(image, plan.names.composite_failure, &initargs)
 }

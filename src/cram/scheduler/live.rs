@@ -21,7 +21,7 @@ pub(super) struct Live {
     pub task: Option<TaskRef>,
     pub parent: Option<Slot>,
     /// Children that are alive, in order of creation.
-    pub children: Vec<Slot>,
+    pub(crate) children: Vec<Slot>,
     /// What it waits for.
     pub wait: Wait,
     /// Identifies its current wait.
@@ -29,27 +29,27 @@ pub(super) struct Live {
     /// What to do when it runs next; `None` while it waits or is dead.
     pub answer: Option<Answer>,
     /// Whether it is in the queue of ready entries.
-    pub is_queued: bool,
+    pub(crate) is_queued: bool,
     /// How it will end, once that is determined.
     pub ending: Option<Ending>,
     /// Whether it has begun to unwind.
-    pub is_unwinding: bool,
+    pub(crate) is_unwinding: bool,
     /// How many times cleanup code has escaped from unwinding.
-    pub escapes: u32,
+    pub(crate) escapes: u32,
     /// Whether it is suspended.
-    pub is_suspended: bool,
+    pub(crate) is_suspended: bool,
     /// If negative, it must not be suspended or evaporated now.
-    pub scheduling: i32,
+    pub(crate) scheduling: i32,
     /// Whether it was told to end or to suspend while that was forbidden.
     pub told: Told,
     /// Functions to call when it is suspended, innermost last.
-    pub hooks: Vec<Value>,
+    pub(crate) hooks: Vec<Value>,
     /// The wait that running hooks interrupt.
     pub set_aside: Option<Box<SetAside>>,
     /// When a sleep or timeout of its wait ends.
     pub until: Option<f64>,
     /// Entries that wait for its end.
-    pub joiners: Vec<(Slot, u64)>,
+    pub(crate) joiners: Vec<(Slot, u64)>,
 }
 
 /// What an entry waits for.
@@ -124,7 +124,7 @@ pub(super) struct Beginning {
     /// What the others are to run.
     pub functions: std::vec::IntoIter<Call>,
     /// Those that have begun.
-    pub children: Vec<TaskRef>,
+    pub(crate) children: Vec<TaskRef>,
     /// How many there will be.
     pub of: usize,
 }
@@ -174,7 +174,7 @@ impl Live {
     }
 
     /// Whether it may run although it is suspended, because it runs its hooks.
-    pub fn runs_hooks(&self) -> bool {
+    pub(crate) fn runs_hooks(&self) -> bool {
         self.set_aside.is_some()
     }
 }

@@ -24,10 +24,10 @@ mod run;
 mod suspension;
 mod task_start;
 
-pub use group::composite;
+pub(crate) use group::composite;
 pub(crate) use group::unwrapped;
 pub use overview::TaskInfo;
-pub use requests::outside_a_plan;
+pub(crate) use requests::outside_a_plan;
 pub use root::Evaluation;
 
 use std::cmp::Reverse;

@@ -23,7 +23,7 @@ pub struct TaskInfo {
     /// Its path in the task tree, innermost part first.
     pub path: Value,
     /// What it waits for, in words; `None` if it is ready.
-    pub waits_for: Option<String>,
+    pub(crate) waits_for: Option<String>,
 }
 
 impl Scheduler {

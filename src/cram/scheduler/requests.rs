@@ -304,6 +304,6 @@ fn hold(task: &Task, held: bool) {
 }
 
 /// The error for a form that must be inside a plan.
-pub fn outside_a_plan(name: &str) -> Box<Raise> {
+pub(crate) fn outside_a_plan(name: &str) -> Box<Raise> {
     Raise::simple(format!("'{name}' form not inside a plan."))
 }

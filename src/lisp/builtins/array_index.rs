@@ -11,7 +11,7 @@ pub fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
 }
 
 /// The same for one of several dimensions.
-pub fn invalid_on_axis(
+pub(crate) fn invalid_on_axis(
     array: &Value,
     index: &Value,
     axis: Option<usize>,

@@ -31,7 +31,7 @@ pub struct Options {
     /// Nested sequences of the elements.
     pub contents: Option<Value>,
     /// The type of the elements, as it is stored, if it is given.
-    pub element_type: Option<ElementType>,
+    pub(crate) element_type: Option<ElementType>,
     /// May the array be adjusted?
     pub adjustable: bool,
     fill_pointer: Option<Value>,
@@ -96,7 +96,7 @@ impl Options {
 
     /// The part of another array that an array of this shape is to consist of, if it is to be
     /// displaced.
-    pub fn displacement(
+    pub(crate) fn displacement(
         &self,
         of_type: ElementType,
         shape: &[usize],
@@ -125,7 +125,7 @@ impl Options {
     }
 
     /// The fill pointer for a vector of this size, if it is to have one.
-    pub fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
+    pub(crate) fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
         match &self.fill_pointer {
             None | Some(Value::Symbol(known::NIL, ..)) => Ok(None),
             Some(Value::Symbol(known::T, ..)) => Ok(Some(size)),
@@ -191,7 +191,7 @@ pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Rais
 }
 
 /// The element that arrays of this element type hold by default.
-pub fn filler(element_type: ElementType) -> Value {
+pub(crate) fn filler(element_type: ElementType) -> Value {
     element_type.default_element()
 }
 

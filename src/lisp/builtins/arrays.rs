@@ -24,7 +24,7 @@ pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The element type that an array has.
-pub fn element_type(array: &Value) -> Result<ElementType, Box<Raise>> {
+pub(crate) fn element_type(array: &Value) -> Result<ElementType, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(v.element_type),
         Value::Str(_) => Ok(ElementType::Character),
@@ -150,7 +150,7 @@ fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// `(array bit)`.
-pub fn bit_array_type() -> Value {
+pub(crate) fn bit_array_type() -> Value {
     Value::list([known::ARRAY.into(), known::BIT.into()])
 }
 

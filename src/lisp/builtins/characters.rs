@@ -19,7 +19,7 @@ fn name_of(c: char) -> String {
 }
 
 /// The upper-case form, where that is one character.
-pub fn upcase(c: char) -> char {
+pub(crate) fn upcase(c: char) -> char {
     let mut upper = c.to_uppercase();
     match (upper.next(), upper.next()) {
         // A letter has an upper case only if that one's lower case is the letter itself.
@@ -45,7 +45,7 @@ fn single_lower(c: char) -> Option<char> {
 }
 
 /// The weight of a character as a digit.
-pub fn digit_weight(c: char, radix: u32) -> Option<u32> {
+pub(crate) fn digit_weight(c: char, radix: u32) -> Option<u32> {
     c.to_digit(radix)
 }
 
@@ -135,7 +135,7 @@ fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Is a character one that prints as itself?
-pub fn is_graphic(c: char) -> bool {
+pub(crate) fn is_graphic(c: char) -> bool {
     !c.is_control()
 }
 
@@ -190,7 +190,7 @@ macro_rules! comparisons {
             compare(args, $fold, $all_pairs, |a, b| a $op b)
         })*
         /// Comparison of characters.
-        pub static COMPARISONS: &[Builtin] = &[
+        pub(crate) static COMPARISONS: &[Builtin] = &[
             $(pure($name, "character &rest more", $doc, &[$example], $function),)*
         ];
     };

@@ -146,7 +146,7 @@ impl Criterion {
     }
 
     /// Does an element satisfy the condition?
-    pub async fn accepts(&self, calls: &Calls, element: &Value) -> bool {
+    pub(crate) async fn accepts(&self, calls: &Calls, element: &Value) -> bool {
         let looked_at = self.key.of(calls, element.clone()).await;
         match &self.kind {
             Kind::Item { item, test } => test.matches(calls, item, &looked_at).await,

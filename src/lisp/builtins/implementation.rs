@@ -36,7 +36,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Defines the constants that tell limits, and what lambda lists may contain.
-pub fn define_constants(image: &mut Image) {
+pub(crate) fn define_constants(image: &mut Image) {
     let most_elements = i64::try_from(MOST_ELEMENTS).unwrap_or(i64::MAX);
     for (name, value) in [
         ("CHAR-CODE-LIMIT", i64::from(u32::from(char::MAX)) + 1),

@@ -64,7 +64,7 @@ fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Joins lists by changing the last pair of each; the last one may be anything.
-pub fn nconc_all(lists: &[Value]) -> Outcome {
+pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
     let mut result = Value::NIL;
     let mut last: Option<Rc<Cons>> = None;
     for (i, list) in lists.iter().enumerate() {
@@ -90,7 +90,7 @@ pub fn nconc_all(lists: &[Value]) -> Outcome {
 }
 
 /// Reverses the links of a proper list, in front of `tail`.
-pub fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
+pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     let mut conses = sequence::conses(list)?;
     conses.reverse();
     Ok(sequence::relink(&conses, tail))

@@ -383,7 +383,7 @@ fn boole_op(operation: i64, a: &Value, b: &Value) -> Outcome {
 }
 
 /// Defines the constants `BOOLE-AND` and so on.
-pub fn define_constants(image: &mut Image) {
+pub(crate) fn define_constants(image: &mut Image) {
     for (name, number) in BOOLE.iter().zip(0..) {
         let sym = image.export_symbol(PackageTable::CL, name);
         image.define_constant(sym, Value::Int(number));

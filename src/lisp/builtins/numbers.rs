@@ -400,7 +400,7 @@ fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
 }
 
 /// Constants of numbers, and the variable `*random-state*`.
-pub fn define_constants(image: &mut Image) {
+pub(crate) fn define_constants(image: &mut Image) {
     use crate::value::package::PackageTable;
     let constants: &[(&str, Value)] = &[
         (

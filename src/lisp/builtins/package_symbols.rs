@@ -13,7 +13,11 @@ use crate::value::symbol::Sym;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Makes a symbol present in a package, unless the package has another of its name.
-pub fn import_one(image: &mut Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
+pub(crate) fn import_one(
+    image: &mut Image,
+    package: PackageId,
+    sym: Sym,
+) -> Result<(), Box<Raise>> {
     let found = image.packages.find_symbol(package, image.name(sym));
     if let Some((other, _)) = found
         && other != sym
@@ -164,7 +168,7 @@ fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a name refer to a symbol of the package itself, whatever it would inherit.
-pub fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
+pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
     let present = image
         .packages
         .get(package)

@@ -16,7 +16,7 @@ use crate::value::symbol::Sym;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// A package error with a text.
-pub fn package_error(report: impl Into<String>, package: &Value) -> Box<Raise> {
+pub(crate) fn package_error(report: impl Into<String>, package: &Value) -> Box<Raise> {
     Raise::new(known::SIMPLE_PACKAGE_ERROR, report).with(known::K_PACKAGE, package.clone())
 }
 
@@ -31,7 +31,7 @@ pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<
 }
 
 /// The package that a designator denotes.
-pub fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
+pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
     match find(image, designator)? {
         Some(id) if !image.packages.is_deleted(id) => Ok(id),
         _ => {
@@ -48,7 +48,10 @@ pub fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Ra
 }
 
 /// The package that an optional argument denotes, by default the current one.
-pub fn or_current(image: &Image, designator: Option<&Value>) -> Result<PackageId, Box<Raise>> {
+pub(crate) fn or_current(
+    image: &Image,
+    designator: Option<&Value>,
+) -> Result<PackageId, Box<Raise>> {
     match designator {
         None | Some(Value::Symbol(known::NIL, ..)) => Ok(image.current_package()),
         Some(designator) => designated(image, designator),
@@ -66,7 +69,7 @@ pub fn status(access: Option<Access>) -> Value {
 }
 
 /// The items of a list; a single item that is not a list counts as one.
-pub fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
     if value.is_list() {
         list_items(value)
     } else {
@@ -256,7 +259,11 @@ pub(super) fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Lets a package use another, unless two different symbols would get the same name.
-pub fn use_one(image: &mut Image, package: PackageId, used: PackageId) -> Result<(), Box<Raise>> {
+pub(crate) fn use_one(
+    image: &mut Image,
+    package: PackageId,
+    used: PackageId,
+) -> Result<(), Box<Raise>> {
     let shadowing = &image.packages.get(package).shadowing;
     let conflict = image
         .packages

@@ -61,7 +61,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
-pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
+pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     format::SYSTEM_TABLE,
@@ -112,7 +112,8 @@ pub static OPERATORS: &[&[Operator]] = &[
 ];
 
 /// Special operators and macros of package `SYSTEM`.
-pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
+pub(crate) static SYSTEM_OPERATORS: &[&[Operator]] =
+    &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
 
 /// Installs everything in an image.
 pub fn install(image: &mut Image) {

@@ -172,7 +172,7 @@ fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// The default element of a sequence that is made without elements.
-pub fn default_element(kind: Kind) -> Value {
+pub(crate) fn default_element(kind: Kind) -> Value {
     match kind {
         Kind::List => Value::NIL,
         Kind::Str => Value::Char('\0'),

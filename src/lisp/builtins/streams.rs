@@ -24,7 +24,11 @@ pub(super) fn stream_of(value: &Value) -> Result<&Rc<Stream>, Box<Raise>> {
 
 /// What a builtin that may call functions does after an error: if that is about an object that was
 /// given as a stream, what its methods do takes the builtin's place.
-pub fn or_method(raise: Box<Raise>, name: Sym, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn or_method(
+    raise: Box<Raise>,
+    name: Sym,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     match raise.stream_object() {
         Some(stream) => Ok(Step::tail_call(
             known::SYS_CALL_STREAM_METHOD,

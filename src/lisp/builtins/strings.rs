@@ -17,7 +17,7 @@ use crate::value::string::LispString;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The text that a string designator denotes: a string, a symbol's name or a character.
-pub fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
+pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s.text()),
         Value::Symbol(s, ..) => Ok(image.name(*s).to_owned()),

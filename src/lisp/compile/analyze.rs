@@ -52,7 +52,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Compiles a form as the body of a function without parameters.
-    pub fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
+    pub(crate) fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
         let id = self.enter_function();
         let body = self.analyze(form, &Scope::default());
         if let Some(reason) = self.stopped {
@@ -76,7 +76,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Starts a function; returns its number.
-    pub fn enter_function(&mut self) -> usize {
+    pub(crate) fn enter_function(&mut self) -> usize {
         let id = self.functions.len();
         self.functions.push(FunctionContext {
             outer: (id > 0).then_some(self.current),
@@ -88,7 +88,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Ends the function and returns its free variables.
-    pub fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
+    pub(crate) fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
         let context = &self.functions[id];
         self.current = context.outer.unwrap_or(0);
         context.free.take()
@@ -99,17 +99,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Number of the function that is being compiled.
-    pub fn function_id(&self) -> usize {
+    pub(crate) fn function_id(&self) -> usize {
         self.current
     }
 
     /// Number of open dynamic entries in the current function.
-    pub fn dynamic_depth(&self) -> usize {
+    pub(crate) fn dynamic_depth(&self) -> usize {
         self.function().dynamic.borrow().len()
     }
 
     /// Would an exit to `depth` run cleanup forms?
-    pub fn crosses_cleanup(&self, depth: usize) -> bool {
+    pub(crate) fn crosses_cleanup(&self, depth: usize) -> bool {
         let dynamic = self.function().dynamic.borrow();
         dynamic
             .iter()
@@ -135,17 +135,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Records that a dynamic entry is open from here on.
-    pub fn open_dynamic(&self, kind: DynamicKind) {
+    pub(crate) fn open_dynamic(&self, kind: DynamicKind) {
         self.function().dynamic.borrow_mut().push(kind);
     }
 
     /// Records that only the outermost `depth` dynamic entries are still open.
-    pub fn close_dynamic(&self, depth: usize) {
+    pub(crate) fn close_dynamic(&self, depth: usize) {
         self.function().dynamic.borrow_mut().truncate(depth);
     }
 
     /// A new variable of the current function.
-    pub fn new_var(&self, name: Sym) -> Rc<Var> {
+    pub(crate) fn new_var(&self, name: Sym) -> Rc<Var> {
         self.image.symbols.keep(name);
         Rc::new(Var {
             name,
@@ -184,7 +184,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Checks that a name can be bound as a variable.
-    pub fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
+    pub(crate) fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
         let Some(sym) = name.as_symbol() else {
             let shown = crate::print::to_string(self.image, name, true);
             return Err(self.program_error(format!(
@@ -206,7 +206,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// The error for a symbol that cannot stand for a form since it is a special variable.
-    pub fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
+    pub(crate) fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
         let shown = crate::print::to_string(self.image, &name.into(), true);
         self.program_error(format!(
             "{shown} is a special variable and cannot be a symbol macro."
@@ -214,12 +214,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// A program error at the current place.
-    pub fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
         Raise::program(text).at(self.place)
     }
 
     /// An error if forms are nested too deeply: for functions that call themselves.
-    pub fn descend(&self) -> Compiled<()> {
+    pub(crate) fn descend(&self) -> Compiled<()> {
         descend().map_err(|deep| Box::<Raise>::from(deep).at(self.place))
     }
 
@@ -232,7 +232,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses a form.
-    pub fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
         self.descend()?;
         self.look()?;
         match form {
@@ -388,7 +388,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Runs a macro function on a form.
-    pub fn expand_with(
+    pub(crate) fn expand_with(
         &mut self,
         function: &Rc<Function>,
         form: &Value,
@@ -403,7 +403,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses the elements of a list.
-    pub fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
+    pub(crate) fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
         let Some(forms) = forms.list_to_vec() else {
             return Err(self.program_error("a call's arguments must be a proper list"));
         };
@@ -411,7 +411,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses forms as a `progn`.
-    pub fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
         let mut nodes = self.analyze_list(forms, scope)?;
         Ok(match nodes.len() {
             0 => Node::NIL,
@@ -434,7 +434,7 @@ impl<'a> Compiler<'a> {
 }
 
 /// Gives an expansion the place of the form that it comes from, unless it has one.
-pub fn keep_place(form: &Value, expansion: &Value) {
+pub(crate) fn keep_place(form: &Value, expansion: &Value) {
     if let (Value::Cons(from), Value::Cons(to)) = (form, expansion)
         && !to.place().is_some()
     {

@@ -15,7 +15,7 @@ use crate::value::symbol::Sym;
 pub(super) struct Body {
     pub forms: Value,
     /// Names declared special.
-    pub specials: Vec<Sym>,
+    pub(crate) specials: Vec<Sym>,
     /// The documentation string.
     pub doc: Option<Rc<str>>,
 }
@@ -57,7 +57,12 @@ fn declared_special(specifiers: &Value) -> Vec<Sym> {
 
 impl Compiler<'_> {
     /// Analyses a body in a scope where its free special declarations hold.
-    pub fn analyze_body(&mut self, body: &Body, bound: &[Sym], scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze_body(
+        &mut self,
+        body: &Body,
+        bound: &[Sym],
+        scope: &Scope,
+    ) -> Compiled<Node> {
         let mut scope = scope.clone();
         for name in body.specials.iter().filter(|s| !bound.contains(s)) {
             scope = scope.with(Entry::Variable(*name, VariableMeaning::Special));
@@ -67,7 +72,7 @@ impl Compiler<'_> {
 
     /// Analyses `(lambda-list body…)` as a function. With a block name, the body is inside a block
     /// of that name.
-    pub fn analyze_lambda(
+    pub(crate) fn analyze_lambda(
         &mut self,
         name: Value,
         lambda_list: &Value,
@@ -220,7 +225,7 @@ impl Compiler<'_> {
     }
 
     /// A new block of the current function.
-    pub fn new_block(&mut self, name: Sym) -> Rc<Block> {
+    pub(crate) fn new_block(&mut self, name: Sym) -> Rc<Block> {
         Rc::new(Block {
             name,
             owner: self.function_id(),

@@ -185,7 +185,7 @@ pub(super) fn expand_destructuring_bind(
 }
 
 /// The `lambda` expression of a macro function: it takes the whole form and an environment.
-pub fn macro_function(
+pub(crate) fn macro_function(
     image: &mut Image,
     name: Sym,
     lambda_list: &Value,

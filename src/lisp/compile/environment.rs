@@ -31,7 +31,7 @@ impl Foreign for Environment {
 
 /// What a name of a function means in an environment: a local macro's function, `NIL` for a local
 /// function, `None` if the environment does not know the name.
-pub fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
+pub(crate) fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
     let Environment(scope) = environment.as_foreign::<Environment>()?;
     scope.function(name, false).map(|meaning| match meaning {
         FunctionMeaning::Macro(function) => Value::Function(function.clone()),

@@ -15,7 +15,7 @@ pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, B
 }
 
 /// Expands a form once with the macros of an environment, as passed to a macro function.
-pub fn macroexpand_1_in(
+pub(crate) fn macroexpand_1_in(
     image: &mut Image,
     form: &Value,
     environment: &Value,
@@ -55,7 +55,7 @@ pub fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box
 
 /// Expands a form until it is not a macro call, with the macros of an environment; also returns
 /// whether it was one.
-pub fn macroexpand_in(
+pub(crate) fn macroexpand_in(
     image: &mut Image,
     form: &Value,
     environment: &Value,

@@ -27,7 +27,7 @@ pub struct Key {
 }
 
 #[derive(Clone, Default)]
-pub struct LambdaList {
+pub(crate) struct LambdaList {
     /// `&whole`.
     pub whole: Option<Value>,
     /// `&environment`.

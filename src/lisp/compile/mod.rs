@@ -9,7 +9,7 @@ mod body;
 mod compiled_macros;
 mod control_macros;
 mod define_macros;
-pub mod destructure;
+pub(crate) mod destructure;
 mod emit;
 mod environment;
 mod expand;
@@ -29,11 +29,13 @@ use super::value::code::Code;
 use super::value::function::Function;
 use super::value::raise::Raise;
 
-pub use analyze::keep_place;
+pub(crate) use analyze::keep_place;
 pub use emit::is_inlined;
-pub use environment::local_macro;
-pub use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
-pub use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
+pub(crate) use environment::local_macro;
+pub use expand::{macroexpand, macroexpand_1};
+pub(crate) use expand::{macroexpand_1_in, macroexpand_in};
+pub use operators::OPERATORS;
+pub(crate) use operators::{SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 
 /// Compiles a form at top level into the code of a function without parameters.
 pub fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {

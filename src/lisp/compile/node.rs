@@ -35,7 +35,7 @@ pub struct Default {
 }
 
 /// What happens at the start of a function, in order.
-pub enum Prologue {
+pub(crate) enum Prologue {
     /// An optional or key parameter gets its default.
     Default(Default),
     /// A parameter that is declared special is bound to its slot's value.
@@ -45,7 +45,7 @@ pub enum Prologue {
 }
 
 /// A function expression.
-pub struct LambdaNode {
+pub(crate) struct LambdaNode {
     /// Name for backtraces and printing.
     pub name: Value,
     /// The parameters as the machine fills them.
@@ -53,7 +53,7 @@ pub struct LambdaNode {
     /// Variables of the parameter slots.
     pub slots: Vec<Rc<Var>>,
     /// Defaults and auxiliary variables.
-    pub prologue: Vec<Prologue>,
+    pub(crate) prologue: Vec<Prologue>,
     pub body: Node,
     /// Free variables, in the order of the closure's captures.
     pub free: Vec<Rc<Var>>,

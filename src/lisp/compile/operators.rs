@@ -36,7 +36,7 @@ const fn macro_(
 }
 
 /// Special operators of package `COMMON-LISP`.
-pub static SPECIAL_FORMS: &[Operator] = &[
+pub(crate) static SPECIAL_FORMS: &[Operator] = &[
     special(
         "QUOTE",
         "object",
@@ -196,7 +196,7 @@ pub static SPECIAL_FORMS: &[Operator] = &[
 ];
 
 /// Special operators of package `SYSTEM`.
-pub static SYSTEM_FORMS: &[Operator] = &[special(
+pub(crate) static SYSTEM_FORMS: &[Operator] = &[special(
     "NAMED-LAMBDA",
     "name lambda-list &body body",
     "A function with a name, whose body stands in a block of that name.",
@@ -204,7 +204,7 @@ pub static SYSTEM_FORMS: &[Operator] = &[special(
 )];
 
 /// Macros of package `SYSTEM`.
-pub static SYSTEM_OPERATORS: &[Operator] = &[
+pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
     macro_(
         "QUASIQUOTE",
         "template",

@@ -7,7 +7,7 @@ use crate::value::known;
 use crate::value::raise::Raise;
 
 /// The form that `(quasiquote template)` expands into.
-pub fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let template = form.cdr_or_nil().car_or_nil();
     template_form(image, &template, 1)
 }

@@ -8,12 +8,12 @@ use crate::value::function::Function;
 use crate::value::symbol::Sym;
 
 /// A lexical variable (or local function, or identity of a block).
-pub struct Var {
+pub(crate) struct Var {
     pub name: Sym,
     /// The function that binds it.
     pub owner: usize,
     /// Does an inner function refer to it?
-    pub captured: Cell<bool>,
+    pub(crate) captured: Cell<bool>,
     /// Is it ever assigned after its binding?
     pub assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
@@ -24,14 +24,14 @@ pub struct Var {
 
 impl Var {
     /// Must the variable live in a box?
-    pub fn is_boxed(&self) -> bool {
+    pub(crate) fn is_boxed(&self) -> bool {
         self.captured.get() && self.assigned.get()
     }
 }
 
 /// What a name in variable position means.
 #[derive(Clone)]
-pub enum VariableMeaning {
+pub(crate) enum VariableMeaning {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic variable, declared so in this scope.
@@ -42,7 +42,7 @@ pub enum VariableMeaning {
 
 /// What a name in function position means.
 #[derive(Clone)]
-pub enum FunctionMeaning {
+pub(crate) enum FunctionMeaning {
     /// A local function: a variable that holds it.
     Local(Rc<Var>),
     /// A local macro.
@@ -51,7 +51,7 @@ pub enum FunctionMeaning {
 
 /// Kinds of dynamic entries that are open while code of one function runs.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum DynamicKind {
+pub(crate) enum DynamicKind {
     /// A binding, handlers, restarts or catch: undone by dropping it.
     Plain,
     /// Cleanup forms that must run.
@@ -72,7 +72,7 @@ pub struct Block {
     pub used: Cell<bool>,
 }
 
-pub struct Tagbody {
+pub(crate) struct Tagbody {
     /// The tags: symbols or integers.
     pub tags: Vec<Value>,
     /// The function it is in.
@@ -181,7 +181,7 @@ impl Scope {
 }
 
 /// A function that is being compiled.
-pub struct FunctionContext {
+pub(crate) struct FunctionContext {
     /// The number of the function around it.
     pub outer: Option<usize>,
     /// Variables of outer functions that it refers to, in order of first use.

@@ -13,15 +13,15 @@ use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 /// evaluate `setter`; `getter` reads the place.
 pub struct Expansion {
     /// Variables for the place's subforms.
-    pub temps: Vec<Value>,
+    pub(crate) temps: Vec<Value>,
     /// The subforms.
     pub values: Vec<Value>,
     /// Variables for the new values.
-    pub stores: Vec<Value>,
+    pub(crate) stores: Vec<Value>,
     /// The form that stores.
     pub setter: Value,
     /// The form that reads.
-    pub getter: Value,
+    pub(crate) getter: Value,
 }
 
 /// The setf expansion of a place.
@@ -431,7 +431,7 @@ fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
 /// A form that replaces a place's value by a function of it: `new_value` maps the form that reads
 /// the place to the form for the new value. The variable in `before` is bound before the place's
 /// parts are evaluated, those in `operands` after that, and before the place is read.
-pub fn modify(
+pub(crate) fn modify(
     image: &mut Image,
     place: &Value,
     before: Option<(Value, Value)>,
@@ -485,7 +485,7 @@ fn incremented(image: &mut Image, form: &Value, operator: Sym) -> Result<Value, 
 
 /// A form that is evaluated before what comes after it, as a variable and its binding; it stays as
 /// it is if that makes no difference. `may_change`: may what comes after it assign variables?
-pub fn operand(
+pub(crate) fn operand(
     image: &mut Image,
     name: &str,
     form: Value,

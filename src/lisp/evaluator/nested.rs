@@ -22,7 +22,7 @@ pub fn call_nested(
 }
 
 /// Like [`call_nested`], but returns all values.
-pub fn call_nested_values(
+pub(crate) fn call_nested_values(
     image: &mut Image,
     function: Value,
     args: Vec<Value>,

@@ -29,7 +29,7 @@ pub struct Restart {
 
 impl Restart {
     /// May it be offered for this condition (`NIL`: for none in particular), its test aside?
-    pub fn may_apply_to(&self, condition: &Value) -> bool {
+    pub(crate) fn may_apply_to(&self, condition: &Value) -> bool {
         let conditions = self.conditions.borrow();
         condition.is_nil() || conditions.is_empty() || conditions.iter().any(|c| c.is_eq(condition))
     }

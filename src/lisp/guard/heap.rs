@@ -51,7 +51,7 @@ impl Heap {
     }
 
     /// Would so many bytes more be too many?
-    pub fn would_exhaust(&self, more: usize) -> bool {
+    pub(crate) fn would_exhaust(&self, more: usize) -> bool {
         let Some(limit) = self.limit.get() else {
             return false;
         };
@@ -80,7 +80,7 @@ pub const MOST_ELEMENTS: usize = 1 << 25;
 const LARGE: usize = 1 << 16;
 
 /// Leaves the calling function by unwinding if a sequence may not have so many elements.
-pub fn permit_length(elements: usize) {
+pub(crate) fn permit_length(elements: usize) {
     if elements > MOST_ELEMENTS && CURRENT.with_borrow(Option::is_some) {
         leave(Stopped::TooLong);
     }
@@ -89,7 +89,7 @@ pub fn permit_length(elements: usize) {
 /// Leaves the calling function by unwinding if there is no room for so many bytes more, or if there
 /// is another reason to stop and they are many. To be called before a single allocation whose size
 /// a program decides.
-pub fn reserve(bytes: usize) {
+pub(crate) fn reserve(bytes: usize) {
     if bytes > LARGE {
         look();
     }

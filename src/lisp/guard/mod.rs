@@ -16,9 +16,11 @@ use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 
-pub use heap::{Heap, MOST_ELEMENTS, permit_length, reserve};
+pub use heap::{Heap, MOST_ELEMENTS};
+pub(crate) use heap::{permit_length, reserve};
 use polls::Polls;
-pub use stack::{TooDeep, descend, set_stack_budget};
+pub(crate) use stack::descend;
+pub use stack::{TooDeep, set_stack_budget};
 
 thread_local! {
     /// What stops the evaluation that runs on this thread.
@@ -99,7 +101,7 @@ pub fn stoppable<T>(work: impl FnOnce() -> T) -> Result<T, Stopped> {
 }
 
 /// Like [`stoppable`], for work on a state; `clean_up` is called if a panic comes through.
-pub fn stoppable_on<S, T>(
+pub(crate) fn stoppable_on<S, T>(
     state: &mut S,
     work: impl FnOnce(&mut S) -> T,
     clean_up: impl FnOnce(&mut S),

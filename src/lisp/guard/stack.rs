@@ -22,7 +22,7 @@ pub fn set_stack_budget(bytes: usize) {
 
 /// An error if the stack is used up. To be called by every Rust function that calls itself for
 /// the parts of a form, which may be of any depth, and even circular.
-pub fn descend() -> Result<(), TooDeep> {
+pub(crate) fn descend() -> Result<(), TooDeep> {
     let marker = 0_u8;
     let here = std::ptr::from_ref(&marker).addr();
     let top = TOP.get().max(here);

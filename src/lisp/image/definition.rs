@@ -40,7 +40,7 @@ pub struct Definition {
     /// The line on which it begins, from one.
     pub line: usize,
     /// The package in which it is read, in upper case.
-    pub reading_package: String,
+    pub(crate) reading_package: String,
     /// The package of its name, in upper case.
     pub package: String,
     /// Its name, in upper case.
@@ -51,7 +51,8 @@ pub struct Definition {
 }
 
 /// Compiles a definition into the function of a name.
-pub type Compile = fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
+pub(crate) type Compile =
+    fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
 
 /// What an image keeps of the library.
 #[derive(Default)]
@@ -193,7 +194,7 @@ fn on_one_line(text: &str) -> String {
 }
 
 /// Splits a token, a string or a list off the front of a text, with the blanks before it.
-pub fn take_item<'a>(rest: &mut &'a str) -> &'a str {
+pub(crate) fn take_item<'a>(rest: &mut &'a str) -> &'a str {
     let text = rest.trim_start();
     let mut depth = 0_usize;
     let mut in_string = false;

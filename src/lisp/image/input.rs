@@ -44,7 +44,7 @@ impl Input {
     }
 
     /// What was typed and has not been read.
-    pub fn unread(&self) -> String {
+    pub(crate) fn unread(&self) -> String {
         self.unread.borrow().clone()
     }
 

@@ -8,7 +8,7 @@ pub mod input;
 pub mod notes;
 pub mod open_call;
 mod output;
-pub mod setf_expander;
+pub(crate) mod setf_expander;
 pub mod signalled;
 
 use std::cell::RefCell;
@@ -50,7 +50,7 @@ pub struct Image {
     /// Expanders of `deftype`, by name.
     pub types: IndexMap<Sym, Rc<Function>>,
     /// What names of `deftype` stand for by themselves, without arguments.
-    pub type_names: IndexMap<Sym, Value>,
+    pub(crate) type_names: IndexMap<Sym, Value>,
     /// Source texts and places.
     pub sources: Sources,
     /// Text written to standard output that has not been taken yet.
@@ -60,7 +60,7 @@ pub struct Image {
     /// Seed and state of `random`.
     pub random: rand_pcg::Pcg64,
     /// How `setf` treats operators that have an expander instead of a setf function.
-    pub setf_expanders: IndexMap<Sym, SetfExpander>,
+    pub(crate) setf_expanders: IndexMap<Sym, SetfExpander>,
     /// What ends an evaluation from outside.
     pub limits: Rc<Limits>,
     /// What the compiler notices; `None` unless notes are wanted.
@@ -70,7 +70,7 @@ pub struct Image {
     /// How deeply runs of macro functions are nested.
     pub nesting: usize,
     /// Are all values of the builtin that runs wanted? It may leave out all but the first one if not.
-    pub wants_all: bool,
+    pub(crate) wants_all: bool,
     signalled: Signalled,
     identities: i64,
     /// What the tables say about functions, macros and special operators, by name: calls, help,
@@ -79,7 +79,7 @@ pub struct Image {
     /// The part of the language that is written in Lisp.
     pub library: Installed,
     /// The package that receives symbols unknown to the current package, if not that package.
-    pub new_symbols: Option<PackageId>,
+    pub(crate) new_symbols: Option<PackageId>,
     /// The Rust functions of builtins, by number.
     pub(super) natives: Vec<BuiltinCall>,
     /// Made-up addresses of objects that were printed.
@@ -158,7 +158,7 @@ impl Image {
     }
 
     /// Expands a form with a macro written in Rust, which may ask for the environment.
-    pub fn expand_with(
+    pub(crate) fn expand_with(
         &mut self,
         expand: Expander,
         form: &Value,
@@ -171,7 +171,7 @@ impl Image {
     }
 
     /// A value of a builtin and another one after it, if that is wanted.
-    pub fn with_second(&self, first: Value, second: impl FnOnce() -> Value) -> Value {
+    pub(crate) fn with_second(&self, first: Value, second: impl FnOnce() -> Value) -> Value {
         match self.wants_all {
             true => Value::values(vec![first, second()]),
             false => first,
@@ -192,7 +192,7 @@ impl Image {
     }
 
     /// The symbol that a name without a prefix is read as.
-    pub fn intern_read(&mut self, name: &str) -> Sym {
+    pub(crate) fn intern_read(&mut self, name: &str) -> Sym {
         let current = self.current_package();
         let package = match self.new_symbols {
             Some(elsewhere) if self.packages.find_symbol(current, name).is_none() => elsewhere,
@@ -202,7 +202,7 @@ impl Image {
     }
 
     /// A number that no block or tagbody has had before.
-    pub fn fresh_identity(&mut self) -> i64 {
+    pub(crate) fn fresh_identity(&mut self) -> i64 {
         self.identities += 1;
         self.identities
     }
@@ -223,7 +223,7 @@ impl Image {
     }
 
     /// The function of a name: a symbol, or the list `(setf symbol)`.
-    pub fn named_function(&self, name: &Value) -> Option<Rc<Function>> {
+    pub(crate) fn named_function(&self, name: &Value) -> Option<Rc<Function>> {
         match name {
             Value::Symbol(sym, ..) => self.function(*sym).cloned(),
             other => self.symbol(other.setf_name()?).setf_function.clone(),
@@ -283,7 +283,7 @@ impl Image {
     }
 
     /// Is the symbol accessible in the current package without a prefix?
-    pub fn is_accessible(&self, sym: Sym) -> bool {
+    pub(crate) fn is_accessible(&self, sym: Sym) -> bool {
         let name = &self.symbols.get(sym).name;
         self.packages
             .find_symbol(self.current_package(), name)
@@ -310,7 +310,7 @@ impl Image {
     }
 
     /// A name with a fresh number: `G123`.
-    pub fn fresh_name(&mut self, prefix: &str) -> String {
+    pub(crate) fn fresh_name(&mut self, prefix: &str) -> String {
         let counter = match self.special(known::V_GENSYM_COUNTER) {
             Value::Big(n) => {
                 let (name, next) = (format!("{prefix}{n}"), n.as_ref() + 1_u8);
@@ -349,7 +349,7 @@ impl Image {
     }
 
     /// Makes a symbol a constant.
-    pub fn define_constant(&mut self, sym: Sym, value: Value) {
+    pub(crate) fn define_constant(&mut self, sym: Sym, value: Value) {
         let data = self.symbols.get_mut(sym);
         data.kind = VariableKind::Constant;
         data.value = value;

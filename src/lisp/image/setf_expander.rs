@@ -5,7 +5,7 @@ use crate::value::symbol::Sym;
 
 /// How `setf` of a form with a certain operator is expanded if there is no function `(setf name)`.
 #[derive(Clone)]
-pub enum SetfExpander {
+pub(crate) enum SetfExpander {
     /// `(defsetf access update)`: the update function takes the arguments, then the value.
     Update(Sym),
     /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables

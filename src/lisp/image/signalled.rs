@@ -62,7 +62,7 @@ impl Signalled {
 
 impl Image {
     /// Is it known where a condition was signalled?
-    pub fn knows_condition_calls(&self, condition: &Value) -> bool {
+    pub(crate) fn knows_condition_calls(&self, condition: &Value) -> bool {
         self.signalled.calls(condition).is_some()
     }
 
@@ -79,13 +79,13 @@ impl Image {
     }
 
     /// Remembers the calls that were open where a condition was signalled.
-    pub fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
+    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         let calls = Rc::new(RefCell::new(calls));
         self.signalled.remember(condition, calls);
     }
 
     /// Adds the calls of the code to which a condition has come from another task.
-    pub fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
+    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         if let Some(inner) = self.signalled.calls(condition) {
             let mut inner = inner.borrow_mut();
             inner.extend(calls);

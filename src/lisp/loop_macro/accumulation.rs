@@ -10,7 +10,7 @@ use crate::value::raise::Raise;
 
 /// How a clause adds to a result.
 #[derive(Clone, Copy)]
-pub enum Adding {
+pub(crate) enum Adding {
     /// An element at the end of a list.
     Collect,
     /// The elements of a list, copied.

@@ -42,7 +42,11 @@ pub fn variable(
 }
 
 /// Checks that no `for` or `with` clause binds a variable yet.
-pub fn only_once(parser: &Parser<'_>, plan: &Plan, variable: &Value) -> Result<(), Box<Raise>> {
+pub(crate) fn only_once(
+    parser: &Parser<'_>,
+    plan: &Plan,
+    variable: &Value,
+) -> Result<(), Box<Raise>> {
     if plan.variables.iter().any(|v| v.is_eq(variable)) {
         return Err(twice(parser, variable));
     }
@@ -57,7 +61,10 @@ fn twice(parser: &Parser<'_>, variable: &Value) -> Box<Raise> {
 }
 
 /// Reads a type: after `of-type`, or one of the simple types that may stand alone.
-pub fn variable_type(parser: &mut Parser<'_>, clause: &str) -> Result<Option<Value>, Box<Raise>> {
+pub(crate) fn variable_type(
+    parser: &mut Parser<'_>,
+    clause: &str,
+) -> Result<Option<Value>, Box<Raise>> {
     if parser.accept(&["OF-TYPE"]) {
         return parser.form(&format!("OF-TYPE in {clause}")).map(Some);
     }
@@ -89,7 +96,7 @@ pub fn default_value(of_type: Option<&Value>) -> Value {
 }
 
 /// Each variable of a tree, with the value that it has if it is given none. The type may be a tree, too.
-pub fn defaults(tree: &Value, of_type: Option<&Value>) -> Vec<Assignment> {
+pub(crate) fn defaults(tree: &Value, of_type: Option<&Value>) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), of_type.cloned())];
     while let Some((part, of_type)) = pending.pop() {

@@ -25,7 +25,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Have all forms been read?
-    pub fn is_at_end(&self) -> bool {
+    pub(crate) fn is_at_end(&self) -> bool {
         self.position >= self.forms.len()
     }
 
@@ -41,7 +41,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Is the next form one of these words?
-    pub fn is_any(&self, words: &[&str]) -> bool {
+    pub(crate) fn is_any(&self, words: &[&str]) -> bool {
         self.word().is_some_and(|word| words.contains(&word))
     }
 
@@ -69,7 +69,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads forms up to the next word: at least one.
-    pub fn compound_forms(&mut self, after: &str) -> Result<Vec<Value>, Box<Raise>> {
+    pub(crate) fn compound_forms(&mut self, after: &str) -> Result<Vec<Value>, Box<Raise>> {
         let mut forms = Vec::new();
         while let Some(form @ Value::Cons(_)) = self.peek() {
             forms.push(form.clone());

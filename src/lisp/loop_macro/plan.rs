@@ -3,7 +3,7 @@
 use crate::value::Value;
 
 /// A variable, or a tree of variables, and the form whose value it gets.
-pub type Assignment = (Value, Value);
+pub(crate) type Assignment = (Value, Value);
 
 /// What happens when the variables of some `for` clauses take their next values: tests that end the
 /// loop, assignments, tests, assignments. Each set of assignments is made in parallel.
@@ -14,9 +14,9 @@ pub struct Step {
     /// What the user's variables get.
     pub sets: Vec<Assignment>,
     /// Forms that end the loop when they are true, with the new values.
-    pub tests_after: Vec<Value>,
+    pub(crate) tests_after: Vec<Value>,
     /// What hidden variables get.
-    pub advances: Vec<Assignment>,
+    pub(crate) advances: Vec<Assignment>,
 }
 
 impl Step {
@@ -31,7 +31,7 @@ impl Step {
 
 /// What an accumulation builds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Building {
+pub(crate) enum Building {
     /// A list.
     List,
     /// A sum or a count.
@@ -41,11 +41,11 @@ pub enum Building {
 }
 
 /// A result that clauses accumulate.
-pub struct Accumulator {
+pub(crate) struct Accumulator {
     /// The variable after `into`; none for the loop's own result.
     pub into: Option<Value>,
     /// What is built.
-    pub building: Building,
+    pub(crate) building: Building,
     /// The variable that holds the result: `into`, or a hidden one.
     pub variable: Value,
     /// For lists, the pair in front of the list, which is in a hidden variable.
@@ -68,18 +68,18 @@ pub struct Plan {
     /// What happens before each other iteration.
     pub next: Vec<Step>,
     /// Forms before everything else.
-    pub initially: Vec<Value>,
+    pub(crate) initially: Vec<Value>,
     pub body: Vec<Value>,
     /// Forms after the last iteration.
     pub finally: Vec<Value>,
     /// Results that are accumulated.
-    pub accumulators: Vec<Accumulator>,
+    pub(crate) accumulators: Vec<Accumulator>,
     /// Does the loop return true if nothing ended it (`always`, `never`)?
-    pub default_true: bool,
+    pub(crate) default_true: bool,
     /// The clause `always`, `never` or `thereis` that decides what the loop returns.
-    pub decides: Option<&'static str>,
+    pub(crate) decides: Option<&'static str>,
     /// The tag at the loop's end.
-    pub end_tag: Value,
+    pub(crate) end_tag: Value,
     /// All variables of `for` and `with` clauses.
     pub variables: Vec<Value>,
 }

@@ -27,7 +27,7 @@ pub fn system(image: &mut Image, name: &str) -> Value {
 }
 
 /// Checks that a step is a positive number.
-pub fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
+pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
     let positive = number::compare(step, &Value::Int(0)).ok().flatten();
     if positive == Some(std::cmp::Ordering::Greater) {
         Ok(())

@@ -61,7 +61,7 @@ pub fn slot_value(
 
 /// Stores a value in a slot and returns it. `again` is the function that does the same,
 /// called once more after an update of the instance.
-pub fn set_slot_value(
+pub(crate) fn set_slot_value(
     machine: &mut Machine<'_>,
     value: Value,
     object: &Value,
@@ -83,7 +83,7 @@ pub fn set_slot_value(
 }
 
 /// Does the slot have a value?
-pub fn slot_boundp(
+pub(crate) fn slot_boundp(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -103,7 +103,7 @@ pub fn slot_boundp(
 }
 
 /// Makes a slot unbound; returns the instance.
-pub fn slot_makunbound(
+pub(crate) fn slot_makunbound(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -134,7 +134,7 @@ fn unbound(machine: &mut Machine<'_>, object: &Value, slot: Sym) -> Result<Step,
 }
 
 /// The error for a slot without a value.
-pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
+pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
         place: crate::source::Place::NONE,
         class: known::UNBOUND_SLOT,
@@ -176,7 +176,7 @@ fn missing(
 }
 
 /// The error for a slot that the object does not have.
-pub fn missing_slot(
+pub(crate) fn missing_slot(
     image: &Image,
     object: &Value,
     slot: Sym,
@@ -200,7 +200,7 @@ pub fn missing_slot(
 }
 
 /// Does the object have a slot of this name?
-pub fn slot_exists(object: &Value, slot: Sym) -> bool {
+pub(crate) fn slot_exists(object: &Value, slot: Sym) -> bool {
     matches!(object, Value::Instance(i) if has_slot(i, slot))
 }
 

@@ -81,7 +81,7 @@ const TABLE: &[(&str, ClassKind, &[&str])] = &[
 impl Image {
     /// Defines the builtin classes, the roots of standard objects and structures, and the
     /// standard conditions. Done once, in a new image.
-    pub fn define_standard_classes(&mut self) {
+    pub(crate) fn define_standard_classes(&mut self) {
         for (name, kind, superclasses) in TABLE {
             let name = self.class_symbol(name);
             let superclasses = superclasses.iter().map(|s| self.class_symbol(s)).collect();

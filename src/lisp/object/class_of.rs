@@ -14,7 +14,7 @@ use crate::value::symbol::Sym;
 const FIXNUM_BITS: u32 = 62;
 
 /// Is the integer a fixnum?
-pub fn is_fixnum(n: i64) -> bool {
+pub(crate) fn is_fixnum(n: i64) -> bool {
     let limit = 1_i64 << FIXNUM_BITS;
     (-limit..limit).contains(&n)
 }
@@ -33,7 +33,7 @@ pub fn class_of(image: &Image, value: &Value) -> Rc<Class> {
 }
 
 /// The name of the class of a value that is not an instance. A foreign value names its own.
-pub fn builtin_class_name(image: &Image, value: &Value) -> Sym {
+pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
     match value {
         Value::Symbol(known::NIL, ..) => known::NULL,
         Value::Symbol(sym, ..) if image.is_keyword(*sym) => known::KEYWORD,
@@ -71,7 +71,7 @@ pub fn builtin_class_name(image: &Image, value: &Value) -> Sym {
 }
 
 /// The name of the class of a class.
-pub fn metaclass_name(class: &Class) -> Sym {
+pub(crate) fn metaclass_name(class: &Class) -> Sym {
     match class.kind {
         ClassKind::Builtin => known::BUILT_IN_CLASS,
         ClassKind::Standard => known::STANDARD_CLASS,

@@ -24,13 +24,13 @@ const BUILTIN: &[(Sym, bool)] = &[
 ];
 
 /// Is this the name of a combination of the language?
-pub fn is_builtin(name: &Value) -> bool {
+pub(crate) fn is_builtin(name: &Value) -> bool {
     let name = name.as_symbol();
     BUILTIN.iter().any(|(operator, _)| Some(*operator) == name)
 }
 
 /// The combination of a name.
-pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
+pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
     let unknown = || {
         Raise::program(format!(
             "There is no method combination named {}.",
@@ -60,7 +60,10 @@ pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box
 }
 
 /// `(define-method-combination name :operator operator :identity-with-one-argument flag)`.
-pub fn expand_define_method_combination(_: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_define_method_combination(
+    _: &mut Image,
+    whole: &Value,
+) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
     let [_, name @ Value::Symbol(..), options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
@@ -89,7 +92,7 @@ pub fn expand_define_method_combination(_: &mut Image, whole: &Value) -> Result<
 }
 
 /// The builtin behind it: `(name operator identity)`; returns the name.
-pub fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
     };

@@ -29,7 +29,7 @@ pub const START: Stage = Stage::Around(0);
 
 /// The call of a method by a program's own combination; `next` is the function that
 /// `call-next-method` calls, or `NIL`.
-pub fn invoke_method(method: &Method, mut args: Vec<Value>, next: Value) -> Step {
+pub(crate) fn invoke_method(method: &Method, mut args: Vec<Value>, next: Value) -> Step {
     if method.takes_next {
         args.insert(0, next);
     }
@@ -85,7 +85,7 @@ pub fn run(
 }
 
 /// The error for `call-next-method` without a next method.
-pub fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
+pub(crate) fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
     let shown = crate::print::qualified(image, name);
     let report = format!("There is no next method for the generic function {shown}.");
     Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())

@@ -16,13 +16,16 @@ use crate::value::symbol::Sym;
 use std::rc::Rc;
 
 /// `(defclass name superclasses slots options…)`.
-pub fn expand_defclass(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defclass(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let definition = Definition::read(image, whole, "DEFCLASS")?;
     Ok(definition.form(known::SYS_DEFINE_CLASS, Value::NIL))
 }
 
 /// `(define-condition name superclasses slots options…)`.
-pub fn expand_define_condition(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_define_condition(
+    image: &mut Image,
+    whole: &Value,
+) -> Result<Value, Box<Raise>> {
     let definition = Definition::read(image, whole, "DEFINE-CONDITION")?;
     let report = definition.report_form(image)?;
     Ok(definition.form(known::SYS_DEFINE_CONDITION, report))
@@ -182,7 +185,10 @@ impl Definition {
 }
 
 /// The builtin behind `defclass`: returns the class.
-pub fn define_standard_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn define_standard_class(
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Value, Box<Raise>> {
     define(image, args, ClassKind::Standard).map(Value::Class)
 }
 

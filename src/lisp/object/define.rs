@@ -114,7 +114,7 @@ impl Image {
 }
 
 /// The error for a name that is not the name of a class.
-pub fn no_class(image: &Image, name: Sym) -> Box<Raise> {
+pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
     let shown = crate::print::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
@@ -207,7 +207,7 @@ fn supersede(class: &Class, old_layout: Vec<OldSlot>) {
 }
 
 /// Lets the instances of a class and of those below it be brought up to date when they are next used.
-pub fn make_obsolete(class: &Rc<Class>) {
+pub(crate) fn make_obsolete(class: &Rc<Class>) {
     let mut pending = vec![class.clone()];
     let mut done: Vec<Rc<Class>> = Vec::new();
     while let Some(current) = pending.pop() {

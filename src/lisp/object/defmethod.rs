@@ -15,7 +15,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
-pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let mut items = whole.iter_list();
     items.next();
     let name = items.next().unwrap_or(Value::NIL);
@@ -198,7 +198,7 @@ fn any_part(form: &Value, test: impl Fn(&Value) -> bool) -> bool {
 }
 
 /// The builtin behind `defmethod`: returns the method.
-pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         name,
         qualifiers,
@@ -239,7 +239,7 @@ pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>
 }
 
 /// `(defgeneric name lambda-list options… methods…)`.
-pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
     let [_, name, lambda_list, options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
@@ -310,7 +310,10 @@ pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<
 }
 
 /// The builtin behind `defgeneric`: returns the generic function.
-pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn ensure_generic_function(
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Value, Box<Raise>> {
     let [name, lambda_list, combination, doc, order, keep] = args else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
@@ -387,7 +390,7 @@ fn precedence_order(
 }
 
 /// Records that a method was made by the `defgeneric` of its own generic function.
-pub fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     if let Some(object) = args
         .first()
         .and_then(|a| a.as_foreign::<super::method::MethodObject>())

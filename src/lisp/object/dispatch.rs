@@ -72,7 +72,7 @@ impl Position {
 }
 
 /// Calls a generic function.
-pub fn call_generic(
+pub(crate) fn call_generic(
     machine: &mut Machine<'_>,
     function: &Rc<Function>,
     args: Vec<Value>,
@@ -117,7 +117,7 @@ pub fn call_generic(
 }
 
 /// A call of a generic function that is no more than a slot or one function.
-pub enum AtOnce {
+pub(crate) enum AtOnce {
     /// The value of the slot, which has been read or written.
     Slot(Value),
     /// The function of the only method that runs; it takes the arguments of the call.
@@ -126,7 +126,11 @@ pub enum AtOnce {
 
 /// Calls a generic function with arguments that need not be moved, if the effective method is known and
 /// that simple.
-pub fn call_at_once(image: &Image, generic: &GenericFunction, args: &[Value]) -> Option<AtOnce> {
+pub(crate) fn call_at_once(
+    image: &Image,
+    generic: &GenericFunction,
+    args: &[Value],
+) -> Option<AtOnce> {
     if !generic.parameters.borrow().accepts(args.len()) || args.iter().any(is_obsolete) {
         return None;
     }
@@ -275,7 +279,11 @@ fn no_applicable_method(
 }
 
 /// The error for a call to which no method of a generic function applies.
-pub fn no_applicable_method_error(image: &Image, function: Value, args: Vec<Value>) -> Box<Raise> {
+pub(crate) fn no_applicable_method_error(
+    image: &Image,
+    function: Value,
+    args: Vec<Value>,
+) -> Box<Raise> {
     let args = Value::list(args);
     let report = format!(
         "There is no applicable method for the generic function\n  {}\nwhen called with arguments\n  {}.",

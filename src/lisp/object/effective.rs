@@ -31,7 +31,7 @@ impl Effective {
 }
 
 /// The applicable methods, most specific first.
-pub fn applicable_methods(
+pub(crate) fn applicable_methods(
     image: &Image,
     generic: &GenericFunction,
     args: &[Value],

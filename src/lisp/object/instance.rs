@@ -18,7 +18,10 @@ use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
 /// `(make-instance class initargs…)`.
-pub fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn make_instance(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let mut args = args.into_iter();
     let designator = args.next().unwrap_or(Value::NIL);
     if matches!(designator, Value::Symbol(..))
@@ -115,7 +118,7 @@ fn call_and_return(
 }
 
 /// The class that a class or a class name designates.
-pub fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
+pub(crate) fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
     match designator {
         Value::Class(class) => Ok(class.clone()),
         Value::Symbol(name, ..) => image
@@ -128,7 +131,10 @@ pub fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, 
 }
 
 /// Like [`designated_class`], but an error if the class cannot be instantiated.
-pub fn instantiable_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
+pub(crate) fn instantiable_class(
+    image: &Image,
+    designator: &Value,
+) -> Result<Rc<Class>, Box<Raise>> {
     let class = designated_class(image, designator)?;
     check_instantiable(image, &class)?;
     Ok(class)
@@ -255,7 +261,7 @@ fn method_keys(image: &Image, protocol: &[ProtocolCall]) -> Option<Vec<Sym>> {
 }
 
 /// The default `initialize-instance`.
-pub fn initialize_instance(
+pub(crate) fn initialize_instance(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
@@ -263,7 +269,7 @@ pub fn initialize_instance(
 }
 
 /// The default `reinitialize-instance`: no initforms.
-pub fn reinitialize_instance(
+pub(crate) fn reinitialize_instance(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
@@ -288,7 +294,10 @@ fn share(machine: &mut Machine<'_>, args: Vec<Value>, names: Value) -> Result<St
 }
 
 /// The default `shared-initialize`: `(instance slot-names initargs…)`.
-pub fn shared_initialize(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn shared_initialize(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let [object, names, initargs @ ..] = args.as_slice() else {
         return Err(Raise::program("invalid number of arguments: 1"));
     };
@@ -305,7 +314,10 @@ pub fn shared_initialize(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<
 }
 
 /// `(allocate-instance class …)`: an instance whose slots are unbound.
-pub fn allocate_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn allocate_instance(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let designator = args.first().cloned().unwrap_or(Value::NIL);
     let class = instantiable_class(machine.image, &designator)?;
     Ok(Step::Return(Value::Instance(Rc::new(Instance::new(class)))))

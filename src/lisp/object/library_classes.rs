@@ -17,7 +17,7 @@ type Row = (
 );
 
 /// The package of streams that are objects.
-pub const STREAMS: &str = "GRAY-STREAMS";
+pub(crate) const STREAMS: &str = "GRAY-STREAMS";
 
 /// The packages, with other names and classes. Superclasses that a package does not have itself are
 /// those of `COMMON-LISP`.
@@ -116,7 +116,7 @@ const PACKAGES: &[(&str, &[&str], &[Row])] = &[
 
 impl Image {
     /// Makes the packages and their classes. Done once, in a new image, after the standard classes.
-    pub fn define_library_classes(&mut self) {
+    pub(crate) fn define_library_classes(&mut self) {
         for (name, nicknames, rows) in PACKAGES {
             let Some(package) = self.packages.make(name, nicknames) else {
                 continue;
@@ -158,7 +158,7 @@ impl Image {
     }
 
     /// May a program add methods to the functions of a symbol because it belongs to the streams?
-    pub fn is_stream_function(&self, sym: Sym) -> bool {
+    pub(crate) fn is_stream_function(&self, sym: Sym) -> bool {
         let package = self.symbols.get(sym).package;
         package.is_some() && package == self.packages.find(STREAMS)
     }

@@ -51,7 +51,7 @@ fn is_extensible(image: &Image, sym: Sym) -> bool {
 }
 
 /// A method as a value.
-pub struct MethodObject(pub Rc<Method>);
+pub(crate) struct MethodObject(pub Rc<Method>);
 
 impl Foreign for MethodObject {
     fn copied(&self, _: &mut Copier) -> ForeignCopy {
@@ -82,7 +82,7 @@ impl Foreign for MethodObject {
 }
 
 /// The value that stands for a method: always the same one as long as it is referenced.
-pub fn method_value(method: &Rc<Method>) -> Value {
+pub(crate) fn method_value(method: &Rc<Method>) -> Value {
     if let Some(object) = method.object.borrow().upgrade() {
         return Value::Foreign(object);
     }
@@ -103,7 +103,7 @@ fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
 }
 
 /// The generic function with this name, made with these parameters if there is none.
-pub fn ensure_generic(
+pub(crate) fn ensure_generic(
     image: &mut Image,
     name: &Value,
     parameters: &Parameters,
@@ -152,7 +152,7 @@ pub fn ensure_generic(
 }
 
 /// The generic function of a name, though its calls may be shown.
-pub fn generic_named(image: &Image, name: &Value) -> Option<Rc<Function>> {
+pub(crate) fn generic_named(image: &Image, name: &Value) -> Option<Rc<Function>> {
     let function = image.named_function(name);
     function
         .filter(|function| function.as_generic().is_some())
@@ -231,17 +231,17 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 }
 
 /// What a method definition says.
-pub struct MethodDefinition {
+pub(crate) struct MethodDefinition {
     /// The name of the generic function.
     pub name: Value,
-    pub qualifiers: Vec<Sym>,
+    pub(crate) qualifiers: Vec<Sym>,
     /// One per required parameter.
     pub specializers: Vec<Specializer>,
     pub parameters: Parameters,
     /// The method function.
     pub function: Rc<Function>,
     /// Does the function take the next method?
-    pub takes_next: bool,
+    pub(crate) takes_next: bool,
     /// Set for slot accessors.
     pub accessor: Option<Accessor>,
     /// Documentation.
@@ -249,7 +249,7 @@ pub struct MethodDefinition {
 }
 
 /// Adds a method to the generic function of its name, which is made if there is none.
-pub fn define_method(
+pub(crate) fn define_method(
     image: &mut Image,
     definition: MethodDefinition,
 ) -> Result<Rc<Method>, Box<Raise>> {
@@ -267,7 +267,7 @@ pub fn define_method(
 }
 
 /// Adds a method; one with the same qualifiers and specializers is replaced.
-pub fn add_method(
+pub(crate) fn add_method(
     image: &Image,
     function: &Rc<Function>,
     method: Rc<Method>,
@@ -288,7 +288,7 @@ pub fn add_method(
     Ok(())
 }
 
-pub fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
+pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
     generic
         .methods
         .borrow_mut()
@@ -364,7 +364,7 @@ fn accepts_keys(
 }
 
 /// The generic version of a standard function, if a program has added methods to it.
-pub fn extended_function(image: &Image, name: Sym) -> Option<Value> {
+pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
     let function = image.function(name)?;
     function.as_generic()?;
     Some(Value::Function(function.clone()))

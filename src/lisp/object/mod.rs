@@ -4,9 +4,9 @@
 //! before anything reads it; a call of a generic function never calls Lisp from Rust.
 
 pub mod access;
-pub mod builtin_classes;
+pub(crate) mod builtin_classes;
 pub mod class_of;
-pub mod combination;
+pub(crate) mod combination;
 pub mod combine;
 pub mod defclass;
 pub mod define;
@@ -15,11 +15,11 @@ pub mod dispatch;
 pub mod effective;
 pub mod fill;
 pub mod instance;
-pub mod library_classes;
+pub(crate) mod library_classes;
 pub mod method;
 pub mod parameters;
-pub mod precedence;
-pub mod slot_options;
+pub(crate) mod precedence;
+pub(crate) mod slot_options;
 pub mod update;
 
 pub use class_of::class_of;

@@ -11,7 +11,7 @@ use crate::value::raise::Raise;
 /// `Ok(None)` while one of the superclasses is not defined. The order is the one of the
 /// Common Lisp standard, 4.3.5: a topological order in which, where there is a choice, the
 /// class with a direct subclass furthest to the right in the order so far comes first.
-pub fn precedence_list(class: &Rc<Class>) -> Result<Option<Vec<Rc<Class>>>, Box<Raise>> {
+pub(crate) fn precedence_list(class: &Rc<Class>) -> Result<Option<Vec<Rc<Class>>>, Box<Raise>> {
     let Some(mut remaining) = class_and_superclasses(class) else {
         return Ok(None);
     };

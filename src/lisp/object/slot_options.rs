@@ -24,17 +24,21 @@ struct Description {
 }
 
 /// A slot as the defining builtin gets it: its definition and its accessors.
-pub struct DefinedSlot {
+pub(crate) struct DefinedSlot {
     /// The definition.
     pub slot: SlotDefinition,
     /// Names of reader functions.
-    pub readers: Vec<Value>,
+    pub(crate) readers: Vec<Value>,
     /// Names of writer functions: symbols, or lists `(setf name)`.
-    pub writers: Vec<Value>,
+    pub(crate) writers: Vec<Value>,
 }
 
 /// The form whose value [`evaluated_slot`] reads.
-pub fn slot_form(image: &Image, description: &Value, definer: &str) -> Result<Value, Box<Raise>> {
+pub(crate) fn slot_form(
+    image: &Image,
+    description: &Value,
+    definer: &str,
+) -> Result<Value, Box<Raise>> {
     let description = describe(image, description, definer)?;
     let initform = match &description.initform {
         None => Value::NIL,
@@ -55,7 +59,7 @@ pub fn slot_form(image: &Image, description: &Value, definer: &str) -> Result<Va
 }
 
 /// A form for an initial value: evaluates to `(:value . constant)` or to a function.
-pub fn init_form(init: &Value) -> Value {
+pub(crate) fn init_form(init: &Value) -> Value {
     match constant_value(init) {
         Some(value) => quote(Value::cons(known::K_VALUE.into(), value)),
         None => form![known::LAMBDA, Value::NIL, init.clone()],
@@ -63,7 +67,7 @@ pub fn init_form(init: &Value) -> Value {
 }
 
 /// The initial value that [`init_form`] has described.
-pub fn evaluated_init(value: &Value) -> Option<Initform> {
+pub(crate) fn evaluated_init(value: &Value) -> Option<Initform> {
     match value {
         Value::Function(function) => Some(Initform::Function(function.clone())),
         Value::Cons(pair) => Some(Initform::Value(pair.cdr())),
@@ -72,7 +76,7 @@ pub fn evaluated_init(value: &Value) -> Option<Initform> {
 }
 
 /// Reads back what a slot form evaluated to.
-pub fn evaluated_slot(value: &Value) -> Option<DefinedSlot> {
+pub(crate) fn evaluated_slot(value: &Value) -> Option<DefinedSlot> {
     let parts = value.list_to_vec()?;
     let [
         name,

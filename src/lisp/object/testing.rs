@@ -12,7 +12,7 @@ pub fn image() -> Image {
 }
 
 /// Evaluates all forms of a text; the values of the last, or the class of the condition.
-pub fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, String> {
+pub(crate) fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, String> {
     let mut reader = crate::reader::Reader::of_text(text.to_owned());
     let mut last = Vec::new();
     while let Some((form, _)) = reader.next_form(image).map_err(|e| e.to_string())? {
@@ -36,7 +36,7 @@ fn name_of(image: &Image, raise: &Raise) -> String {
 
 /// Asserts that the last form of a text has a value that is `equalp` to what `expected`
 /// reads as.
-pub fn assert_value(image: &mut Image, text: &str, expected: &str) {
+pub(crate) fn assert_value(image: &mut Image, text: &str, expected: &str) {
     let values = eval_values(image, text).unwrap_or_else(|e| panic!("{text}: {e}"));
     let wanted = eval_values(image, &format!("'{expected}")).unwrap_or_default();
     let is_same = values.len() == wanted.len()
@@ -52,7 +52,7 @@ pub fn assert_value(image: &mut Image, text: &str, expected: &str) {
 }
 
 /// The class of the condition in which evaluating a text ends.
-pub fn error_class(image: &mut Image, text: &str) -> String {
+pub(crate) fn error_class(image: &mut Image, text: &str) -> String {
     match eval_values(image, text) {
         Ok(_) => "no error".to_owned(),
         Err(class) => class,

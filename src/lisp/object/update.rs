@@ -22,7 +22,7 @@ struct Change {
 }
 
 /// Updates an instance of a redefined class, then calls a function.
-pub fn then_call(
+pub(crate) fn then_call(
     machine: &mut Machine<'_>,
     object: Value,
     function: Value,
@@ -124,7 +124,7 @@ fn lay_out(instance: &Instance, old_layout: &[OldSlot], class: &Class) -> Change
 
 /// `change-class`: makes the instance one of another class. Slots of the same name keep
 /// their values, others are initialised.
-pub fn change_class(
+pub(crate) fn change_class(
     machine: &mut Machine<'_>,
     instance: &Rc<Instance>,
     class: &Rc<Class>,
@@ -168,7 +168,7 @@ pub fn change_class(
 
 /// The default `update-instance-for-different-class`: slots that the previous instance did
 /// not have are initialised.
-pub fn initialize_new_slots(
+pub(crate) fn initialize_new_slots(
     machine: &mut Machine<'_>,
     previous: &Instance,
     instance: &Rc<Instance>,

@@ -24,7 +24,7 @@ pub struct Call {
     /// Variables that are bound during the call.
     pub bindings: Vec<(Sym, Value)>,
     /// Does what it writes have places where lines may break?
-    pub is_pretty: bool,
+    pub(crate) is_pretty: bool,
 }
 
 /// Calls that are needed, or their texts.
@@ -44,7 +44,7 @@ pub struct Calls {
 
 /// Whether a value is of the type that a specifier names; `None` if a call decides. The types are a room above this one, so
 /// those who make calls bring the test along.
-pub type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
+pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
@@ -59,7 +59,10 @@ impl Calls {
     }
 
     /// Calls are possible, and these are the texts of the first ones.
-    pub fn with_texts(texts: impl IntoIterator<Item = Document>, has_type: TypeTest) -> Calls {
+    pub(crate) fn with_texts(
+        texts: impl IntoIterator<Item = Document>,
+        has_type: TypeTest,
+    ) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
@@ -70,12 +73,12 @@ impl Calls {
     }
 
     /// Notes that an object cannot be printed so that it can be read again, as was asked for.
-    pub fn note_unreadable(&mut self, object: &Value) {
+    pub(crate) fn note_unreadable(&mut self, object: &Value) {
         self.unreadable.get_or_insert_with(|| object.clone());
     }
 
     /// The error about an object that cannot be read again, if there is one.
-    pub fn readable(&self) -> Result<(), Box<Raise>> {
+    pub(crate) fn readable(&self) -> Result<(), Box<Raise>> {
         match &self.unreadable {
             Some(object) => Err(not_readable(object)),
             None => Ok(()),
@@ -84,7 +87,7 @@ impl Calls {
 
     /// Is the value of the type? Where a call decides and has not been made, it is recorded, and the answer
     /// is no; calls after it are not recorded, since they depend on it.
-    pub fn has_type(&mut self, image: &Image, value: &Value, specifier: &Value) -> bool {
+    pub(crate) fn has_type(&mut self, image: &Image, value: &Value, specifier: &Value) -> bool {
         let Some(test) = self.has_type else {
             return false;
         };
@@ -126,13 +129,13 @@ impl Calls {
     }
 
     /// The calls whose texts were missing.
-    pub fn into_needed(self) -> Vec<Call> {
+    pub(crate) fn into_needed(self) -> Vec<Call> {
         self.needed
     }
 }
 
 /// The error about an object that cannot be printed so that it can be read again.
-pub fn not_readable(object: &Value) -> Box<Raise> {
+pub(crate) fn not_readable(object: &Value) -> Box<Raise> {
     Box::new(Raise::Make {
         class: known::PRINT_NOT_READABLE,
         report: None,

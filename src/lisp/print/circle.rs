@@ -147,7 +147,7 @@ impl SharedLabels {
     }
 
     /// Is the part to be printed with a label?
-    pub fn is_marked(&self, value: &Value) -> bool {
+    pub(crate) fn is_marked(&self, value: &Value) -> bool {
         self.labels.borrow().is_marked(value)
     }
 

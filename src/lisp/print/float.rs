@@ -8,7 +8,7 @@ use crate::value::known;
 
 /// The shortest digits of a positive finite float and the place of the decimal point:
 /// `0.DIGITS` times ten to the power of the place.
-pub struct Decimal {
+pub(crate) struct Decimal {
     pub digits: String,
     pub point: i32,
 }
@@ -28,7 +28,7 @@ fn decimal(scientific: &str) -> Decimal {
 }
 
 /// The shortest digits of a double float's magnitude.
-pub fn of_double(x: f64) -> Decimal {
+pub(crate) fn of_double(x: f64) -> Decimal {
     if x.is_subnormal() {
         return of_subnormal(x.abs(), f64::MANTISSA_DIGITS);
     }
@@ -36,7 +36,7 @@ pub fn of_double(x: f64) -> Decimal {
 }
 
 /// The shortest digits of a single float's magnitude.
-pub fn of_single(x: f32) -> Decimal {
+pub(crate) fn of_single(x: f32) -> Decimal {
     if x.is_subnormal() {
         return of_subnormal(f64::from(x.abs()), f32::MANTISSA_DIGITS);
     }

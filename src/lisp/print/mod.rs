@@ -20,12 +20,13 @@ mod shape;
 mod symbol;
 
 #[cfg(test)]
-pub mod test_image;
+pub(crate) mod test_image;
 #[cfg(test)]
 mod tests;
 
 pub use super::image::identity::identity;
-pub use calls::{Call, Calls, not_readable};
+pub(crate) use calls::not_readable;
+pub use calls::{Call, Calls};
 pub use circle::SharedLabels;
 pub use qualified::qualified;
 pub use settings::{Case, Settings};
@@ -55,14 +56,19 @@ pub fn write(
 }
 
 /// A value under given settings, as a part of a document in which lines will break.
-pub fn document(image: &Image, value: &Value, settings: &Settings, calls: &mut Calls) -> Document {
+pub(crate) fn document(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    calls: &mut Calls,
+) -> Document {
     let mut document = Document::new(settings.pretty);
     printer::Printer::new(image, &settings.effective(), calls).print_into(&mut document, value);
     document
 }
 
 /// Like [`document()`], but ignores the program's own way to print the value itself.
-pub fn document_default(
+pub(crate) fn document_default(
     image: &Image,
     value: &Value,
     settings: &Settings,
@@ -76,13 +82,13 @@ pub fn document_default(
 }
 
 /// The text of a document whose lines break, where the first line already has `column` characters.
-pub fn laid_out(document: Document, settings: &Settings, column: usize) -> String {
+pub(crate) fn laid_out(document: Document, settings: &Settings, column: usize) -> String {
     layout::lay_out(document, settings, column)
 }
 
 /// Like [`write()`], but ignores a method of `print-object` for the value itself, as the default
 /// method does.
-pub fn write_default(
+pub(crate) fn write_default(
     image: &Image,
     value: &Value,
     settings: &Settings,

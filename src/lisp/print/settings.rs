@@ -24,13 +24,13 @@ pub struct Settings {
     /// `*print-escape*`: so that it can be read back?
     pub escape: bool,
     /// `*print-readably*`: no abbreviations?
-    pub readably: bool,
+    pub(crate) readably: bool,
     /// `*print-pretty*`: with line breaks?
     pub pretty: bool,
     /// `*print-base*`: the radix of rational numbers, 2 to 36.
     pub base: u32,
     /// `*print-radix*`: with the radix?
-    pub radix: bool,
+    pub(crate) radix: bool,
     /// `*print-case*`
     pub case: Case,
     /// `*print-length*`: most elements of a list or vector.
@@ -52,11 +52,11 @@ pub struct Settings {
     /// `*print-lines*`: most lines of a pretty-printed value.
     pub lines: Option<usize>,
     /// `*print-right-margin*`: columns of a line.
-    pub right_margin: usize,
+    pub(crate) right_margin: usize,
     /// `*print-miser-width*`
-    pub miser_width: Option<usize>,
+    pub(crate) miser_width: Option<usize>,
     /// `*read-default-float-format*`: the format whose exponent marker is `e`.
-    pub float_format: Sym,
+    pub(crate) float_format: Sym,
 }
 
 /// Columns of a line unless the program says otherwise.
@@ -187,7 +187,7 @@ impl Settings {
     }
 
     /// The settings of `prin1` (true) or `princ`.
-    pub fn with_escape(mut self, escape: bool) -> Settings {
+    pub(crate) fn with_escape(mut self, escape: bool) -> Settings {
         self.escape = escape;
         self.readably &= escape;
         self

@@ -1,14 +1,14 @@
 //! Unicode names of the printing characters of ASCII, as `char-name` tells them.
 
 /// The name of a printing character of ASCII.
-pub fn ascii_name(c: char) -> Option<String> {
+pub(crate) fn ascii_name(c: char) -> Option<String> {
     let index = usize::try_from(u32::from(c)).ok()?.checked_sub(33)?;
     let name = ASCII.get(index).map(|name| (*name).to_owned());
     name.or_else(|| letter_name(c))
 }
 
 /// The printing character of ASCII with a name, whatever the case of its letters.
-pub fn ascii_named(name: &str) -> Option<char> {
+pub(crate) fn ascii_named(name: &str) -> Option<char> {
     ('!'..='~').find(|c| ascii_name(*c).is_some_and(|known| known.eq_ignore_ascii_case(name)))
 }
 

@@ -178,7 +178,7 @@ const SMALL_ALPHA: u32 = 0x3B1;
 const CAPITAL_ALPHA: u32 = 0x391;
 
 /// The name of a character that has one.
-pub fn char_name(c: char) -> Option<String> {
+pub(crate) fn char_name(c: char) -> Option<String> {
     let code = u32::from(c);
     if let Some((_, names)) = NAMES.iter().find(|(known, _)| *known == code) {
         return names.first().map(|name| (*name).to_owned());
@@ -200,7 +200,7 @@ pub fn char_name(c: char) -> Option<String> {
 }
 
 /// The character with this name of more than one character, whatever the case of its letters.
-pub fn char_named(name: &str) -> Option<char> {
+pub(crate) fn char_named(name: &str) -> Option<char> {
     let is_name = |known: &&str| known.eq_ignore_ascii_case(name);
     if let Some((code, _)) = NAMES.iter().find(|(_, names)| names.iter().any(is_name)) {
         return char::from_u32(*code);

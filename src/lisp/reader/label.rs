@@ -9,7 +9,7 @@ use crate::value::cycles;
 
 /// The labels of one top-level form.
 #[derive(Default)]
-pub struct Labels {
+pub(crate) struct Labels {
     entries: Vec<Label>,
 }
 

@@ -66,7 +66,7 @@ pub struct Token {
 impl Token {
     /// If the token begins with the dispatching macro character `#`: the digits after it, the
     /// letter in upper case, and where the text after that begins.
-    pub fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {
+    pub(crate) fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {
         let letter = match self.kind {
             TokenKind::Dispatch { argument, letter } => return Some((argument, letter, self.end)),
             TokenKind::Prefixed {
@@ -103,7 +103,7 @@ pub fn is_blank(c: char) -> bool {
 }
 
 /// Does the character end a token before it?
-pub fn is_terminating(c: char) -> bool {
+pub(crate) fn is_terminating(c: char) -> bool {
     matches!(c, '"' | '\'' | '(' | ')' | ',' | ';' | '`') || is_blank(c)
 }
 
@@ -129,7 +129,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Lets further characters end a token.
-    pub fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
+    pub(crate) fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
         Lexer {
             terminators,
             ..self
@@ -137,7 +137,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Lets characters be parts of symbols that would mean something else.
-    pub fn with_constituents(self, constituents: &'t [char]) -> Lexer<'t> {
+    pub(crate) fn with_constituents(self, constituents: &'t [char]) -> Lexer<'t> {
         Lexer {
             constituents,
             ..self
@@ -151,7 +151,7 @@ impl<'t> Lexer<'t> {
 
     /// Moves past blank space.
     #[inline]
-    pub fn skip_blanks(&mut self) {
+    pub(crate) fn skip_blanks(&mut self) {
         while let Some(c) = self.peek() {
             if !is_blank(c) || self.constituents.contains(&c) {
                 return;

@@ -187,7 +187,7 @@ pub fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind> {
 }
 
 /// The result of reading `#S(…)`.
-pub enum Structure {
+pub(crate) enum Structure {
     /// The structure itself.
     Made(Value),
     /// A call of its constructor: some slots take their initial values.
@@ -279,7 +279,7 @@ fn slot_values(image: &Image, slots: &[Value]) -> Result<Vec<(String, Value)>, R
 }
 
 /// A complex number from the list of its parts.
-pub fn complex(parts: &Value) -> Result<Value, ReadErrorKind> {
+pub(crate) fn complex(parts: &Value) -> Result<Value, ReadErrorKind> {
     const SHAPE: ReadErrorKind = ReadErrorKind::BadComplex("a list of two real numbers is needed");
     match parts.list_to_vec().as_deref() {
         Some([re, im]) => number::complex(re, im).map_err(|_| SHAPE),

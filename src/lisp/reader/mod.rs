@@ -5,15 +5,15 @@
 //! interns symbols and registers places; it never evaluates: `#.` hands its form to the caller and
 //! continues with the value.
 
-pub mod ascii_name;
-pub mod char_name;
+pub(crate) mod ascii_name;
+pub(crate) mod char_name;
 mod completeness;
 mod error;
 mod feature;
 mod label;
-pub mod lexer;
+pub(crate) mod lexer;
 mod literal;
-pub mod numeric;
+pub(crate) mod numeric;
 mod parser;
 pub mod readtable;
 mod suggest;
@@ -28,7 +28,8 @@ pub use parser::read_all;
 pub use parser::{Outcome, Reader};
 pub use readtable::LetterCase;
 pub use suggest::nearest;
-pub use symbol::{downcase, inverting, meant_by_quotation_mark, upcase};
+pub use symbol::downcase;
+pub(crate) use symbol::{inverting, meant_by_quotation_mark, upcase};
 
 #[cfg(test)]
 mod tests;

@@ -13,7 +13,7 @@ use crate::value::symbol::Sym;
 /// The number that a token without escapes denotes; `None` if it is a symbol.
 ///
 /// `radix` is `*read-base*`, `float_format` is `*read-default-float-format*`.
-pub fn parse_number(
+pub(crate) fn parse_number(
     token: &str,
     radix: u32,
     float_format: Sym,
@@ -34,7 +34,7 @@ pub fn parse_number(
 }
 
 /// The integer or ratio that a token denotes in a radix.
-pub fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
+pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
     let Some((numerator, denominator)) = token.split_once('/') else {
         return parse_integer(token, radix).map(Ok);
     };
@@ -50,7 +50,7 @@ pub fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadError
 }
 
 /// The integer that a token denotes in a radix: an optional sign and digits.
-pub fn parse_integer(token: &str, radix: u32) -> Option<Value> {
+pub(crate) fn parse_integer(token: &str, radix: u32) -> Option<Value> {
     let digits = token.strip_prefix(['+', '-']).unwrap_or(token);
     if digits.is_empty() || !digits.chars().all(|c| c.is_digit(radix)) {
         return None;

@@ -120,13 +120,13 @@ impl Reader {
     }
 
     /// Lets a further character end tokens.
-    pub fn with_terminator(mut self, c: char) -> Reader {
+    pub(crate) fn with_terminator(mut self, c: char) -> Reader {
         self.terminator = Some(c);
         self
     }
 
     /// Moves past one blank character, as `read` does after a form.
-    pub fn skip_one_blank(&mut self, image: &Image) {
+    pub(crate) fn skip_one_blank(&mut self, image: &Image) {
         let readtable = image.special(known::V_READTABLE);
         let readtable = readtable.as_foreign::<Readtable>();
         let is_significant =

@@ -57,7 +57,7 @@ impl LetterCase {
 
 /// A program's changes to the standard syntax.
 #[derive(Default, Clone)]
-pub struct Readtable {
+pub(crate) struct Readtable {
     /// Functions of stream and character, with whether the character may appear inside a
     /// token.
     pub macros: RefCell<BTreeMap<char, (Value, bool)>>,
@@ -65,14 +65,14 @@ pub struct Readtable {
     /// sub-character (in upper case).
     pub dispatch: RefCell<BTreeMap<(char, char), Value>>,
     /// Characters that are parts of symbols, whatever they are in the standard syntax.
-    pub constituents: RefCell<BTreeSet<char>>,
+    pub(crate) constituents: RefCell<BTreeSet<char>>,
     /// What happens to letters.
     pub case: Cell<LetterCase>,
 }
 
 impl Readtable {
     /// Takes the syntax of another one.
-    pub fn become_like(&self, other: Readtable) {
+    pub(crate) fn become_like(&self, other: Readtable) {
         self.macros.replace(other.macros.into_inner());
         self.dispatch.replace(other.dispatch.into_inner());
         self.constituents.replace(other.constituents.into_inner());
@@ -80,7 +80,7 @@ impl Readtable {
     }
 
     /// Characters that end a token.
-    pub fn terminators(&self) -> Vec<char> {
+    pub(crate) fn terminators(&self) -> Vec<char> {
         self.macros
             .borrow()
             .iter()
@@ -98,11 +98,11 @@ impl Readtable {
         constituents.iter().chain(blank_macros).copied().collect()
     }
 
-    pub fn macro_of(&self, c: char) -> Option<Value> {
+    pub(crate) fn macro_of(&self, c: char) -> Option<Value> {
         self.macros.borrow().get(&c).map(|(f, _)| f.clone())
     }
 
-    pub fn dispatch_of(&self, letter: char) -> Option<Value> {
+    pub(crate) fn dispatch_of(&self, letter: char) -> Option<Value> {
         self.dispatch.borrow().get(&('#', letter)).cloned()
     }
 }

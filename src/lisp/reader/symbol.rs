@@ -21,7 +21,7 @@ pub struct Name {
 }
 
 /// Upcases as the reader does: only letters that have exactly one upper-case form.
-pub fn upcase(c: char) -> char {
+pub(crate) fn upcase(c: char) -> char {
     if c.is_ascii() {
         return c.to_ascii_uppercase();
     }
@@ -52,7 +52,7 @@ fn fold(token: &str, case: LetterCase) -> fn(char) -> char {
 }
 
 /// How letters that are all in one case are put into the other one.
-pub fn inverting(letters: impl Iterator<Item = char> + Clone) -> fn(char) -> char {
+pub(crate) fn inverting(letters: impl Iterator<Item = char> + Clone) -> fn(char) -> char {
     let has_upper = letters.clone().any(|c| downcase(c) != c);
     let has_lower = letters.clone().any(|c| upcase(c) != c);
     match (has_upper, has_lower) {
@@ -131,7 +131,7 @@ pub fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
 
 /// What Lisp text has instead of a typographic quotation mark, which word processors put there; a
 /// name has one only between bars.
-pub fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
+pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
     match c {
         '“' | '”' | '„' => Some("\" around strings"),
         '‘' | '’' => Some("' before a quoted form"),

@@ -14,7 +14,7 @@ use crate::value::raise::Raise;
 use crate::value::stream::{Elements, Stream};
 
 /// Reads an integer; `None` at the end.
-pub fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Box<Raise>> {
+pub(crate) fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Box<Raise>> {
     let stream = &followed(image, stream)?;
     if !has_integers(image, stream)? {
         return Err(of_characters(stream, image, "INPUT-STREAM-P"));
@@ -58,7 +58,11 @@ pub fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Bo
 }
 
 /// Writes an integer.
-pub fn write_byte(image: &Image, stream: &Rc<Stream>, byte: &Value) -> Result<(), Box<Raise>> {
+pub(crate) fn write_byte(
+    image: &Image,
+    stream: &Rc<Stream>,
+    byte: &Value,
+) -> Result<(), Box<Raise>> {
     let stream = &followed(image, stream)?;
     if !has_integers(image, stream)? {
         return Err(of_characters(stream, image, "OUTPUT-STREAM-P"));

@@ -8,13 +8,14 @@ mod bytes;
 use std::io::Write as _;
 use std::rc::Rc;
 
-pub use bytes::{read_byte, write_byte};
+pub(crate) use bytes::{read_byte, write_byte};
 
 use super::image::Image;
 use super::value::Value;
 use super::value::known;
 use super::value::raise::Raise;
-pub use super::value::stream::{Elements, MAX_NESTING, Stream, StreamKind};
+pub(crate) use super::value::stream::MAX_NESTING;
+pub use super::value::stream::{Elements, Stream, StreamKind};
 use super::value::symbol::Sym;
 
 /// Defines the standard stream variables.
@@ -47,12 +48,12 @@ pub fn install(image: &mut Image) {
 
 /// The output stream that a designator denotes: `NIL` is `*standard-output*`, `T` is
 /// `*terminal-io*`.
-pub fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_OUTPUT)
 }
 
 /// The input stream that a designator denotes: `NIL` is `*standard-input*`, `T` is `*terminal-io*`.
-pub fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_INPUT)
 }
 
@@ -84,7 +85,7 @@ fn endless_synonym(stream: &Value) -> Box<Raise> {
 }
 
 /// The value of the variable for a synonym stream; any other stream unchanged.
-pub fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, &Value::Stream(stream.clone()), known::NIL)
 }
 
@@ -214,7 +215,7 @@ pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Rai
 }
 
 /// Reads a character; `None` at the end.
-pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let c = peek_char(image, designator)?;
     if let Some(c) = c {
         advance(image, designator, c.len_utf8())?;
@@ -223,7 +224,7 @@ pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, 
 }
 
 /// Returns the next character without reading it; `None` at the end.
-pub fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub(crate) fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let stream = input_stream(image, designator)?;
     peek_at(image, &stream, 0)
 }
@@ -267,7 +268,7 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
 }
 
 /// Is the stream standard input, perhaps by way of a stream for both directions?
-pub fn is_standard_input(image: &Image, designator: &Value) -> bool {
+pub(crate) fn is_standard_input(image: &Image, designator: &Value) -> bool {
     let Ok(mut stream) = input_stream(image, designator) else {
         return false;
     };
@@ -434,7 +435,11 @@ fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Bo
 }
 
 /// Puts back the character that was read last.
-pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(), Box<Raise>> {
+pub(crate) fn unread_char(
+    image: &mut Image,
+    designator: &Value,
+    c: char,
+) -> Result<(), Box<Raise>> {
     let mut stream = input_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &mut *stream.kind.borrow_mut() {
@@ -476,7 +481,7 @@ pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(),
 }
 
 /// Does a stream read or write integers, perhaps by way of other streams?
-pub fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, Box<Raise>> {
+pub(crate) fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, Box<Raise>> {
     let mut stream = followed(image, stream)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
@@ -551,7 +556,7 @@ fn closed(stream: &Rc<Stream>) -> Box<Raise> {
         .with(known::K_STREAM, Value::Stream(stream.clone()))
 }
 
-pub fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
+pub(crate) fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
     let stream = Value::Stream(stream.clone());
     let predicate = image
         .packages

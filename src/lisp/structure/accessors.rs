@@ -82,7 +82,7 @@ fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
 }
 
 /// Defines the function that recognises structures of a class.
-pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
+pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
     let function = Function::pure_of(predicate, (1, Some(1)), class.clone(), |of, _, args| {
         Ok(Value::bool(instance_of(&args[0], of).is_some()))
     });
@@ -90,7 +90,7 @@ pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
 }
 
 /// Defines the function that copies structures of a class.
-pub fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
+pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
     let function = Function::pure_of(copier, (1, Some(1)), class.clone(), |of, _, args| {
         if instance_of(&args[0], of).is_none() {
             return Err(wrong_type(&args[0], of));

@@ -10,7 +10,7 @@ use crate::value::symbol::Sym;
 
 /// The form that defines a constructor; `make` builds the form that makes the structure
 /// from the forms of the slot values.
-pub fn constructor_form(
+pub(crate) fn constructor_form(
     image: &mut Image,
     constructor: &Constructor,
     slots: &[StructureSlot],

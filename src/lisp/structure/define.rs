@@ -17,7 +17,7 @@ use crate::value::symbol::Sym;
 
 /// Defines a structure: `(name parent ((slot accessor initform type read-only)…)
 /// copier predicate documentation conc-name)`.
-pub fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         Value::Symbol(name, ..),
         parent,
@@ -96,7 +96,7 @@ fn define_class(
 }
 
 /// Makes a structure: `(name slot-values…)`, the values in the order of the slots.
-pub fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some((Value::Symbol(name, ..), values)) = args.split_first() else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
@@ -133,7 +133,7 @@ pub(super) fn check_slot_type(
 }
 
 /// `copy-structure`: a structure with the same slot values.
-pub fn copy_structure(value: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn copy_structure(value: &Value) -> Result<Value, Box<Raise>> {
     match value {
         Value::Instance(instance) if instance.class().kind == ClassKind::Structure => {
             let slots = instance.slots.borrow().clone();

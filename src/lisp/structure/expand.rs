@@ -14,7 +14,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// `(defstruct name-and-options [documentation] slots…)`.
-pub fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let definition = StructureDefinition::read(image, whole)?;
     if !matches!(definition.representation, Representation::Instance) {
         return typed::expand(image, &definition);

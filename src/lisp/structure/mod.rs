@@ -4,8 +4,8 @@
 //! that need no compiled code (accessors, predicate, copier), and into plain functions for
 //! the constructors.
 
-pub mod accessors;
-pub mod constructors;
+pub(crate) mod accessors;
+pub(crate) mod constructors;
 pub mod define;
 pub mod expand;
 pub mod options;

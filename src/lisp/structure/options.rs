@@ -11,7 +11,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// One constructor.
-pub struct Constructor {
+pub(crate) struct Constructor {
     pub name: Sym,
     /// Its lambda list; keywords for all slots if none.
     pub lambda_list: Option<Value>,
@@ -19,7 +19,7 @@ pub struct Constructor {
 
 /// How the slots of a structure are stored.
 #[derive(Clone)]
-pub enum Representation {
+pub(crate) enum Representation {
     /// In an instance of a class of their own.
     Instance,
     /// In a list.
@@ -31,10 +31,10 @@ pub enum Representation {
 pub struct StructureDefinition {
     pub name: Sym,
     /// The prefix of the accessors.
-    pub conc_name: String,
+    pub(crate) conc_name: String,
     /// Is there a prefix, if only an empty one?
     has_prefix: bool,
-    pub constructors: Vec<Constructor>,
+    pub(crate) constructors: Vec<Constructor>,
     /// The function that copies a structure.
     pub copier: Option<Sym>,
     /// The function that recognises one.
@@ -42,15 +42,15 @@ pub struct StructureDefinition {
     /// The structure included, and new defaults of its slots.
     pub include: Option<(Sym, Vec<StructureSlot>)>,
     /// A function of structure and stream that prints.
-    pub print_object: Option<Value>,
+    pub(crate) print_object: Option<Value>,
     /// A function of structure, stream and depth that prints.
-    pub print_function: Option<Value>,
+    pub(crate) print_function: Option<Value>,
     /// How the slots are stored.
-    pub representation: Representation,
+    pub(crate) representation: Representation,
     /// Does a list or vector begin with the structure's name?
     pub is_named: bool,
     /// Unused elements of a list or vector before the name.
-    pub initial_offset: usize,
+    pub(crate) initial_offset: usize,
     /// The slots, without included ones.
     pub slots: Vec<StructureSlot>,
     /// The documentation.

@@ -165,7 +165,10 @@ fn property(plist: &Value, indicator: Sym) -> Option<Value> {
 
 /// Defines the functions of a structure that is a list or vector:
 /// `(name ((accessor . element)…) copier predicate)`.
-pub fn define_typed_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn define_typed_structure(
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Value, Box<Raise>> {
     let [Value::Symbol(name, ..), described, copier, predicate] = args else {
         return Err(Raise::program("A structure definition is malformed."));
     };

@@ -26,7 +26,7 @@ struct Intersection {
 }
 
 /// Is `a` a subtype of `b`?
-pub fn is_subtype(image: &Image, a: &Type, b: &Type) -> Verdict {
+pub(crate) fn is_subtype(image: &Image, a: &Type, b: &Type) -> Verdict {
     let direct = is_subset(image, a, b);
     if direct == Yes {
         return Yes;

@@ -7,18 +7,19 @@
 pub mod asking;
 pub mod coerce;
 mod complex_numbers;
-pub mod emptiness;
+pub(crate) mod emptiness;
 pub mod parse;
-pub mod sequence_types;
-pub mod specifier;
-pub mod subtype;
+pub(crate) mod sequence_types;
+pub(crate) mod specifier;
+pub(crate) mod subtype;
 pub mod test;
 pub mod type_of;
 
 #[cfg(test)]
 mod tests;
 
-pub use test::{TypeCheck, typep, typep_with};
+pub(crate) use test::typep_with;
+pub use test::{TypeCheck, typep};
 pub use type_of::type_of;
 
 use std::cmp::Ordering;

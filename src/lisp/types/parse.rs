@@ -286,7 +286,11 @@ pub(super) fn is_star(value: &Value) -> bool {
 }
 
 /// What a specifier stands for whose name `deftype` has defined; else the specifier itself.
-pub fn expanded(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Value, Stop> {
+pub(crate) fn expanded(
+    image: &Image,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<Value, Stop> {
     let mut specifier = specifier.clone();
     for _ in 0..MAX_DEPTH {
         let (name, args) = match &specifier {
@@ -310,7 +314,7 @@ pub fn expanded(image: &Image, specifier: &Value, answers: &mut Answers) -> Resu
 
 /// The actual element type of an array that is made for elements of a type; fails if there is no
 /// such type.
-pub fn element_type(
+pub(crate) fn element_type(
     image: &Image,
     specifier: &Value,
     answers: &mut Answers,
@@ -508,7 +512,7 @@ fn near_type(image: &Image, name: Sym) -> Option<Sym> {
 }
 
 /// Is the symbol the name of a class that types alone describe?
-pub fn is_plain_class(image: &Image, name: Sym) -> bool {
+pub(crate) fn is_plain_class(image: &Image, name: Sym) -> bool {
     image
         .class(name)
         .is_some_and(|class| class.kind != ClassKind::Builtin)

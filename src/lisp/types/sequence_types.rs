@@ -13,7 +13,7 @@ use crate::value::sequence::Kind;
 
 /// A kind of sequence, and its length if the type specifies one.
 #[derive(Clone)]
-pub struct SequenceType {
+pub(crate) struct SequenceType {
     pub kind: Kind,
     /// The length, with the type specifier as the user wrote it.
     length: Option<usize>,
@@ -105,7 +105,7 @@ impl SequenceType {
     }
 
     /// Checks that a sequence of this type can have a length.
-    pub fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
+    pub(crate) fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
         let is_cons = self.specifier.as_symbol() == Some(known::CONS);
         match self.length {
             _ if is_cons && length == 0 => Err(Raise::new(

@@ -55,7 +55,7 @@ impl Verdict {
 }
 
 /// Is `a` a subset of `b`?
-pub fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
+pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     match (a, b) {
         (Type::Nothing, _) | (_, Type::Any) => Yes,
         (Type::Or(parts), _) => Verdict::all(parts.iter().map(|p| is_subset(image, p, b))),

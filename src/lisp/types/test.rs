@@ -34,7 +34,7 @@ pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeChec
 }
 
 /// Like [`typep`], with the values of the calls that were needed before.
-pub fn typep_with(
+pub(crate) fn typep_with(
     image: &Image,
     value: &Value,
     specifier: &Value,
@@ -187,7 +187,7 @@ fn is_array(
 }
 
 /// Is the character one of the 96 of the standard?
-pub fn is_standard_char(c: char) -> bool {
+pub(crate) fn is_standard_char(c: char) -> bool {
     c == '\n' || matches!(c, ' '..='~')
 }
 

@@ -11,11 +11,11 @@ pub struct Vector {
     /// All elements, those beyond the fill pointer included.
     pub items: Elements,
     /// Number of active elements, if the vector has a fill pointer.
-    pub fill_pointer: Cell<Option<usize>>,
+    pub(crate) fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
     pub adjustable: bool,
     /// The type of the elements.
-    pub element_type: ElementType,
+    pub(crate) element_type: ElementType,
 }
 
 impl Vector {
@@ -46,14 +46,14 @@ impl Vector {
 
     /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
     #[inline(always)]
-    pub fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
         self.items.copy_into(index, place)
     }
 
     /// Replaces the element at an index by a value that is moved out of its place; false, and the value
     /// stays, if there is none.
     #[inline(always)]
-    pub fn move_into(&self, index: usize, value: &mut Value) -> bool {
+    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
         self.items.move_into(index, value)
     }
 
@@ -69,12 +69,12 @@ impl Vector {
 
     /// Is it simple and its element type `T`, so that it takes any value?
     #[inline]
-    pub fn is_general_simple(&self) -> bool {
+    pub(crate) fn is_general_simple(&self) -> bool {
         self.element_type == ElementType::T && self.is_simple()
     }
 
     /// Is the vector neither adjustable nor displaced, and without fill pointer?
-    pub fn is_simple(&self) -> bool {
+    pub(crate) fn is_simple(&self) -> bool {
         self.fill_pointer.get().is_none() && !self.adjustable && !self.items.is_displaced()
     }
 }
@@ -88,7 +88,7 @@ pub struct Array {
     /// The elements, the last index running fastest.
     pub items: Elements,
     /// The type of the elements.
-    pub element_type: ElementType,
+    pub(crate) element_type: ElementType,
 }
 
 impl Array {
@@ -103,7 +103,7 @@ impl Array {
     }
 
     /// Is the array neither adjustable nor displaced?
-    pub fn is_simple(&self) -> bool {
+    pub(crate) fn is_simple(&self) -> bool {
         !self.adjustable && !self.items.is_displaced()
     }
 }

@@ -44,13 +44,13 @@ pub struct SlotDefinition {
     /// The shared place, for a slot with `:allocation :class`.
     pub shared: Option<Rc<Slot>>,
     /// The declared type, `T` if none.
-    pub slot_type: Value,
+    pub(crate) slot_type: Value,
     /// The documentation.
     pub doc: Option<Rc<str>>,
 }
 
 /// A slot of an earlier definition: its name, and the value that it had if it was shared.
-pub type OldSlot = (Sym, Option<Value>);
+pub(crate) type OldSlot = (Sym, Option<Value>);
 
 impl SlotDefinition {
     /// A slot with nothing but a name.
@@ -74,9 +74,9 @@ pub struct StructureSlot {
     /// The form of its initial value.
     pub initform: Value,
     /// The declared type, `T` if none.
-    pub slot_type: Value,
+    pub(crate) slot_type: Value,
     /// Is assignment to the slot forbidden?
-    pub read_only: bool,
+    pub(crate) read_only: bool,
 }
 
 /// What `defstruct` knows about a structure beyond its class.
@@ -85,7 +85,7 @@ pub struct StructureLayout {
     /// All slots, included ones first.
     pub slots: Vec<StructureSlot>,
     /// The prefix of the accessors.
-    pub conc_name: Rc<str>,
+    pub(crate) conc_name: Rc<str>,
 }
 
 pub struct Class {
@@ -93,22 +93,22 @@ pub struct Class {
     /// What its instances are.
     pub kind: ClassKind,
     /// Direct superclasses, as in the definition.
-    pub direct_superclasses: RefCell<Vec<Rc<Class>>>,
+    pub(crate) direct_superclasses: RefCell<Vec<Rc<Class>>>,
     /// Direct subclasses, in order of definition.
     pub direct_subclasses: RefCell<Vec<Rc<Class>>>,
     /// This class and all its superclasses, most specific first; empty while a superclass
     /// is not defined yet.
-    pub precedence: RefCell<Vec<Rc<Class>>>,
+    pub(crate) precedence: RefCell<Vec<Rc<Class>>>,
     /// Slots defined by this class itself.
     pub direct_slots: RefCell<Vec<SlotDefinition>>,
     /// All slots, inherited ones first; the order is that of an instance's slot values.
     pub slots: RefCell<Vec<SlotDefinition>>,
     /// `:default-initargs` of this class itself.
-    pub direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    pub(crate) direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// `:default-initargs` of this class and its superclasses, most specific first.
     pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// The methods that read and write its slots; a redefinition replaces them.
-    pub accessors: RefCell<Vec<Rc<Method>>>,
+    pub(crate) accessors: RefCell<Vec<Rc<Method>>>,
     /// The report of a condition class: a function of condition and stream.
     pub report: RefCell<Option<Rc<Function>>>,
     /// What `defstruct` remembers of a structure.
@@ -116,9 +116,9 @@ pub struct Class {
     /// The documentation.
     pub doc: RefCell<Option<Rc<str>>>,
     /// Counts redefinitions, so that instances know when to update.
-    pub generation: Cell<u32>,
+    pub(crate) generation: Cell<u32>,
     /// Names of all slots in each generation before the current one.
-    pub old_layouts: RefCell<Vec<Vec<OldSlot>>>,
+    pub(crate) old_layouts: RefCell<Vec<Vec<OldSlot>>>,
     /// False while the class is only named as a superclass.
     pub is_defined: Cell<bool>,
     /// What `(setf class-name)` has set; the class keeps the name under which it was defined if none.
@@ -171,7 +171,7 @@ impl Class {
     }
 
     /// Is this class the other one, or a subclass of it?
-    pub fn is_within(&self, other: &Class) -> bool {
+    pub(crate) fn is_within(&self, other: &Class) -> bool {
         std::ptr::eq(self, other)
             || self
                 .precedence
@@ -181,13 +181,13 @@ impl Class {
     }
 
     /// Is this class the named one, or a subclass of it?
-    pub fn is_subclass_of(&self, name: Sym) -> bool {
+    pub(crate) fn is_subclass_of(&self, name: Sym) -> bool {
         self.name == name || self.precedence.borrow().iter().any(|c| c.name == name)
     }
 
     /// Position of a slot in an instance.
     #[inline]
-    pub fn slot_index(&self, name: Sym) -> Option<usize> {
+    pub(crate) fn slot_index(&self, name: Sym) -> Option<usize> {
         self.slots.borrow().iter().position(|s| s.name == name)
     }
 }
@@ -198,7 +198,7 @@ pub struct Instance {
     /// Slot values in the order of the class's slots; `Unbound` where none.
     pub slots: RefCell<Vec<Value>>,
     /// The class's generation when the slots were laid out.
-    pub generation: Cell<u32>,
+    pub(crate) generation: Cell<u32>,
 }
 
 impl Instance {
@@ -213,7 +213,7 @@ impl Instance {
     }
 
     /// An instance with the given slot values, in the order of the class's slots.
-    pub fn with_slots(class: Rc<Class>, slots: Vec<Value>) -> Instance {
+    pub(crate) fn with_slots(class: Rc<Class>, slots: Vec<Value>) -> Instance {
         Instance {
             generation: Cell::new(class.generation.get()),
             slots: RefCell::new(slots),
@@ -232,7 +232,7 @@ impl Instance {
     }
 
     /// Was the class redefined since the slots were laid out?
-    pub fn is_obsolete(&self) -> bool {
+    pub(crate) fn is_obsolete(&self) -> bool {
         self.generation.get() != self.class.borrow().generation.get()
     }
 
@@ -247,7 +247,7 @@ impl Instance {
     }
 
     /// Sets a slot; false if there is no such slot.
-    pub fn set_slot(&self, name: Sym, value: Value) -> bool {
+    pub(crate) fn set_slot(&self, name: Sym, value: Value) -> bool {
         let class = self.class.borrow();
         let Some(index) = class.slot_index(name) else {
             return false;

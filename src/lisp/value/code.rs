@@ -48,7 +48,7 @@ impl Parameters {
     }
 
     /// The number of arguments that fill the slots as they are, if there is one.
-    pub fn exact_count(&self) -> Option<u16> {
+    pub(crate) fn exact_count(&self) -> Option<u16> {
         let is_simple = self.optional == 0 && !self.rest && !self.has_keys;
         is_simple.then_some(self.required)
     }
@@ -142,12 +142,12 @@ pub struct Code {
     pub name: Signature,
     pub parameters: Parameters,
     /// The number of arguments that fill the parameters' slots as they are, if there is one.
-    pub exact_count: Option<u16>,
+    pub(crate) exact_count: Option<u16>,
     /// The most values that it has on the stack, from its frame's base on.
     pub room: usize,
     /// The operations.
     pub ops: Rc<[Op]>,
-    pub constants: Vec<Value>,
+    pub(crate) constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
     pub inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
     /// For each tagbody that closures jump into: the positions of its tags.
@@ -163,12 +163,12 @@ pub struct Code {
     /// The documentation string.
     pub doc: Option<Rc<str>>,
     /// Can nothing of it ever change, nor of the code in it?
-    pub is_fixed: bool,
+    pub(crate) is_fixed: bool,
 }
 
 impl Code {
     /// Finds out whether it can ever change.
-    pub fn finished(mut self) -> Rc<Code> {
+    pub(crate) fn finished(mut self) -> Rc<Code> {
         self.is_fixed = self.name.is_fixed()
             && self.lambda_list.is_fixed()
             && self.constants.iter().all(is_fixed)

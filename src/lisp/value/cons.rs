@@ -35,7 +35,7 @@ impl Cons {
 
     /// The same of values that are moved out of their places.
     #[inline(always)]
-    pub fn of_places(car: &mut Value, cdr: &mut Value) -> Rc<Cons> {
+    pub(crate) fn of_places(car: &mut Value, cdr: &mut Value) -> Rc<Cons> {
         let cons = spare::take();
         cons.car.fill_from(car);
         cons.cdr.fill_from(cdr);
@@ -66,37 +66,37 @@ impl Cons {
 
     /// Stores a copy of the first half where there is nothing to free.
     #[inline(always)]
-    pub fn copy_car_into(&self, place: &mut Value) {
+    pub(crate) fn copy_car_into(&self, place: &mut Value) {
         self.car.copy_into(place);
     }
 
     /// Stores a copy of the second half where there is nothing to free.
     #[inline(always)]
-    pub fn copy_cdr_into(&self, place: &mut Value) {
+    pub(crate) fn copy_cdr_into(&self, place: &mut Value) {
         self.cdr.copy_into(place);
     }
 
     /// The first half, if it is a pair.
     #[inline(always)]
-    pub fn car_cons(&self) -> Option<Rc<Cons>> {
+    pub(crate) fn car_cons(&self) -> Option<Rc<Cons>> {
         self.car.get_cons()
     }
 
     /// The second half, if it is a pair.
     #[inline(always)]
-    pub fn cdr_cons(&self) -> Option<Rc<Cons>> {
+    pub(crate) fn cdr_cons(&self) -> Option<Rc<Cons>> {
         self.cdr.get_cons()
     }
 
     /// Exchanges the first half for the value in a place.
     #[inline(always)]
-    pub fn exchange_car(&self, place: &mut Value) {
+    pub(crate) fn exchange_car(&self, place: &mut Value) {
         self.car.exchange(place);
     }
 
     /// Exchanges the second half for the value in a place.
     #[inline(always)]
-    pub fn exchange_cdr(&self, place: &mut Value) {
+    pub(crate) fn exchange_cdr(&self, place: &mut Value) {
         self.cdr.exchange(place);
     }
 

@@ -148,14 +148,14 @@ suspects! {
 }
 
 /// Examines the suspects if there are many.
-pub fn collect_if_due() {
+pub(crate) fn collect_if_due() {
     if SUSPECTS.with_borrow(Vec::len) >= DUE.get() {
         collect(MOST);
     }
 }
 
 /// Examines all suspects and whatever can be reached from them.
-pub fn collect_all() {
+pub(crate) fn collect_all() {
     collect(usize::MAX);
 }
 

@@ -16,7 +16,7 @@ pub struct Effective {
     /// Keywords that some applicable method accepts; none if they need no check.
     pub keys: Option<Vec<Sym>>,
     /// Number of arguments before the keywords.
-    pub keys_from: usize,
+    pub(crate) keys_from: usize,
 }
 
 /// The shape of a call.
@@ -52,24 +52,24 @@ pub enum SlotPlace {
 }
 
 /// Calls whose key has more parts than this are not cached.
-pub const MAX_PARTS: usize = 4;
+pub(crate) const MAX_PARTS: usize = 4;
 /// A cache with more keys than this is cleared.
-pub const MAX_ENTRIES: usize = 256;
+pub(crate) const MAX_ENTRIES: usize = 256;
 
 /// What one argument contributes to a key: a class by its address and generation, or a
 /// small number with one of the two tags.
 pub type Part = (usize, u32);
-pub const BUILTIN_TAG: u32 = u32::MAX;
-pub const EQL_TAG: u32 = u32::MAX - 1;
+pub(crate) const BUILTIN_TAG: u32 = u32::MAX;
+pub(crate) const EQL_TAG: u32 = u32::MAX - 1;
 
 pub type Key = [Part; MAX_PARTS];
-pub const NO_PART: Part = (0, 0);
+pub(crate) const NO_PART: Part = (0, 0);
 
 /// An argument that decides which methods apply.
 pub struct Position {
     pub index: usize,
     /// The values that `eql` specializers name.
-    pub eql_values: Vec<Value>,
+    pub(crate) eql_values: Vec<Value>,
 }
 
 /// Which arguments decide, and the effective methods found so far.
@@ -85,7 +85,7 @@ pub struct Dispatch {
 
 impl Dispatch {
     /// The state for a changed set of methods.
-    pub fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
+    pub(crate) fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
         let mut positions: Vec<Position> = Vec::new();
         for method in methods {
             for (index, specializer) in method.specializers.iter().enumerate() {

@@ -18,7 +18,7 @@ pub enum Newline {
 }
 
 impl Newline {
-    pub fn is_unconditional(self) -> bool {
+    pub(crate) fn is_unconditional(self) -> bool {
         matches!(self, Newline::Mandatory | Newline::Literal)
     }
 }
@@ -27,9 +27,9 @@ impl Newline {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Tab {
     /// From where the section starts, not the line?
-    pub by_section: bool,
+    pub(crate) by_section: bool,
     /// First this many blanks, then up to a multiple of the step?
-    pub is_relative: bool,
+    pub(crate) is_relative: bool,
     /// The column to reach, or the number of blanks.
     pub column: usize,
     /// Beyond the column, a multiple of this is reached.
@@ -38,7 +38,7 @@ pub struct Tab {
 
 impl Tab {
     /// The blanks to write where the line, or the section, has `at` characters.
-    pub fn blanks(&self, at: usize) -> usize {
+    pub(crate) fn blanks(&self, at: usize) -> usize {
         let Tab { column, step, .. } = *self;
         if self.is_relative {
             let after = at + column;
@@ -83,13 +83,13 @@ pub struct Op {
     /// Number of blocks around it.
     pub depth: usize,
     /// Index of the newline that ends the section which it starts.
-    pub section_end: Option<usize>,
+    pub(crate) section_end: Option<usize>,
     /// Of a start, the index of its end.
-    pub block_end: usize,
+    pub(crate) block_end: usize,
     /// Of a start, what begins each line of the block; empty if nothing does.
-    pub line_prefix: Cow<'static, str>,
+    pub(crate) line_prefix: Cow<'static, str>,
     /// Of a start, what follows the block.
-    pub suffix: Cow<'static, str>,
+    pub(crate) suffix: Cow<'static, str>,
 }
 
 /// A text with layout instructions.
@@ -106,7 +106,7 @@ pub struct Document {
     /// The position where the line started, as far as newlines in the text tell.
     line_start: Option<usize>,
     /// Are there tabs?
-    pub has_tabs: bool,
+    pub(crate) has_tabs: bool,
     /// Are layout instructions kept? Without them this is plain text.
     is_pretty: bool,
 }
@@ -126,7 +126,7 @@ impl Document {
     }
 
     /// The text without any layout.
-    pub fn into_text(self) -> String {
+    pub(crate) fn into_text(self) -> String {
         self.text
     }
 
@@ -135,7 +135,7 @@ impl Document {
     }
 
     /// Are layout instructions kept?
-    pub fn is_pretty(&self) -> bool {
+    pub(crate) fn is_pretty(&self) -> bool {
         self.is_pretty
     }
 
@@ -215,7 +215,7 @@ impl Document {
     }
 
     /// A place for a line break.
-    pub fn newline(&mut self, newline: Newline) {
+    pub(crate) fn newline(&mut self, newline: Newline) {
         if !self.is_pretty {
             return;
         }
@@ -246,7 +246,7 @@ impl Document {
     }
 
     /// Starts a block whose lines have a prefix. The first line has it already.
-    pub fn start_lines(&mut self, prefix: Cow<'static, str>, suffix: Cow<'static, str>) {
+    pub(crate) fn start_lines(&mut self, prefix: Cow<'static, str>, suffix: Cow<'static, str>) {
         if self.is_pretty {
             let index = self.push(Kind::Start);
             if let Some(op) = self.ops.get_mut(index) {
@@ -270,14 +270,14 @@ impl Document {
     }
 
     /// Indents the next lines relative to where the block started.
-    pub fn indent_block(&mut self, columns: i64) {
+    pub(crate) fn indent_block(&mut self, columns: i64) {
         if self.is_pretty {
             self.push(Kind::IndentBlock(columns));
         }
     }
 
     /// Indents the next lines relative to the current column.
-    pub fn indent_current(&mut self, columns: i64) {
+    pub(crate) fn indent_current(&mut self, columns: i64) {
         if self.is_pretty {
             self.push(Kind::IndentCurrent(columns));
         }

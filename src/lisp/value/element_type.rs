@@ -57,13 +57,13 @@ const INTEGERS: [ElementType; 17] = [
 
 impl ElementType {
     /// All types but `T`, each after those that it contains.
-    pub fn specialized() -> impl Iterator<Item = ElementType> {
+    pub(crate) fn specialized() -> impl Iterator<Item = ElementType> {
         let others = [Single, Double, Character];
         std::iter::once(Nil).chain(INTEGERS).chain(others)
     }
 
     /// The smallest type that has all integers from a lowest to a highest one; `T` if none has.
-    pub fn of_integers(low: &Value, high: &Value) -> ElementType {
+    pub(crate) fn of_integers(low: &Value, high: &Value) -> ElementType {
         match (whole(low), whole(high)) {
             (Some(low), Some(high)) => INTEGERS
                 .into_iter()
@@ -74,7 +74,7 @@ impl ElementType {
     }
 
     /// `(UNSIGNED-BYTE n)` or the smallest type that contains it.
-    pub fn of_unsigned_bytes(bits: i64) -> ElementType {
+    pub(crate) fn of_unsigned_bytes(bits: i64) -> ElementType {
         INTEGERS
             .into_iter()
             .find(|kind| match kind {
@@ -86,7 +86,7 @@ impl ElementType {
     }
 
     /// `(SIGNED-BYTE n)` or the smallest type that contains it.
-    pub fn of_signed_bytes(bits: i64) -> ElementType {
+    pub(crate) fn of_signed_bytes(bits: i64) -> ElementType {
         INTEGERS
             .into_iter()
             .find(|kind| match kind {
@@ -122,7 +122,7 @@ impl ElementType {
     }
 
     /// The element that arrays hold if they are made without any.
-    pub fn default_element(self) -> Value {
+    pub(crate) fn default_element(self) -> Value {
         match self {
             Single => Value::Single(0.0),
             Double => Value::Double(0.0),
@@ -132,7 +132,7 @@ impl ElementType {
     }
 
     /// The type specifier.
-    pub fn specifier(self) -> Value {
+    pub(crate) fn specifier(self) -> Value {
         let bytes = |name: Sym, bits: u8| Value::list([name.into(), Value::Int(bits.into())]);
         match self {
             T => Value::T,

@@ -16,7 +16,7 @@ enum Place {
 
 /// A part of the elements of another array.
 #[derive(Clone)]
-pub struct Displacement {
+pub(crate) struct Displacement {
     /// The array that has them; it may be displaced itself.
     pub target: Value,
     /// Index of the first of them in row-major order.
@@ -48,7 +48,7 @@ impl Displacement {
     }
 
     /// The array that has an element as its own, and the element's index there.
-    pub fn holder(&self, index: usize) -> Option<(Value, usize)> {
+    pub(crate) fn holder(&self, index: usize) -> Option<(Value, usize)> {
         let mut step = self.clone();
         let mut at = index;
         loop {
@@ -64,7 +64,7 @@ impl Displacement {
     }
 
     /// Does the array have its elements from this one, directly or not?
-    pub fn leads_to(&self, array: &Value) -> bool {
+    pub(crate) fn leads_to(&self, array: &Value) -> bool {
         let mut step = self.clone();
         loop {
             if step.target.is_eq(array) {
@@ -85,7 +85,7 @@ impl Drop for Displacement {
 }
 
 /// What part of which array an array consists of, if it is displaced.
-pub fn displacement(array: &Value) -> Option<Displacement> {
+pub(crate) fn displacement(array: &Value) -> Option<Displacement> {
     match array {
         Value::Vector(vector) => vector.items.displacement(),
         Value::Array(array) => array.items.displacement(),
@@ -106,12 +106,12 @@ impl Elements {
     }
 
     /// A part of another array's elements from now on.
-    pub fn displace(&self, displacement: Displacement) {
+    pub(crate) fn displace(&self, displacement: Displacement) {
         drop(self.0.replace(Place::Displaced(displacement)));
     }
 
     /// What part of which array these elements are, if they are displaced.
-    pub fn displacement(&self) -> Option<Displacement> {
+    pub(crate) fn displacement(&self) -> Option<Displacement> {
         match &*self.0.borrow() {
             Place::Own(_) => None,
             Place::Displaced(displacement) => Some(displacement.clone()),
@@ -120,7 +120,7 @@ impl Elements {
 
     /// Are they a part of another array's elements?
     #[inline]
-    pub fn is_displaced(&self) -> bool {
+    pub(crate) fn is_displaced(&self) -> bool {
         matches!(&*self.0.borrow(), Place::Displaced(_))
     }
 
@@ -144,7 +144,7 @@ impl Elements {
 
     /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
     #[inline(always)]
-    pub fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
         match &*self.0.borrow() {
             Place::Own(items) => match items.get(index) {
                 Some(item) => item.copy_into(place),
@@ -161,7 +161,7 @@ impl Elements {
     /// Replaces an element of the array's own by a value that is moved out of its place; false, and the
     /// value stays, if it has none at that index.
     #[inline(always)]
-    pub fn move_into(&self, index: usize, value: &mut Value) -> bool {
+    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
         let mut place = self.0.borrow_mut();
         let Place::Own(items) = &mut *place else {
             return false;

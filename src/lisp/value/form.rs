@@ -44,7 +44,7 @@ pub fn quote(value: impl Into<Value>) -> Value {
 }
 
 /// The form that signals a style warning with a report.
-pub fn style_warning(report: String) -> Value {
+pub(crate) fn style_warning(report: String) -> Value {
     form![
         known::WARN,
         quote(known::SIMPLE_STYLE_WARNING),
@@ -87,12 +87,12 @@ pub fn split_body(body: &Value) -> Body {
 }
 
 /// The form for an optional documentation string.
-pub fn doc_form(doc: Option<&Rc<str>>) -> Value {
+pub(crate) fn doc_form(doc: Option<&Rc<str>>) -> Value {
     doc.map_or(Value::NIL, |doc| Value::string(doc.as_ref()))
 }
 
 /// The value of a form that has the same value wherever and whenever it is evaluated.
-pub fn constant_value(form: &Value) -> Option<Value> {
+pub(crate) fn constant_value(form: &Value) -> Option<Value> {
     match form {
         Value::Symbol(known::NIL | known::T, ..) => Some(form.clone()),
         Value::Symbol(..) => None,

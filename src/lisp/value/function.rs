@@ -75,14 +75,14 @@ pub trait MadeBody: Any {
 impl Native {
     /// Does it accept `count` arguments?
     #[inline]
-    pub fn accepts(&self, count: usize) -> bool {
+    pub(crate) fn accepts(&self, count: usize) -> bool {
         count >= usize::from(self.min) && self.max.is_none_or(|max| count <= usize::from(max))
     }
 }
 
 impl Function {
     /// A closure over `captured`.
-    pub fn closure(code: Rc<Code>, captured: Vec<Value>) -> Function {
+    pub(crate) fn closure(code: Rc<Code>, captured: Vec<Value>) -> Function {
         Function {
             body: Body::Closure { code, captured },
         }

@@ -39,12 +39,12 @@ pub struct Combination {
     /// The operator that the values of all methods are given to.
     pub operator: Sym,
     /// Is the value of a single method the value of the call?
-    pub is_identity: bool,
+    pub(crate) is_identity: bool,
 }
 
 impl Combination {
     /// Before, after and around methods, `call-next-method`.
-    pub const STANDARD: Combination = Combination {
+    pub(crate) const STANDARD: Combination = Combination {
         name: known::STANDARD,
         operator: known::STANDARD,
         is_identity: true,
@@ -56,7 +56,7 @@ impl Combination {
     }
 
     /// Is this the standard one?
-    pub fn is_standard(self) -> bool {
+    pub(crate) fn is_standard(self) -> bool {
         self.name == known::STANDARD
     }
 }
@@ -74,7 +74,7 @@ pub struct Method {
     /// The name of its generic function: a symbol, or the list `(setf name)`.
     pub name: Value,
     /// Qualifiers as written: none, `:before`, `+`, …
-    pub qualifiers: Vec<Sym>,
+    pub(crate) qualifiers: Vec<Sym>,
     /// One per required argument.
     pub specializers: Vec<Specializer>,
     /// The parameters, required ones included.
@@ -83,11 +83,11 @@ pub struct Method {
     /// calls the next method (or `NIL`) if `takes_next`.
     pub function: Rc<Function>,
     /// Does the function take the next method?
-    pub takes_next: bool,
+    pub(crate) takes_next: bool,
     /// Set if the method is a slot's reader or writer: such a call needs no function.
     pub accessor: Option<Accessor>,
     /// Was the method made by the implementation?
-    pub is_builtin: bool,
+    pub(crate) is_builtin: bool,
     /// Documentation.
     pub doc: RefCell<Option<Rc<str>>>,
     /// The value that stands for the method, as long as it is referenced.
@@ -100,20 +100,20 @@ pub struct GenericFunction {
     /// The parameters that every method must agree with.
     pub parameters: RefCell<Parameters>,
     /// Did a `defgeneric` fix the parameters?
-    pub is_declared: Cell<bool>,
+    pub(crate) is_declared: Cell<bool>,
     /// The methods in order of definition.
     pub methods: RefCell<Vec<Rc<Method>>>,
     /// Methods that the `defgeneric` itself made; evaluating it again replaces them.
-    pub own_methods: RefCell<Vec<Rc<Method>>>,
+    pub(crate) own_methods: RefCell<Vec<Rc<Method>>>,
     /// Documentation.
     pub doc: RefCell<Option<Rc<str>>>,
     /// How the values of methods are combined.
-    pub combination: Cell<Combination>,
+    pub(crate) combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
-    pub most_specific_last: Cell<bool>,
+    pub(crate) most_specific_last: Cell<bool>,
     /// The required arguments in the order in which they rank methods; empty for that from left to
     /// right.
-    pub precedence: RefCell<Vec<usize>>,
+    pub(crate) precedence: RefCell<Vec<usize>>,
     /// Which arguments decide, and the effective methods found so far.
     pub dispatch: RefCell<Dispatch>,
 }

@@ -25,7 +25,7 @@ pub enum HashTest {
 
 /// A key under the equality of its table.
 #[derive(Clone)]
-pub struct HashKey {
+pub(crate) struct HashKey {
     /// The key.
     pub value: Value,
     /// The table's test.

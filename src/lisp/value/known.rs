@@ -198,7 +198,7 @@ pub const fn spare(number: u32) -> Sym {
 }
 
 /// Makes the known symbols in an empty table. `COMMON-LISP`'s are exported.
-pub fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable) {
+pub(crate) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable) {
     for (package, name) in TABLE {
         let sym = packages.intern(symbols, *package, name);
         packages.export(symbols, *package, sym);

@@ -10,8 +10,8 @@ pub mod cons;
 pub mod copy;
 pub mod cycles;
 pub mod dispatch;
-pub mod document;
-pub mod element_type;
+pub(crate) mod document;
+pub(crate) mod element_type;
 pub mod elements;
 pub mod equality;
 pub mod foreign;
@@ -284,7 +284,7 @@ impl Value {
     }
 
     /// The string, if this is one.
-    pub fn as_string(&self) -> Option<&Rc<LispString>> {
+    pub(crate) fn as_string(&self) -> Option<&Rc<LispString>> {
         match self {
             Value::Str(string) => Some(string),
             _ => None,
@@ -377,7 +377,7 @@ impl Value {
     }
 
     /// The symbol of the name `(setf symbol)`.
-    pub fn setf_name(&self) -> Option<Sym> {
+    pub(crate) fn setf_name(&self) -> Option<Sym> {
         match self.list_to_vec()?.as_slice() {
             [Value::Symbol(known::SETF, ..), Value::Symbol(sym, ..)] => Some(*sym),
             _ => None,
@@ -397,7 +397,7 @@ impl Value {
 
 /// Detects that a walk along a list is going round in a circle, after a few rounds (Brent's
 /// algorithm).
-pub struct Rounds {
+pub(crate) struct Rounds {
     /// A pair visited before: the list is circular if it is met again.
     mark: Option<Rc<Cons>>,
     steps: usize,
@@ -420,7 +420,7 @@ impl Default for Rounds {
 impl Rounds {
     /// Is the list circular? Must be called for each pair of the list in turn.
     #[inline(always)]
-    pub fn is_closed_by(&mut self, pair: &Rc<Cons>) -> bool {
+    pub(crate) fn is_closed_by(&mut self, pair: &Rc<Cons>) -> bool {
         if self
             .mark
             .as_ref()

@@ -47,7 +47,7 @@ impl Test {
 
     /// Does it jump for two integers?
     #[inline(always)]
-    pub fn jumps(self, a: i64, b: i64) -> bool {
+    pub(crate) fn jumps(self, a: i64, b: i64) -> bool {
         let order = (a >= b) as u8 + (a > b) as u8;
         (self.0 >> order) & 1 != 0
     }
@@ -321,7 +321,7 @@ const _: () = assert!(size_of::<Op>() == 8);
 
 impl Op {
     /// Is it a jump that compares numbers, and so may find that they are none?
-    pub fn may_fail_instead_of_jump(self) -> bool {
+    pub(crate) fn may_fail_instead_of_jump(self) -> bool {
         matches!(
             self,
             Op::JumpIfCompare { .. }
@@ -333,7 +333,7 @@ impl Op {
     }
 
     /// Where execution may continue instead of at the next operation, if the operation says that.
-    pub fn target_mut(&mut self) -> Option<&mut u32> {
+    pub(crate) fn target_mut(&mut self) -> Option<&mut u32> {
         match self {
             Op::Jump(target)
             | Op::JumpIfNil(target)

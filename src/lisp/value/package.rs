@@ -31,7 +31,7 @@ pub struct Package {
     /// Packages whose external symbols are inherited, in order.
     pub uses: Vec<PackageId>,
     /// Names that the package shadows.
-    pub shadowing: Vec<Rc<str>>,
+    pub(crate) shadowing: Vec<Rc<str>>,
     /// A sentence about the package.
     pub doc: Option<Rc<str>>,
 }
@@ -179,12 +179,12 @@ impl PackageTable {
     }
 
     /// Removes a package from those that another uses.
-    pub fn unuse_package(&mut self, package: PackageId, used: PackageId) {
+    pub(crate) fn unuse_package(&mut self, package: PackageId, used: PackageId) {
         self.get_mut(package).uses.retain(|id| *id != used);
     }
 
     /// Makes an exported symbol internal again.
-    pub fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         if let Some(entry) = self.get_mut(package).symbols.get_mut(&name)
             && entry.0 == sym
@@ -194,7 +194,12 @@ impl PackageTable {
     }
 
     /// Removes a symbol from a package; returns whether it was present.
-    pub fn unintern(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) -> bool {
+    pub(crate) fn unintern(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        sym: Sym,
+    ) -> bool {
         let name = symbols.get(sym).name.clone();
         let this = self.get_mut(package);
         if this.symbols.get(&name).is_none_or(|(s, _)| *s != sym) {
@@ -210,7 +215,12 @@ impl PackageTable {
     }
 
     /// Makes a symbol present in place of any other of its name, and shadowing.
-    pub fn shadowing_import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn shadowing_import(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        sym: Sym,
+    ) {
         let name = symbols.get(sym).name.clone();
         self.get_mut(package).symbols.remove(&name);
         self.import(symbols, package, sym);

@@ -10,11 +10,11 @@ pub struct Parameters {
     /// Number of optional parameters.
     pub optional: usize,
     /// Is there a rest parameter?
-    pub has_rest: bool,
+    pub(crate) has_rest: bool,
     /// The keywords, if there is `&key`.
     pub keys: Option<Vec<Sym>>,
     /// Are keywords beyond those allowed?
-    pub allows_other_keys: bool,
+    pub(crate) allows_other_keys: bool,
 }
 
 impl Parameters {
@@ -27,7 +27,7 @@ impl Parameters {
     }
 
     /// Required parameters and any number of further arguments.
-    pub fn required_and_rest(count: usize) -> Parameters {
+    pub(crate) fn required_and_rest(count: usize) -> Parameters {
         Parameters {
             required: count,
             has_rest: true,
@@ -41,7 +41,7 @@ impl Parameters {
     }
 
     /// Is this number of arguments acceptable?
-    pub fn accepts(&self, count: usize) -> bool {
+    pub(crate) fn accepts(&self, count: usize) -> bool {
         count >= self.required && (self.has_more() || count <= self.required + self.optional)
     }
 }

@@ -8,7 +8,7 @@ use super::known;
 use super::symbol::Sym;
 
 /// The name of a file.
-pub struct Pathname {
+pub(crate) struct Pathname {
     /// The host of a logical pathname, a string; `NIL` for the name of a file of the machine.
     pub host: Value,
     /// `NIL`, or a list that begins with `:ABSOLUTE` or `:RELATIVE`, of strings, `:UP`, `:WILD` and

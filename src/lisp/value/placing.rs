@@ -12,7 +12,7 @@ use super::cons::{self, Cons};
 
 /// Pushes what a function makes once there is room for it.
 #[inline(always)]
-pub fn push_made<T>(stack: &mut Vec<T>, make: impl FnOnce() -> T) {
+pub(crate) fn push_made<T>(stack: &mut Vec<T>, make: impl FnOnce() -> T) {
     stack.extend(std::iter::once_with(make));
 }
 
@@ -25,7 +25,7 @@ impl Value {
 
     /// Stores a copy where there is nothing to free.
     #[inline(always)]
-    pub fn copy_into(&self, place: &mut Value) {
+    pub(crate) fn copy_into(&self, place: &mut Value) {
         match self {
             Value::Int(n) => place.fill(Value::Int(*n)),
             Value::Cons(cons) => place.fill(Value::Cons(cons.clone())),
@@ -66,7 +66,7 @@ impl Value {
     /// Moves the value to a place where there is nothing to free, and leaves behind what needs not be
     /// freed.
     #[inline(always)]
-    pub fn move_into(&mut self, place: &mut Value) {
+    pub(crate) fn move_into(&mut self, place: &mut Value) {
         match self {
             Value::Int(n) => place.fill(Value::Int(*n)),
             Value::Symbol(sym, hold) if hold.is_none() => place.fill(Value::symbol(*sym)),
@@ -86,7 +86,7 @@ impl Value {
 
     /// Moves the value to another place, and leaves behind what needs not be freed.
     #[inline(always)]
-    pub fn move_to(&mut self, place: &mut Value) {
+    pub(crate) fn move_to(&mut self, place: &mut Value) {
         place.clear();
         self.move_into(place);
     }
@@ -94,7 +94,7 @@ impl Value {
     /// Takes out the pair, if the value is one, and leaves "no value" behind; a value of another kind
     /// must be one that needs not be freed.
     #[inline(always)]
-    pub fn take_pair(&mut self) -> Option<Rc<Cons>> {
+    pub(crate) fn take_pair(&mut self) -> Option<Rc<Cons>> {
         match std::mem::take(self) {
             Value::Cons(cons) => Some(cons),
             other => {

@@ -106,7 +106,7 @@ impl Raise {
 
     /// The object that was given as a stream, if that is the error and it is one by its class.
     #[cold]
-    pub fn stream_object(&self) -> Option<&Value> {
+    pub(crate) fn stream_object(&self) -> Option<&Value> {
         let Raise::Make {
             class: known::TYPE_ERROR,
             initargs,
@@ -123,7 +123,7 @@ impl Raise {
     }
 
     /// An `UNBOUND-VARIABLE` error.
-    pub fn unbound_variable(name: Sym) -> Box<Raise> {
+    pub(crate) fn unbound_variable(name: Sym) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::UNBOUND_VARIABLE,
             report: None,

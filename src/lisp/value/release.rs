@@ -53,7 +53,7 @@ pub(super) fn put_off(conses: Vec<Rc<Cons>>) {
 }
 
 /// Keeps something in the queue that holds values, about so many.
-pub fn put_off_others(others: impl Any, count: usize) {
+pub(crate) fn put_off_others(others: impl Any, count: usize) {
     QUEUE.with_borrow_mut(|queue| queue.push(Dead::Others(Box::new(others), count)));
 }
 

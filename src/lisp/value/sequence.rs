@@ -12,7 +12,7 @@ use crate::value::string::LispString;
 use crate::value::{Rounds, Value};
 
 #[derive(Clone)]
-pub enum Sequence {
+pub(crate) enum Sequence {
     /// A list, possibly dotted or circular, which is discovered while walking it.
     List(Value),
     /// A one-dimensional array.
@@ -94,7 +94,7 @@ impl Sequence {
     }
 
     /// Replaces all elements of a sequence by as many others.
-    pub fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
+    pub(crate) fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
         match self {
             Sequence::List(list) => {
                 for (cons, item) in conses(list)?.iter().zip(items) {
@@ -190,7 +190,7 @@ impl Sequence {
 }
 
 /// "The index 5 is too large for a list of length 2."
-pub fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
+pub(crate) fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
     Raise::new(
         known::TYPE_ERROR,
         format!("The index {index} is too large for a {what} of length {length}."),
@@ -212,7 +212,10 @@ pub fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
 }
 
 /// Checks that a value may be stored in an array of an element type.
-pub fn checked_element(element_type: ElementType, value: Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn checked_element(
+    element_type: ElementType,
+    value: Value,
+) -> Result<Value, Box<Raise>> {
     if element_type.holds(&value) {
         Ok(value)
     } else {
@@ -265,7 +268,7 @@ impl Kind {
 
 /// Bounds of a part of a sequence.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// Index of the first element.
     pub start: usize,
     /// Index after the last element; none means the sequence's end.
@@ -365,7 +368,7 @@ pub fn index(value: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// Walks elements one by one.
-pub struct Walk {
+pub(crate) struct Walk {
     state: State,
     index: usize,
     end: Option<usize>,
@@ -405,7 +408,7 @@ impl Walk {
 
 /// Walks a list that must be proper: a dotted or circular one is an error when its end, or
 /// the second round, is reached.
-pub struct ListWalk {
+pub(crate) struct ListWalk {
     /// What has not been visited yet.
     pub rest: Value,
     rounds: Rounds,
@@ -422,7 +425,7 @@ impl ListWalk {
 
     /// The next pair.
     #[inline(always)]
-    pub fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+    pub(crate) fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
         match &self.rest {
             Value::Cons(cons) => {
                 if self.rounds.is_closed_by(cons) {
@@ -453,7 +456,7 @@ pub fn circular(list: &Value) -> Box<Raise> {
 }
 
 /// Length of a proper list.
-pub fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
+pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
     let mut pair = match list {
         Value::Cons(first) => first.clone(),
         Value::Symbol(known::NIL, ..) => return Ok(0),
@@ -478,7 +481,7 @@ pub fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// The pairs of a proper list.
-pub fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
+pub(crate) fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut conses = Vec::new();
     while let Some(cons) = walk.next_cons()? {
@@ -488,7 +491,7 @@ pub fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
 }
 
 /// The elements of a proper list.
-pub fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut items = Vec::new();
     while let Some(item) = walk.next()? {
@@ -498,7 +501,7 @@ pub fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Links pairs into a list that ends in `tail`.
-pub fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
+pub(crate) fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
     let mut rest = tail;
     for cons in conses.iter().rev() {
         cons.set_cdr(rest);
@@ -509,7 +512,7 @@ pub fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
 
 /// Builds a list from its front.
 #[derive(Default)]
-pub struct ListBuilder {
+pub(crate) struct ListBuilder {
     head: Option<Value>,
     last: Option<Rc<Cons>>,
 }
@@ -530,7 +533,7 @@ impl ListBuilder {
     }
 
     /// The list, ending in `tail`.
-    pub fn finish_with(self, tail: Value) -> Value {
+    pub(crate) fn finish_with(self, tail: Value) -> Value {
         match (self.head, self.last) {
             (Some(head), Some(last)) => {
                 last.set_cdr(tail);
@@ -547,7 +550,7 @@ impl ListBuilder {
 }
 
 /// The last pair of a list that may be dotted.
-pub fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
     let mut rounds = Rounds::default();
     let Value::Cons(first) = list else {
         return Ok(None);

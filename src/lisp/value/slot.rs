@@ -28,7 +28,7 @@ impl Slot {
 
     /// Stores a copy of the value where there is nothing to free.
     #[inline(always)]
-    pub fn copy_into(&self, place: &mut Value) {
+    pub(crate) fn copy_into(&self, place: &mut Value) {
         // What is forgotten is plain, or has been put back; were it dropped, that would be checked.
         let value = self.0.take();
         match value {
@@ -56,7 +56,7 @@ impl Slot {
 
     /// The pair, if the value is one.
     #[inline(always)]
-    pub fn get_cons(&self) -> Option<Rc<Cons>> {
+    pub(crate) fn get_cons(&self) -> Option<Rc<Cons>> {
         match self.0.take() {
             Value::Cons(cons) => {
                 let copy = cons.clone();
@@ -72,7 +72,7 @@ impl Slot {
 
     /// Exchanges the value for one in another place.
     #[inline(always)]
-    pub fn exchange(&self, place: &mut Value) {
+    pub(crate) fn exchange(&self, place: &mut Value) {
         let mut value = self.0.take();
         self.fill_from(place);
         value.move_into(place);
@@ -81,7 +81,7 @@ impl Slot {
 
     /// Moves a value here, where there is "no value", and leaves behind what needs not be freed.
     #[inline(always)]
-    pub fn fill_from(&self, place: &mut Value) {
+    pub(crate) fn fill_from(&self, place: &mut Value) {
         match place {
             Value::Int(n) => self.put_back(Value::Int(*n)),
             Value::Symbol(sym, hold) if hold.is_none() => self.put_back(Value::symbol(*sym)),

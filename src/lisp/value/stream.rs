@@ -13,7 +13,7 @@ use super::string::LispString;
 use super::symbol::Sym;
 
 /// The deepest nesting of streams that are made of other streams.
-pub const MAX_NESTING: u32 = 100;
+pub(crate) const MAX_NESTING: u32 = 100;
 
 pub struct Stream {
     /// Where its characters come from or go to.
@@ -27,7 +27,7 @@ pub struct Stream {
     /// How many levels of other streams it is made of.
     pub nesting: u32,
     /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
-    pub backquotes: Cell<usize>,
+    pub(crate) backquotes: Cell<usize>,
 }
 
 /// What the elements of a stream are.
@@ -168,7 +168,7 @@ impl Stream {
     }
 
     /// A stream that is made of others.
-    pub fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
+    pub(crate) fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
         let nesting = parts.iter().map(|p| p.nesting).max().unwrap_or(0) + 1;
         if nesting > MAX_NESTING {
             return Err(Raise::new(
@@ -191,14 +191,14 @@ impl Stream {
     }
 
     /// A stream that collects what is written.
-    pub fn to_text() -> Stream {
+    pub(crate) fn to_text() -> Stream {
         Stream::new(StreamKind::StringOutput {
             text: String::new(),
         })
     }
 
     /// A stream that collects a document, which begins at a column.
-    pub fn to_document(is_pretty: bool, start: usize) -> Stream {
+    pub(crate) fn to_document(is_pretty: bool, start: usize) -> Stream {
         Stream::new(StreamKind::Pretty {
             document: Document::new(is_pretty),
             start,
@@ -206,7 +206,7 @@ impl Stream {
     }
 
     /// Takes the document that such a stream has collected; `None` for other kinds.
-    pub fn take_document(&self) -> Option<Document> {
+    pub(crate) fn take_document(&self) -> Option<Document> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::Pretty { document, .. } => {
                 let empty = Document::new(document.is_pretty());
@@ -217,19 +217,19 @@ impl Stream {
     }
 
     /// Is it a stream that collects a document with places where lines may break?
-    pub fn is_pretty(&self) -> bool {
+    pub(crate) fn is_pretty(&self) -> bool {
         matches!(&*self.kind.borrow(), StreamKind::Pretty { document, .. } if document.is_pretty())
     }
 
     /// Changes the document that the stream collects, if it does so.
-    pub fn with_document(&self, change: impl FnOnce(&mut Document)) {
+    pub(crate) fn with_document(&self, change: impl FnOnce(&mut Document)) {
         if let StreamKind::Pretty { document, .. } = &mut *self.kind.borrow_mut() {
             change(document);
         }
     }
 
     /// Takes the text that a string output stream has collected; `None` for other kinds.
-    pub fn take_text(&self) -> Option<String> {
+    pub(crate) fn take_text(&self) -> Option<String> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::StringOutput { text } => Some(std::mem::take(text)),
             _ => None,
@@ -245,7 +245,7 @@ impl Stream {
     }
 
     /// Can the stream be read?
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardInput
@@ -258,7 +258,7 @@ impl Stream {
     }
 
     /// Can the stream be written?
-    pub fn is_output(&self) -> bool {
+    pub(crate) fn is_output(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardOutput

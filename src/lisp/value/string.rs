@@ -21,7 +21,7 @@ pub struct LispString {
     /// A position and its byte offset: those of the last lookup.
     cursor: Cell<(usize, usize)>,
     /// Does the string have a fill pointer, that is, can characters be pushed?
-    pub has_fill_pointer: Cell<bool>,
+    pub(crate) has_fill_pointer: Cell<bool>,
     /// May the string grow beyond its capacity?
     pub adjustable: Cell<bool>,
     /// How many characters there is room for, if there is a fill pointer.
@@ -51,7 +51,7 @@ impl LispString {
     }
 
     /// A string with a fill pointer at the end of the text and room for `capacity` characters.
-    pub fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
+    pub(crate) fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
         let string = LispString::new(text);
         string.has_fill_pointer.set(true);
         string.adjustable.set(adjustable);
@@ -60,19 +60,19 @@ impl LispString {
     }
 
     /// Makes the string a part of an array of characters.
-    pub fn displace(&self, displacement: Displacement) {
+    pub(crate) fn displace(&self, displacement: Displacement) {
         self.length.set(self.length.get().min(displacement.size));
         self.capacity.set(displacement.size);
         drop(self.displaced.replace(Some(displacement)));
     }
 
     /// What part of which array the string is, if it is displaced.
-    pub fn displacement(&self) -> Option<Displacement> {
+    pub(crate) fn displacement(&self) -> Option<Displacement> {
         self.displaced.borrow().clone()
     }
 
     /// Sets how many characters of a displaced string are active.
-    pub fn set_length(&self, length: usize) {
+    pub(crate) fn set_length(&self, length: usize) {
         self.length.set(length);
     }
 
@@ -119,7 +119,7 @@ impl LispString {
     }
 
     /// Is the string neither adjustable nor displaced, and without fill pointer?
-    pub fn is_simple(&self) -> bool {
+    pub(crate) fn is_simple(&self) -> bool {
         !self.has_fill_pointer.get() && !self.adjustable.get() && self.displaced.borrow().is_none()
     }
 
@@ -137,7 +137,7 @@ impl LispString {
 
     /// Replaces the character at a position, whether or not the fill pointer covers it; false if
     /// there is none.
-    pub fn set_element(&self, index: usize, c: char) -> bool {
+    pub(crate) fn set_element(&self, index: usize, c: char) -> bool {
         if index < self.len() || index >= self.capacity() {
             return self.set_char(index, c);
         }
@@ -207,7 +207,7 @@ impl LispString {
     }
 
     /// The character at a position.
-    pub fn char_at(&self, index: usize) -> Option<char> {
+    pub(crate) fn char_at(&self, index: usize) -> Option<char> {
         if let Some(displacement) = &*self.displaced.borrow() {
             return match displacement.get(index) {
                 Some(Value::Char(c)) if index < self.len() => Some(c),
@@ -231,7 +231,7 @@ impl LispString {
     }
 
     /// Replaces the character at a position; false if there is none.
-    pub fn set_char(&self, index: usize, c: char) -> bool {
+    pub(crate) fn set_char(&self, index: usize, c: char) -> bool {
         if index >= self.length.get() {
             return false;
         }
@@ -259,7 +259,7 @@ impl LispString {
     }
 
     /// Replaces the whole text.
-    pub fn set_text(&self, text: String) {
+    pub(crate) fn set_text(&self, text: String) {
         let length = text.chars().count();
         permit_length(length);
         self.refresh();
@@ -303,7 +303,7 @@ impl LispString {
 
     /// Moves the fill pointer; characters beyond it reappear when it moves back up. False if there
     /// is not enough room.
-    pub fn set_fill_pointer(&self, count: usize) -> bool {
+    pub(crate) fn set_fill_pointer(&self, count: usize) -> bool {
         if count > self.capacity() {
             return false;
         }

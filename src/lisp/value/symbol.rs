@@ -80,7 +80,7 @@ pub struct SymbolData {
     /// Documentation as a variable, if any.
     pub variable_doc: Option<Rc<str>>,
     /// Documentation as a function that a program has given since its definition, if any.
-    pub function_doc: Option<Rc<str>>,
+    pub(crate) function_doc: Option<Rc<str>>,
     /// Does something refer to it that is no value?
     is_kept: Cell<bool>,
 }

@@ -10,7 +10,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym};
 
 /// The function that a function designator denotes, if it denotes one.
-pub fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
+pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
     match designator {
         Value::Function(function) => Some(function),
         Value::Symbol(sym, ..) => image.function(*sym),

@@ -119,7 +119,7 @@ impl Calls {
 
     /// Calls a function, even a pure builtin, on top of a frame of the caller, for the primary
     /// value. Dynamic entries that the caller makes for the call need that frame.
-    pub fn call_in_frame(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
+    pub(crate) fn call_in_frame(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
         self.call_in(function, Args::Many(args), Manner::Framed)
     }
 

@@ -118,9 +118,9 @@ pub struct Fiber {
     /// Unwindings that wait for cleanup code to finish, innermost last.
     pub pending: Vec<Pending>,
     /// Does the pending request want all values of the answer?
-    pub wants_all: bool,
+    pub(crate) wants_all: bool,
     /// A value that was on its way to the innermost frame when an interrupt came.
-    pub undelivered: Option<Value>,
+    pub(crate) undelivered: Option<Value>,
     /// Are the fiber's bindings of special variables in force?
     in_force: bool,
 }
@@ -130,7 +130,7 @@ const CUT_AT_ONCE: usize = 1000;
 
 impl Fiber {
     /// Drops the innermost frames, down to so many.
-    pub fn cut_frames(&mut self, count: usize) {
+    pub(crate) fn cut_frames(&mut self, count: usize) {
         while self.frames.len() > count + CUT_AT_ONCE {
             let rest = self.frames.len() - CUT_AT_ONCE;
             put_off_others(self.frames.split_off(rest), CUT_AT_ONCE);

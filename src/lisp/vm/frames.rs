@@ -22,7 +22,7 @@ pub struct Frame {
     /// Number of dynamic entries when it was entered.
     pub dynamic: usize,
     /// Does the caller want all values?
-    pub multi: bool,
+    pub(crate) multi: bool,
 }
 
 /// What runs in a frame.
@@ -50,7 +50,7 @@ pub enum FrameKind {
 impl Frame {
     /// Is there compiled code in it?
     #[inline(always)]
-    pub fn is_of_code(&self) -> bool {
+    pub(crate) fn is_of_code(&self) -> bool {
         matches!(self.kind, FrameKind::Code { .. })
     }
 }

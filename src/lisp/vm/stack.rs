@@ -18,7 +18,7 @@ pub struct Stack {
 }
 
 /// The places of the code that runs, from the base of its frame on.
-pub struct Window<'a> {
+pub(crate) struct Window<'a> {
     /// Its slots, and the room for what it pushes.
     pub slots: &'a mut [Value],
     /// The number of those that are in use.
@@ -33,7 +33,7 @@ const FEWEST: usize = 64;
 impl Stack {
     /// The places from `base` on, of which at least `room` are there.
     #[inline(always)]
-    pub fn window(&mut self, base: usize, room: usize) -> Window<'_> {
+    pub(crate) fn window(&mut self, base: usize, room: usize) -> Window<'_> {
         if self.places.len() < base + room {
             self.grow(base + room);
         }
@@ -73,7 +73,7 @@ impl Stack {
     }
 
     /// Pushes "no value" up to a height.
-    pub fn fill_up(&mut self, height: usize) {
+    pub(crate) fn fill_up(&mut self, height: usize) {
         while self.height.get() < height {
             self.push(Value::Unbound);
         }
@@ -109,7 +109,7 @@ impl Stack {
     }
 
     /// Drops what the code that ran, and was left, still had above the height.
-    pub fn clear_above(&mut self) {
+    pub(crate) fn clear_above(&mut self) {
         self.places[self.height.get()..]
             .iter_mut()
             .for_each(Value::clear);
@@ -118,7 +118,7 @@ impl Stack {
     /// Moves the top value down to a height, and drops what is between. False, and nothing is done, if
     /// it is several values, of which perhaps not all are wanted.
     #[inline(always)]
-    pub fn lower_top(&mut self, to: usize) -> bool {
+    pub(crate) fn lower_top(&mut self, to: usize) -> bool {
         let top = self.height.get() - 1;
         let (below, at) = self.places.split_at_mut(top);
         let [value, ..] = at else {
@@ -169,7 +169,7 @@ impl Window<'_> {
     /// Notes a lower height: the values above it are still there, but would be gone if the code were
     /// left now.
     #[inline(always)]
-    pub fn close_below(&self, top: usize) {
+    pub(crate) fn close_below(&self, top: usize) {
         self.height.set(self.base + top);
     }
 }

@@ -16,7 +16,7 @@ pub type BasePlace = [f64; 3];
 
 /// The part of the floor that is searched, in the map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloorArea {
+pub(crate) struct FloorArea {
     /// Smallest x and y (m).
     pub min: [f64; 2],
     /// Largest x and y (m).
@@ -25,7 +25,7 @@ pub struct FloorArea {
 
 /// Why there is no path; `P` is what the caller's check returns.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BasePathFailure<P> {
+pub(crate) enum BasePathFailure<P> {
     /// The robot is in collision at the start.
     StartOccupied(P),
     /// The goal is occupied.
@@ -41,7 +41,7 @@ pub enum BasePathFailure<P> {
 pub(super) const MARGIN: f64 = 0.04;
 /// Clearance (m) that it keeps wherever else: with less than half the resolution, the robot could push
 /// something between two checked poses.
-pub const LEAST_MARGIN: f64 = RESOLUTION / 2.0;
+pub(crate) const LEAST_MARGIN: f64 = RESOLUTION / 2.0;
 /// No margin is required this close (m) to the start, nor to the goal on the first lattice.
 const NO_MARGIN_WITHIN: f64 = 0.35;
 /// Between two checked poses no part of the robot moves by more than this (m).
@@ -60,7 +60,7 @@ type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 /// (m). `reach` (m) is the largest distance of any part of the robot from the base's axis.
 /// `explored` is what earlier searches from the same start, with the same obstacles, have found
 /// out, or the default.
-pub fn find_base_path<P: Clone + PartialEq>(
+pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
     area: FloorArea,

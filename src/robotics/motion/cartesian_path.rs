@@ -174,7 +174,7 @@ pub(super) fn wrist_in_torso(
 }
 
 /// Current pose of the arm's tool in the frame of the base.
-pub fn tcp_in_base(world: &World, side: Side) -> Pose {
+pub(crate) fn tcp_in_base(world: &World, side: Side) -> Pose {
     let arm = world.models().description.arm(side);
     let base = world.robot_configuration().base;
     base.inverse() * arm.tool_for_wrist(&world.link_pose(arm.wrist))

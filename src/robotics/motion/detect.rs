@@ -23,11 +23,11 @@ pub struct DetectQuery {
 
 /// Finds all objects that match the query and are seen by the camera, in the order in which
 /// they were added to the world.
-pub type Detect = Job<Search>;
+pub(crate) type Detect = Job<Search>;
 
 /// A detection of objects.
 #[derive(Clone, Debug)]
-pub struct Search {
+pub(crate) struct Search {
     query: DetectQuery,
 }
 

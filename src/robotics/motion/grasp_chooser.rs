@@ -148,7 +148,7 @@ impl<'w> GraspChooser<'w> {
     }
 
     /// Number of postures that have been checked for collisions.
-    pub fn postures(&self) -> u32 {
+    pub(crate) fn postures(&self) -> u32 {
         self.reach.postures()
     }
 

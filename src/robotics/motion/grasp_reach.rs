@@ -125,7 +125,7 @@ pub enum GraspObstacle {
 }
 
 /// What the hands may touch for the parts of a grasp, for any base pose.
-pub struct GraspReach<'w> {
+pub(crate) struct GraspReach<'w> {
     world: &'w World,
     object: Option<&'w str>,
     hands: [Hand<'w>; 2],
@@ -181,12 +181,12 @@ impl<'w> GraspReach<'w> {
 
     /// Number of postures that have been checked for collisions, for all base poses: most of the time
     /// goes there.
-    pub fn postures(&self) -> u32 {
+    pub(crate) fn postures(&self) -> u32 {
         self.postures.get()
     }
 
     /// Names of the links of a hand.
-    pub fn hand_links(&self, side: Side) -> &[BodyName] {
+    pub(crate) fn hand_links(&self, side: Side) -> &[BodyName] {
         &self.hands[side.index()].links
     }
 
@@ -215,7 +215,7 @@ struct OpenHand {
 }
 
 /// The robot with its base at some pose.
-pub struct GraspReachFrom<'w> {
+pub(crate) struct GraspReachFrom<'w> {
     reach: &'w GraspReach<'w>,
     robot: RobotConfiguration,
     effort: Effort,

@@ -20,7 +20,7 @@ const CROPPED: f64 = 1e-4;
 
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
-pub enum GripperCommand {
+pub(crate) enum GripperCommand {
     /// Open as far as possible.
     Open,
     /// Close completely, or until something between them stops them.
@@ -37,12 +37,12 @@ pub enum GripperCommand {
 }
 
 /// Moves the fingers of one hand.
-pub type MoveGripper = Job<Fingers>;
+pub(crate) type MoveGripper = Job<Fingers>;
 
 /// What the fingers of a hand are doing.
 #[derive(Clone, Debug)]
 #[allow(clippy::large_enum_variant, reason = "there are two of them at a time")]
-pub enum Fingers {
+pub(crate) enum Fingers {
     /// They move to an opening.
     Move(JointMotion<FingerGoal>),
     /// They close around an object.
@@ -51,7 +51,7 @@ pub enum Fingers {
 
 /// The opening that the fingers of a hand are to reach.
 #[derive(Clone, Debug)]
-pub struct FingerGoal {
+pub(crate) struct FingerGoal {
     side: Side,
     command: GripperCommand,
     /// Whether the fingers close, which is known once the motion is planned.

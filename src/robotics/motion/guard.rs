@@ -21,11 +21,11 @@ use crate::world::{
 
 /// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
 /// leave room for sliding away.
-pub const GUARD_DEPTH: f64 = 0.0008;
+pub(crate) const GUARD_DEPTH: f64 = 0.0008;
 /// Lag (m) of a held object behind the hand above which it counts as stuck.
-pub const GREATEST_LAG: f64 = 0.01;
+pub(crate) const GREATEST_LAG: f64 = 0.01;
 /// Force (N) between a held object and what it bumps into above which it counts as stuck.
-pub const GREATEST_FORCE: f64 = 50.0;
+pub(crate) const GREATEST_FORCE: f64 = 50.0;
 /// Overlap (m) that no step exceeds, however deep it was before.
 const GREATEST_DEPTH: f64 = 0.0019;
 /// A sliding step may seem to go deeper by this much (m): rounding, not motion.
@@ -131,7 +131,7 @@ pub struct PinnedObject {
     /// Name of the object.
     pub object: String,
     /// What it is pressed onto.
-    pub against: BodyName,
+    pub(crate) against: BodyName,
     /// The force (N), without the object's weight.
     pub force: f64,
 }
@@ -174,11 +174,11 @@ pub struct StuckObject {
     /// Name of the object.
     pub object: String,
     /// How far (m) it lags behind the hand.
-    pub lag: f64,
+    pub(crate) lag: f64,
     /// Force (N) with which it is pressed against something other than the robot.
     pub force: f64,
     /// What it is pressed against most, if known.
-    pub against: Option<BodyName>,
+    pub(crate) against: Option<BodyName>,
 }
 
 /// The first object held by one of the links that lags or is pressed too much.

@@ -5,7 +5,7 @@ use crate::robot::{LinkId, Side};
 use crate::world::{AllowedPairs, BodyName, ContactForce, World};
 
 /// Force (N) above which a finger counts as pressing.
-pub const GRIP_FORCE: f64 = 2.0;
+pub(crate) const GRIP_FORCE: f64 = 2.0;
 
 /// Gaps (m) between the fingers and a bar at which both count as pressing on it: the first one
 /// touches, and the other is so near that arm and pads yield by the rest.

@@ -22,7 +22,7 @@ use spatial::{Pose, trig};
 /// How far (m) the fingers are apart when the hand comes to a handle.
 pub const OPENING: f64 = 0.06;
 /// How far (m) the hand is from the bar before it approaches, and after it has withdrawn.
-pub const AWAY: f64 = 0.1;
+pub(crate) const AWAY: f64 = 0.1;
 /// Clearance (m) of the robot while the hand approaches and withdraws: a little more than what
 /// planned paths keep.
 const MARGIN: f64 = 0.0045;

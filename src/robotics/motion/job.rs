@@ -133,7 +133,7 @@ pub trait Motion {
 }
 
 /// What one kind of motion does, step by step, from its start to its end.
-pub trait Activity: Clone + 'static {
+pub(crate) trait Activity: Clone + 'static {
     /// The part of the robot that it uses exclusively.
     const MODULE: ProcessModule;
 

@@ -11,7 +11,7 @@ use rand_pcg::rand_core::Rng;
 
 /// One axis of the search space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathAxis {
+pub(crate) struct PathAxis {
     /// Smallest value to try (rad or m).
     pub lower: f64,
     /// Largest value to try (rad or m).
@@ -38,11 +38,11 @@ impl PathAxis {
 }
 
 /// The chain of an axis that carries all other chains.
-pub const ALL_CHAINS: usize = 0;
+pub(crate) const ALL_CHAINS: usize = 0;
 
 /// Why there is no path; `P` is what the caller's check returns.
 #[derive(Clone, Debug, PartialEq)]
-pub enum JointPathFailure<P> {
+pub(crate) enum JointPathFailure<P> {
     /// The start is blocked.
     Start(P),
     /// The goal is blocked.
@@ -58,15 +58,15 @@ pub enum JointPathFailure<P> {
 
 /// Resolution and limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointPathEffort {
+pub(crate) struct JointPathEffort {
     /// Largest motion (m) of any part of the robot between two checked configurations.
     pub resolution: f64,
     /// Maximum number of random configurations.
     pub samples: usize,
     /// Maximum number of configurations checked in total.
-    pub checks: usize,
+    pub(crate) checks: usize,
     /// Attempts to shorten the path.
-    pub shortcuts: usize,
+    pub(crate) shortcuts: usize,
 }
 
 impl Default for JointPathEffort {
@@ -106,7 +106,7 @@ const CHAINS: usize = 3;
 type Point = Vec<f64>;
 
 /// A path from `start` to `goal`, both included, on which `blocked` returns nothing.
-pub fn find_joint_path<P>(
+pub(crate) fn find_joint_path<P>(
     axes: &[PathAxis],
     start: &[f64],
     goal: &[f64],
@@ -152,7 +152,7 @@ pub fn find_joint_path<P>(
 }
 
 /// What blocks the straight path between two free configurations, if anything does.
-pub fn blocked_between<P>(
+pub(crate) fn blocked_between<P>(
     axes: &[PathAxis],
     from: &[f64],
     to: &[f64],

@@ -64,7 +64,7 @@ impl MoveTcp {
 
     /// The motion with hands that may touch only the target, where they may touch any object.
     #[must_use]
-    pub fn touching_only(mut self, target: Option<String>) -> Self {
+    pub(crate) fn touching_only(mut self, target: Option<String>) -> Self {
         self.activity.goal_mut().target = target;
         self
     }

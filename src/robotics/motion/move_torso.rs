@@ -14,11 +14,11 @@ const CROPPED: f64 = 1e-4;
 
 /// Moves the torso to a height. A goal beyond the joint's limits is clamped, the torso moves
 /// as far as possible, and then the motion fails.
-pub type MoveTorso = Job<JointMotion<TorsoGoal>>;
+pub(crate) type MoveTorso = Job<JointMotion<TorsoGoal>>;
 
 /// A goal height of the torso.
 #[derive(Clone, Debug)]
-pub struct TorsoGoal {
+pub(crate) struct TorsoGoal {
     /// Position (m) of the lift joint.
     height: f64,
 }

@@ -29,11 +29,11 @@ pub(super) const WAY_MARGIN: f64 = 0.002;
 const MISSED: f64 = 0.001;
 
 /// Moves what a hand holds by the handle to a position of its joint.
-pub type Pull = Job<JointMotion<PullGoal>>;
+pub(crate) type Pull = Job<JointMotion<PullGoal>>;
 
 /// The goal of pulling or pushing.
 #[derive(Clone, Debug)]
-pub struct PullGoal {
+pub(crate) struct PullGoal {
     side: Side,
     /// Position of the joint (rad or m); clamped to its limits once the motion is planned.
     position: f64,

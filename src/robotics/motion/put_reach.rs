@@ -166,7 +166,7 @@ impl<'w> PutReach<'w> {
     }
 
     /// Number of postures that have been checked for collisions.
-    pub fn postures(&self) -> u32 {
+    pub(crate) fn postures(&self) -> u32 {
         self.reach.postures()
     }
 

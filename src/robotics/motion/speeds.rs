@@ -5,14 +5,14 @@ use crate::robot::description::Speed;
 use crate::robot::{JointId, RobotDescription};
 
 /// A finger while it closes on an object (rad/s).
-pub const GRIP_VELOCITY: f64 = 0.5;
+pub(crate) const GRIP_VELOCITY: f64 = 0.5;
 /// A hand that puts an object down (m): half a millimetre per step.
 pub const PUT: Speed = Speed {
     velocity: 0.12,
     acceleration: 0.6,
 };
 /// A hand that is to touch something (m/s): a third of a millimetre per step.
-pub const TOUCH_VELOCITY: f64 = 0.08;
+pub(crate) const TOUCH_VELOCITY: f64 = 0.08;
 /// A hand along a straight line (m).
 pub const HAND: Speed = Speed {
     velocity: 0.25,

@@ -4,7 +4,7 @@ use super::job::{Motion, MotionOutcome, MotionStatus, PlannedTrajectory, Process
 use crate::world::World;
 
 /// Motions that end together: when all have succeeded, or with the first failure.
-pub struct Together {
+pub(crate) struct Together {
     module: ProcessModule,
     running: Vec<Box<dyn Motion>>,
 }

@@ -56,7 +56,7 @@ impl Camera {
     }
 
     /// Horizontal field of view (rad).
-    pub fn horizontal_fov(&self) -> f64 {
+    pub(crate) fn horizontal_fov(&self) -> f64 {
         2.0 * trig::atan2(self.width as f64 / 2.0, self.focal_length())
     }
 
@@ -76,7 +76,7 @@ impl Camera {
     /// The same camera at the same place, turned so that the point (m, map frame) is in the
     /// middle of the picture and the horizon is level.
     #[must_use]
-    pub fn turned_to(&self, point: &Point3<f64>) -> Self {
+    pub(crate) fn turned_to(&self, point: &Point3<f64>) -> Self {
         let origin = Point3::from(self.pose.translation.vector);
         let Some(forward) = (point - origin).try_normalize(1e-9) else {
             return *self;

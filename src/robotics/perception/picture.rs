@@ -28,7 +28,7 @@ impl Picture {
     }
 
     /// An empty picture of which only a window is drawn.
-    pub fn of_window(camera: Camera, window: Window) -> Self {
+    pub(crate) fn of_window(camera: Camera, window: Window) -> Self {
         let pixels = window.pixels();
         Self {
             camera,
@@ -44,7 +44,7 @@ impl Picture {
     }
 
     /// The pixels that it holds.
-    pub fn window(&self) -> Window {
+    pub(crate) fn window(&self) -> Window {
         self.window
     }
 
@@ -62,7 +62,7 @@ impl Picture {
 
     /// Whether a ball around the origin of a pose (map frame), with a radius (m), may be seen in the
     /// window.
-    pub fn may_show(&self, pose: &Pose, radius: f64) -> bool {
+    pub(crate) fn may_show(&self, pose: &Pose, radius: f64) -> bool {
         let camera = &self.camera;
         let origin = Point3::from(pose.translation.vector);
         let c = camera.pose.inverse_transform_point(&origin).coords;

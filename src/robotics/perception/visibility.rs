@@ -42,12 +42,12 @@ pub struct Visibility {
     /// The object's name.
     pub object: String,
     /// Pixels that show the object.
-    pub visible_pixels: usize,
+    pub(crate) visible_pixels: usize,
     /// Pixels that would show the object if it were alone and the camera turned towards it.
-    pub full_pixels: usize,
+    pub(crate) full_pixels: usize,
     /// Bodies in front of the object, each with the number of pixels that it hides, in
     /// decreasing order.
-    pub occluders: Vec<(BodyName, usize)>,
+    pub(crate) occluders: Vec<(BodyName, usize)>,
     /// Share of the object (0..1) that must be in sight for the object to count as seen.
     pub needed_share: f64,
     /// The border that the object extends beyond the farthest, and by how much (rad).
@@ -99,7 +99,7 @@ fn window_of(object: &Object, pose: &Pose, camera: &Camera) -> Window {
 }
 
 /// What is seen in one direction.
-pub struct Glance {
+pub(crate) struct Glance {
     /// How far away it is (m along the camera's z); `None` if nothing is seen.
     pub depth: Option<f64>,
     /// How far away the point is at which the camera looks.
@@ -135,7 +135,7 @@ impl<'w> Sight<'w> {
     }
 
     /// Looks through the robot's own camera at one object only; the picture holds nothing else.
-    pub fn of_robot_at(world: &'w World, name: &str) -> Result<Self, WorldError> {
+    pub(crate) fn of_robot_at(world: &'w World, name: &str) -> Result<Self, WorldError> {
         let description = world.models().description.camera();
         let camera = Camera::new(description, world.link_pose(description.frame));
         let pose = world.object_pose(name)?;
@@ -147,7 +147,7 @@ impl<'w> Sight<'w> {
     /// What the robot's own camera sees in the direction of a point (m, map frame): the depth of that
     /// (m along the camera's z) and the point's, and the body; `None` if the point is not in the
     /// picture.
-    pub fn of_robot_towards(world: &'w World, point: &Point3<f64>) -> Option<Glance> {
+    pub(crate) fn of_robot_towards(world: &'w World, point: &Point3<f64>) -> Option<Glance> {
         let description = world.models().description.camera();
         let camera = Camera::new(description, world.link_pose(description.frame));
         let pixel = camera.pixel_of(point)?;

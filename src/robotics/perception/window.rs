@@ -6,7 +6,7 @@ use super::camera::Camera;
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub(crate) struct Window {
     /// Its first column and row.
     pub(super) first: [usize; 2],
     /// The column and row after its last ones.

@@ -7,7 +7,7 @@ use super::{JointId, JointKind, KinematicTree, Limits, LinkId};
 
 /// Joints of an arm, from the shoulder to the wrist: shoulder pan, shoulder lift, upper
 /// arm roll, elbow flex, forearm roll, wrist flex, wrist roll.
-pub const ARM_JOINTS: usize = 7;
+pub(crate) const ARM_JOINTS: usize = 7;
 
 /// Positions (rad) of the joints of an arm, from the shoulder to the wrist.
 pub type ArmPositions = [f64; ARM_JOINTS];
@@ -80,11 +80,11 @@ pub(super) struct ArmChain {
     /// Position of the pan axis in the frame of the arm's base, at the height of the lift axis.
     pub shoulder: Vector3<f64>,
     /// From the pan axis to the lift axis.
-    pub shoulder_offset: f64,
+    pub(crate) shoulder_offset: f64,
     /// From the shoulder to the elbow.
-    pub upper_arm: f64,
+    pub(crate) upper_arm: f64,
     /// From the elbow to the wrist.
-    pub forearm: f64,
+    pub(crate) forearm: f64,
 }
 
 impl ArmChain {

@@ -52,11 +52,11 @@ pub struct Neck {
     /// Turns the head sideways, positive to the left.
     pub pan_joint: JointId,
     /// What the pan joint turns.
-    pub pan_link: LinkId,
+    pub(crate) pan_link: LinkId,
     /// Turns the head up and down, positive downwards.
     pub tilt_joint: JointId,
     /// What the tilt joint turns.
-    pub tilt_link: LinkId,
+    pub(crate) tilt_link: LinkId,
 }
 
 /// A camera of pinhole type.
@@ -77,7 +77,7 @@ pub struct Camera {
     /// Farthest distance (m) that is seen.
     pub far: f64,
     /// Share of an object's pixels that must be visible for it to be seen.
-    pub visible_share: f64,
+    pub(crate) visible_share: f64,
 }
 
 /// An arm without its gripper.
@@ -92,14 +92,14 @@ pub struct Arm {
     /// The frame between the fingers, as the URDF gives it.
     pub tool: LinkId,
     /// From the wrist to where grasps place the tool (m), along the wrist's x axis.
-    pub tool_offset: f64,
+    pub(crate) tool_offset: f64,
     /// Orientation of the tool (x forward) in the frame in which grasps are given (z
     /// forward, x across the palm).
     pub tool_axes: UnitQuaternion<f64>,
     /// Inverse kinematics from `base` to `wrist`.
     pub kinematics: ArmKinematics,
     /// Named joint positions, in the order of the file.
-    pub postures: Vec<(String, ArmPositions)>,
+    pub(crate) postures: Vec<(String, ArmPositions)>,
     /// The posture after start-up.
     pub start: ArmPositions,
     /// Greatest mass (kg) that the arm's maker allows it to carry, if known.
@@ -173,7 +173,7 @@ impl Gripper {
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
-    pub fn position_for_gap(&self, gap: f64) -> f64 {
+    pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
         let [along, across] = self.tip;
         let aside = (0.5 * gap - self.pad) / libm::hypot(along, across);
         self.limits
@@ -207,15 +207,15 @@ pub struct RobotDescription {
     /// The neck.
     pub neck: Neck,
     /// The cameras, the one in use first; never empty.
-    pub cameras: Vec<Camera>,
+    pub(crate) cameras: Vec<Camera>,
     /// The left and the right arm.
     pub arms: [Arm; 2],
     /// Links within one group are never checked against each other.
     pub touching: Vec<Vec<LinkId>>,
     /// Links that roll on the floor; never checked against it or the robot.
-    pub wheels: Vec<LinkId>,
+    pub(crate) wheels: Vec<LinkId>,
     /// Joints that could move but never do.
-    pub idle_joints: Vec<JointId>,
+    pub(crate) idle_joints: Vec<JointId>,
     /// Greatest velocity and acceleration of each joint, at its index.
     pub(super) speeds: Vec<Speed>,
 }

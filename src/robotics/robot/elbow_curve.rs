@@ -23,7 +23,7 @@ const SLACK: f64 = 1e-9;
 /// A stretch of the curve, given by lift angles (rad), on which all limits are kept.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    pub bend: f64,
+    pub(crate) bend: f64,
     pub from: f64,
     pub to: f64,
 }
@@ -32,7 +32,7 @@ impl Stretch {
     /// The lift angle (rad) at a fraction 0..1 of the stretch.
     ///
     /// Equal steps yield denser lift angles towards the ends, where the pan angle changes fastest.
-    pub fn lift_at(&self, share: f64) -> f64 {
+    pub(crate) fn lift_at(&self, share: f64) -> f64 {
         let inset = 1e-9 * (self.to - self.from);
         let (from, to) = (self.from + inset, self.to - inset);
         let middle = 0.5 * (from + to);
@@ -135,7 +135,7 @@ impl<'a> ElbowCurve<'a> {
 
     /// The joint positions with the upper arm rolled to `roll` (rad): at most two.
     /// Limits are ignored.
-    pub fn positions_at_roll(&self, roll: f64) -> [Option<ArmPositions>; 2] {
+    pub(crate) fn positions_at_roll(&self, roll: f64) -> [Option<ArmPositions>; 2] {
         let (sin, cos) = trig::sin_cos(roll);
         self.elbow_cosines(sin).map(|elbow_cos| {
             let elbow_cos = elbow_cos.filter(|c| c.abs() <= 1.0)?;

@@ -4,8 +4,8 @@
 //! The same kinematic tree also describes the furniture. Nothing here knows of
 //! time, physics or the plan language; poses are those of [`spatial`].
 
-pub mod arm_chain;
-pub mod arm_kinematics;
+pub(crate) mod arm_chain;
+pub(crate) mod arm_kinematics;
 pub mod description;
 mod description_file;
 mod elbow_curve;
@@ -19,11 +19,12 @@ pub mod tree;
 pub mod unreachable;
 pub mod urdf;
 mod urdf_elements;
-pub mod urdf_error;
+pub(crate) mod urdf_error;
 mod urdf_schema;
 mod xml_elements;
 
-pub use arm_chain::{ARM_JOINTS, ArmPositions};
+pub(crate) use arm_chain::ARM_JOINTS;
+pub use arm_chain::ArmPositions;
 pub use arm_kinematics::ArmKinematics;
 pub use description::RobotDescription;
 pub use fit::MissingNames;

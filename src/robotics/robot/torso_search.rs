@@ -6,14 +6,14 @@ use super::{ArmPositions, JointPositions, KinematicTree, Limits, LinkId, Side, U
 use spatial::Pose;
 
 /// Distance (m) between the heights that are tried.
-pub const TORSO_STEP: f64 = 0.01;
+pub(crate) const TORSO_STEP: f64 = 0.01;
 
 /// The heights (m) to try, nearest to the current one first: the current one itself, then
 /// those at multiples of [`TORSO_STEP`] above the lower limit and the upper limit itself.
 ///
 /// Of two equally near heights the higher one comes first. (CRAM tries the current height,
 /// then all others from the top down; the set is the same, but the torso moves less here.)
-pub fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
+pub(crate) fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
     let current = limits.clamp(current);
     let steps = ((limits.upper - limits.lower) / TORSO_STEP + 1e-9)
         .floor()
@@ -95,7 +95,7 @@ impl<'a> TorsoSearch<'a> {
 
     /// The pose of the wrist in the frame of the arm's base if the torso is at `height`
     /// (m) and the wrist is at `wrist` in the robot's frame on the floor.
-    pub fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {
+    pub(crate) fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {
         let mut base = self.lowest;
         base.translation.vector += self.rise * height;
         base.inv_mul(wrist)
@@ -108,7 +108,7 @@ impl<'a> TorsoSearch<'a> {
 
     /// The reach with the torso at `height` (m), or why there is none; `wrist` is given in
     /// the robot's frame on the floor.
-    pub fn reach_at(&self, wrist: &Pose, height: f64) -> Result<Reach, Unreachable> {
+    pub(crate) fn reach_at(&self, wrist: &Pose, height: f64) -> Result<Reach, Unreachable> {
         let wrist = self.in_arm_base(wrist, height);
         let arm = self.arm.kinematics.nearest(&wrist, &self.seed)?;
         Ok(Reach { torso: height, arm })

@@ -18,9 +18,9 @@ pub struct Link {
     /// Name, unique in the tree.
     pub name: String,
     /// The joint that carries the link; `None` for the root.
-    pub parent_joint: Option<JointId>,
+    pub(crate) parent_joint: Option<JointId>,
     /// The joints that the link carries, in the order of the file.
-    pub children: Vec<JointId>,
+    pub(crate) children: Vec<JointId>,
     /// Collision geometry, in the link's frame.
     pub collisions: Vec<PlacedShape>,
     /// Visual geometry, in the link's frame.
@@ -63,7 +63,7 @@ impl Limits {
     }
 
     /// How far the position is outside the range; 0 inside.
-    pub fn excess(&self, position: f64) -> f64 {
+    pub(crate) fn excess(&self, position: f64) -> f64 {
         (self.lower - position).max(position - self.upper).max(0.0)
     }
 }
@@ -97,11 +97,11 @@ pub struct Joint {
     /// Range of positions; `None` for fixed and continuous joints.
     pub limits: Option<Limits>,
     /// Narrower range of the safety controller, where the URDF gives one.
-    pub soft_limits: Option<Limits>,
+    pub(crate) soft_limits: Option<Limits>,
     /// Maximum speed (rad/s or m/s) given by the URDF.
     pub max_velocity: Option<f64>,
     /// Maximum torque (Nm) or force (N) given by the URDF.
-    pub max_effort: Option<f64>,
+    pub(crate) max_effort: Option<f64>,
     /// Set when the joint follows another one.
     pub mimic: Option<Mimic>,
 }
@@ -113,7 +113,7 @@ impl Joint {
     }
 
     /// Pose of the child in the frame of the parent when the joint is at `position` (rad or m).
-    pub fn pose_at(&self, position: f64) -> Pose {
+    pub(crate) fn pose_at(&self, position: f64) -> Pose {
         match self.kind {
             JointKind::Fixed => self.origin,
             JointKind::Revolute | JointKind::Continuous => {
@@ -153,9 +153,9 @@ pub(super) struct JointPart {
     pub origin: Pose,
     pub axis: Unit<Vector3<f64>>,
     pub limits: Option<Limits>,
-    pub soft_limits: Option<Limits>,
+    pub(crate) soft_limits: Option<Limits>,
     pub max_velocity: Option<f64>,
-    pub max_effort: Option<f64>,
+    pub(crate) max_effort: Option<f64>,
     /// Index of the joint that is followed, multiplier, offset.
     pub mimic: Option<(usize, f64, f64)>,
 }
@@ -203,7 +203,7 @@ impl KinematicTree {
     }
 
     /// All joints, each after the joints that carry it.
-    pub fn joints_from_root(&self) -> impl Iterator<Item = (JointId, &Joint)> {
+    pub(crate) fn joints_from_root(&self) -> impl Iterator<Item = (JointId, &Joint)> {
         (self.order.iter()).map(|placed| (placed.joint, self.joint(placed.joint)))
     }
 
@@ -271,7 +271,7 @@ impl KinematicTree {
 
     /// As [`Self::forward_kinematics`], with the same bits, if `out` holds the poses for other
     /// positions and the same root: only the links that have moved are placed anew.
-    pub fn update_forward_kinematics(
+    pub(crate) fn update_forward_kinematics(
         &self,
         before: &JointPositions,
         q: &JointPositions,

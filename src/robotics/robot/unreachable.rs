@@ -18,7 +18,7 @@ pub struct LimitViolation {
     /// Its limits (rad).
     pub limits: Limits,
     /// How far (rad) the position is outside the limits.
-    pub excess: f64,
+    pub(crate) excess: f64,
 }
 
 impl fmt::Display for LimitViolation {
@@ -52,7 +52,7 @@ pub enum Unreachable {
 impl Unreachable {
     /// A measure of how bad it is: out of reach is worse than limits exceeded, and more
     /// metres or radians are worse than fewer.
-    pub fn badness(&self) -> f64 {
+    pub(crate) fn badness(&self) -> f64 {
         match self {
             Self::OutOfReach { missing } => 10.0 + missing,
             Self::Limits { violations, .. } => violations.first().map_or(0.0, |v| v.excess),

@@ -20,7 +20,7 @@ pub struct Place {
     /// Name of the file as it was given.
     pub file: String,
     /// Line and column, if known.
-    pub line_column: Option<(usize, usize)>,
+    pub(crate) line_column: Option<(usize, usize)>,
 }
 
 impl Place {

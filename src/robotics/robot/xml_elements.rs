@@ -20,14 +20,14 @@ pub(super) struct Element<'a> {
     pub name: &'a str,
     /// Byte offset of its `<`.
     pub offset: usize,
-    pub attributes: Vec<Attribute<'a>>,
+    pub(crate) attributes: Vec<Attribute<'a>>,
     /// Index of the enclosing element.
     pub parent: Option<usize>,
 }
 
 impl<'a> Element<'a> {
     /// The attribute with that name.
-    pub fn attribute(&self, name: &str) -> Option<&Attribute<'a>> {
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute<'a>> {
         self.attributes.iter().find(|a| a.name == name)
     }
 }

@@ -51,7 +51,7 @@ impl<'a> Node<'a> {
     }
 
     /// The name of a keyword without its colon.
-    pub fn as_keyword(&self) -> Option<&'a str> {
+    pub(crate) fn as_keyword(&self) -> Option<&'a str> {
         self.datum.value().as_keyword()
     }
 

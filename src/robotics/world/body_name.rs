@@ -47,7 +47,7 @@ impl BodyName {
     }
 
     /// The robot's link, if it is one.
-    pub fn robot_link(&self) -> Option<LinkId> {
+    pub(crate) fn robot_link(&self) -> Option<LinkId> {
         match self {
             Self::Robot(link) => Some(link.id),
             _ => None,

@@ -97,14 +97,14 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// A checker that knows where the links are in a configuration.
-    pub fn knowing(mut self, robot: &RobotConfiguration, link_poses: &[Pose]) -> Self {
+    pub(crate) fn knowing(mut self, robot: &RobotConfiguration, link_poses: &[Pose]) -> Self {
         self.last = Some(robot.clone());
         self.poses = link_poses.to_vec();
         self
     }
 
     /// As [`Self::expect`], for a single query, which the preparation for many is not worth.
-    pub fn expect_once(&mut self, moving: MovingParts, pairs: Pairs) {
+    pub(crate) fn expect_once(&mut self, moving: MovingParts, pairs: Pairs) {
         self.changing = None;
         self.moving = Some(moving);
         self.pairs = pairs;
@@ -124,7 +124,7 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// Which pairs queries are about from now on; the value is what they were about.
-    pub fn look_at(&mut self, pairs: Pairs) -> Pairs {
+    pub(crate) fn look_at(&mut self, pairs: Pairs) -> Pairs {
         std::mem::replace(&mut self.pairs, pairs)
     }
 
@@ -163,7 +163,7 @@ impl<'w> CollisionChecker<'w> {
     /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them, without
     /// the pairs of the robot's own links and of what it holds: for a robot that moves as a whole,
     /// within which no distance changes.
-    pub fn first_hit_around(
+    pub(crate) fn first_hit_around(
         &mut self,
         link_poses: &[Pose],
         allowed: &AllowedPairs,
@@ -214,7 +214,7 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// As [`Self::all_hits`], of some pairs of bodies only.
-    pub fn hits_among(
+    pub(crate) fn hits_among(
         &mut self,
         robot: &RobotConfiguration,
         pairs: &AllowedPairs,

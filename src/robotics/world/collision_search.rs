@@ -29,7 +29,7 @@ const SELF_MARGIN: f64 = 0.005;
 pub struct ObjectAt<'w> {
     pub key: PartKey,
     pub name: &'w str,
-    pub solids: &'w [Solid],
+    pub(crate) solids: &'w [Solid],
     pub pose: ParryPose,
     pub bounds: Aabb,
 }
@@ -38,7 +38,7 @@ pub struct ObjectAt<'w> {
 pub struct HeldObject<'w> {
     pub key: PartKey,
     pub name: &'w str,
-    pub solids: &'w [Solid],
+    pub(crate) solids: &'w [Solid],
     /// Bounds in the object's frame (m).
     pub bounds: Aabb,
     /// The link that carries the object.
@@ -59,7 +59,7 @@ pub struct Surroundings<'w> {
 pub struct Near {
     pub moving: PartKey,
     pub other: PartKey,
-    pub separation: Separation,
+    pub(crate) separation: Separation,
 }
 
 /// What a query wants to know about a pair.
@@ -85,7 +85,7 @@ pub struct Question<'q> {
     /// Which pairs matter, by what moves.
     pub pairs: Pairs,
     /// Those of the robot's solid links that may matter.
-    pub self_pairs: &'q LinkPairs,
+    pub(crate) self_pairs: &'q LinkPairs,
     pub wanted: Wanted,
 }
 

@@ -65,7 +65,7 @@ impl World {
     }
 
     /// The links of the robot that press on the object, in a fixed order.
-    pub fn robot_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+    pub(crate) fn robot_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let body = self.object(name)?.body;
         Ok(self.forces_on(body, |_, other| is_robot(other)))
     }
@@ -83,7 +83,7 @@ impl World {
 
     /// The force (N) with which the robot presses the object down, by friction, too: what carries
     /// it bears that besides the object's weight. Zero if the robot does not touch it.
-    pub fn pressed_down(&self, name: &str) -> Result<f64, WorldError> {
+    pub(crate) fn pressed_down(&self, name: &str) -> Result<f64, WorldError> {
         let object = self.object(name)?;
         if !self.touches(object, is_robot) {
             return Ok(0.0);
@@ -117,7 +117,7 @@ impl World {
 
     /// What each of the two fingers of a hand touches: first the one that closes from the
     /// left, then the one from the right.
-    pub fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
+    pub(crate) fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
         let [left, right] = &self.models.description.arm(side).gripper.fingers;
         [left, right].map(|finger| {
             let mut forces: Vec<ContactForce> = Vec::new();

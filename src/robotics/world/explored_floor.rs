@@ -25,7 +25,7 @@ pub enum Known {
 
 /// What is known of the cells of a grid of poses.
 #[derive(Clone, Debug, Default)]
-pub struct ExploredGrid {
+pub(crate) struct ExploredGrid {
     /// Whether each is free.
     pub cells: Vec<Known>,
     /// Which can be reached from where the robot is, if all of them have been found.
@@ -35,7 +35,7 @@ pub struct ExploredGrid {
 }
 
 /// What is known of each of the grids that a search uses, in its order.
-pub type ExploredGrids = [ExploredGrid; 3];
+pub(crate) type ExploredGrids = [ExploredGrid; 3];
 
 /// Where everything is that a pose of the base depends on.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +71,10 @@ impl Clone for ExploredFloor {
 impl World {
     /// Calls a function with what is known of the floor; it may add to that. The grids are empty if
     /// anything has moved since the last call.
-    pub fn with_explored_floor<T>(&self, function: impl FnOnce(&mut ExploredGrids) -> T) -> T {
+    pub(crate) fn with_explored_floor<T>(
+        &self,
+        function: impl FnOnce(&mut ExploredGrids) -> T,
+    ) -> T {
         let now = self.arrangement();
         let lock = || {
             self.explored

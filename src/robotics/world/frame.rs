@@ -24,7 +24,7 @@ impl Frame {
 
     /// The bounds of a box that is given in this frame (m), in the frame of the pose.
     #[inline]
-    pub fn bounds_of(&self, body: &OrientedBox) -> Aabb {
+    pub(crate) fn bounds_of(&self, body: &OrientedBox) -> Aabb {
         let center = self.place(body.center);
         let half = self.turn.abs() * body.half;
         Aabb::new(center - half, center + half)

@@ -24,11 +24,11 @@ use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use spatial::{Pose, trig};
 
 /// How far (m) the held point of a bar may be from where the hand carries it.
-pub const GREATEST_GAP: f64 = 0.005;
+pub(crate) const GREATEST_GAP: f64 = 0.005;
 /// How far (rad) a hand may be turned on a bar about any axis but that of the bar.
 const GREATEST_TWIST: f64 = 0.1;
 /// How far (rad) a hand may be turned about the bar, to each side: rubber pads roll on it.
-pub const GREATEST_PIVOT: f64 = 0.75;
+pub(crate) const GREATEST_PIVOT: f64 = 0.75;
 /// How far (rad) a finger joint opens before its fingers count as pressing no more.
 const OPENED: f64 = 1e-4;
 /// How far (m) a bar sinks into both pads together, at most: they are of rubber.
@@ -74,7 +74,7 @@ pub struct HandleHold {
 
 impl HandleHold {
     /// What stops the drawer or door, if it does not follow the hand.
-    pub fn against(&self) -> Option<&CollisionHit> {
+    pub(crate) fn against(&self) -> Option<&CollisionHit> {
         self.against.as_deref()
     }
 
@@ -118,7 +118,7 @@ pub struct HandleSlip {
     /// How far (m) the hand was from the held point of the bar.
     pub gap: f64,
     /// What stopped the part, if something did.
-    pub against: Option<CollisionHit>,
+    pub(crate) against: Option<CollisionHit>,
     /// The number of the step in which it happened.
     pub step: u64,
 }
@@ -126,7 +126,7 @@ pub struct HandleSlip {
 impl World {
     /// Makes the hand hold a handle, with its fingers pressing on the bar as they are now, each
     /// with the effort (N). `false` if the link is not moved by a joint.
-    pub fn hold_handle(&mut self, side: Side, handle: LinkId, effort: f64) -> bool {
+    pub(crate) fn hold_handle(&mut self, side: Side, handle: LinkId, effort: f64) -> bool {
         let kitchen = &self.models.kitchen;
         let moving = |joint: &JointId| kitchen.joint(*joint).is_actuated();
         let Some(joint) = kitchen.ancestors(handle).find(moving) else {
@@ -194,7 +194,7 @@ impl World {
 
     /// The mean place (m) of the posts that carry a handle's bar, in its frame; the origin if it
     /// has none.
-    pub fn handle_posts(&self, handle: LinkId) -> Vector3<f64> {
+    pub(crate) fn handle_posts(&self, handle: LinkId) -> Vector3<f64> {
         let posts = self.handle_solids(handle).iter().skip(1);
         let places: Vec<Vector3<f64>> = posts
             .map(|post| from_parry_vector(post.bounds.center()))
@@ -227,7 +227,7 @@ impl World {
     }
 
     /// The last handle that has slipped out of one of the hands in that step or later.
-    pub fn handle_slip_since(
+    pub(crate) fn handle_slip_since(
         &self,
         step: u64,
         is_hand: impl Fn(Side) -> bool,
@@ -238,7 +238,7 @@ impl World {
 
     /// How far (m) the held point of the bar is from where the hand carries it.
     #[cfg(test)]
-    pub fn handle_gap(&self, side: Side) -> Option<f64> {
+    pub(crate) fn handle_gap(&self, side: Side) -> Option<f64> {
         let hold = self.handle_hold(side)?;
         let carried = self.carried(hold) * hold.point;
         let real = self.furniture_pose(hold.handle) * hold.point;
@@ -246,7 +246,7 @@ impl World {
     }
 
     /// By how much (rad) the hand has been turned about the bar since it gripped it.
-    pub fn handle_pivot(&self, hold: &HandleHold) -> f64 {
+    pub(crate) fn handle_pivot(&self, hold: &HandleHold) -> f64 {
         let real = self.furniture_pose(hold.handle).rotation;
         let carried = self.carried(hold).rotation;
         turns(&(real.inverse() * carried), &hold.bar)[0]
@@ -395,7 +395,7 @@ impl World {
     }
 
     /// The pairs of fingers and the handles that they hold.
-    pub fn fingers_on_handles(&self) -> AllowedPairs {
+    pub(crate) fn fingers_on_handles(&self) -> AllowedPairs {
         let holds = self.state.handles.iter();
         holds.fold(AllowedPairs::none(), |pairs, hold| {
             self.and_fingers_on(pairs, hold)
@@ -403,7 +403,7 @@ impl World {
     }
 
     /// The name of a handle's joint and where it is (rad or m).
-    pub fn joint_of_handle(&self, hold: &HandleHold) -> Result<(String, f64), WorldError> {
+    pub(crate) fn joint_of_handle(&self, hold: &HandleHold) -> Result<(String, f64), WorldError> {
         let name = self.models.kitchen.joint(hold.joint).name.clone();
         let position = self.kitchen_joint(&name)?;
         Ok((name, position))

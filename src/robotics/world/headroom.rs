@@ -16,7 +16,7 @@ const OVERLAP: f64 = 0.002;
 impl World {
     /// How far (m) an object could rise from a pose in the map frame until it meets something that
     /// stands there; infinite if nothing is above. The robot and what its hands hold do not count.
-    pub fn headroom(&self, name: &str, at: &Pose) -> Result<f64, WorldError> {
+    pub(crate) fn headroom(&self, name: &str, at: &Pose) -> Result<f64, WorldError> {
         let object = self.object(name)?;
         let place = to_parry(at);
         let mut bounds = Aabb::new_invalid();

@@ -29,7 +29,11 @@ impl World {
     /// Makes a drawer or door move to the position (rad or m) during the next step, taking
     /// along what is in it. The position is clamped to the joint's limits and returned.
     #[cfg(test)]
-    pub fn set_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+    pub(crate) fn set_kitchen_joint(
+        &mut self,
+        name: &str,
+        position: f64,
+    ) -> Result<f64, WorldError> {
         let position = self.change_kitchen_joint(name, position)?;
         self.state.kitchen_moves = true;
         Ok(position)

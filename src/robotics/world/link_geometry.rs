@@ -11,11 +11,11 @@ use super::solid::{Solid, bounds_of, to_parry};
 use crate::robot::{JointId, KinematicTree, LinkId};
 
 /// A link that can touch something.
-pub struct LinkSolids {
+pub(crate) struct LinkSolids {
     /// The link.
     pub link: LinkId,
     /// Its solids in its own frame; not empty.
-    pub solids: Vec<Solid>,
+    pub(crate) solids: Vec<Solid>,
     /// Bounds (m) of the solids in the link's frame.
     pub bounds: Aabb,
 }
@@ -38,9 +38,9 @@ pub struct TreeGeometry {
     /// Names of all links, at [`LinkId::index`].
     pub names: Vec<LinkName>,
     /// The links that have solids, in the order of the tree.
-    pub solid_links: Vec<LinkSolids>,
+    pub(crate) solid_links: Vec<LinkSolids>,
     /// The group of each link, at [`LinkId::index`].
-    pub group_of: Vec<usize>,
+    pub(crate) group_of: Vec<usize>,
     /// The groups, including those without solids, so that things can be welded to them.
     pub groups: Vec<RigidGroup>,
 }

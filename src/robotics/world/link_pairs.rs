@@ -12,7 +12,7 @@ pub const BLOCK: usize = 8;
 
 /// Pairs of indices of solid links, the smaller one first, in order.
 #[derive(Clone, Debug, Default)]
-pub struct LinkPairs {
+pub(crate) struct LinkPairs {
     pairs: Vec<(usize, usize)>,
     /// The pairs of one link with those of one block: the link, the block, and their places.
     runs: Vec<(usize, usize, Range<usize>)>,
@@ -32,7 +32,7 @@ impl LinkPairs {
     }
 
     /// The pairs for which the condition holds.
-    pub fn filtered(&self, is_wanted: impl Fn(usize, usize) -> bool) -> Self {
+    pub(crate) fn filtered(&self, is_wanted: impl Fn(usize, usize) -> bool) -> Self {
         let wanted = self.pairs.iter().copied();
         Self::new(wanted.filter(|(a, b)| is_wanted(*a, *b)).collect())
     }
@@ -64,7 +64,7 @@ impl LinkPairs {
 }
 
 /// The bounds of each block of links.
-pub fn blocks_of(bounds: &[Aabb]) -> impl Iterator<Item = Aabb> {
+pub(crate) fn blocks_of(bounds: &[Aabb]) -> impl Iterator<Item = Aabb> {
     let blocks = bounds.chunks(BLOCK);
     blocks.filter_map(|block| block.iter().copied().reduce(|all, one| all.merged(&one)))
 }
@@ -72,7 +72,7 @@ pub fn blocks_of(bounds: &[Aabb]) -> impl Iterator<Item = Aabb> {
 /// Whether the two have a point in common. One branch for all six comparisons: which of them fails
 /// cannot be foreseen.
 #[inline]
-pub fn meet(one: &Aabb, other: &Aabb) -> bool {
+pub(crate) fn meet(one: &Aabb, other: &Aabb) -> bool {
     (one.mins.x <= other.maxs.x)
         & (one.maxs.x >= other.mins.x)
         & (one.mins.y <= other.maxs.y)

@@ -6,7 +6,7 @@
 //! is a [`Pose`](spatial::Pose) in the map frame unless its name says otherwise.
 //! Nothing here knows of motions or of the plan language.
 
-pub mod allowed_pairs;
+pub(crate) mod allowed_pairs;
 pub mod body_name;
 pub mod collision;
 mod collision_search;
@@ -25,13 +25,13 @@ mod link_geometry;
 mod link_pairs;
 mod map_area;
 pub mod models;
-pub mod moved_part;
+pub(crate) mod moved_part;
 mod moving_parts;
 pub mod noise;
 pub mod object;
 pub mod object_library;
 mod obstacles;
-pub mod oriented_box;
+pub(crate) mod oriented_box;
 mod part_key;
 mod penetration;
 pub mod physics;
@@ -40,7 +40,7 @@ mod robot_bodies;
 pub mod robot_configuration;
 mod robot_motion;
 pub mod scene;
-pub mod scene_shapes;
+pub(crate) mod scene_shapes;
 mod separation;
 mod settling;
 pub mod snapshot;
@@ -55,7 +55,8 @@ pub use body_name::BodyName;
 pub use collision::{CollisionChecker, CollisionHit};
 pub use contacts::ContactForce;
 pub use error::WorldError;
-pub use explored_floor::{ExploredGrid, ExploredGrids, Known};
+pub use explored_floor::Known;
+pub(crate) use explored_floor::{ExploredGrid, ExploredGrids};
 pub use extent::Extent;
 pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;

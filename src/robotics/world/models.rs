@@ -24,12 +24,12 @@ pub struct Models {
     pub kitchen: KinematicTree,
     /// The kinds of objects that can be spawned.
     pub objects: ObjectLibrary,
-    pub robot_geometry: TreeGeometry,
-    pub kitchen_geometry: TreeGeometry,
+    pub(crate) robot_geometry: TreeGeometry,
+    pub(crate) kitchen_geometry: TreeGeometry,
     /// The floor that the robot can drive on.
     pub map: MapArea,
     /// Pairs of the robot's solid links that must not touch.
-    pub self_pairs: LinkPairs,
+    pub(crate) self_pairs: LinkPairs,
     /// The hand that each link of the robot belongs to, if any.
     hand_of: Vec<Option<Side>>,
     /// For each body of the robot in the physics engine, the number of the hand that it is of.
@@ -40,7 +40,7 @@ pub struct Models {
 
 /// The relation of a link to the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Footing {
+pub(crate) enum Footing {
     /// It rolls on the floor.
     Rolls,
     /// It moves over the floor at its own height.
@@ -148,13 +148,13 @@ impl Models {
     }
 
     /// The name of a link of the kitchen; the floor for a link of another tree.
-    pub fn furniture_body(&self, link: LinkId) -> BodyName {
+    pub(crate) fn furniture_body(&self, link: LinkId) -> BodyName {
         let name = self.kitchen_geometry.names.get(link.index());
         name.map_or(BodyName::Floor, |name| BodyName::Furniture(name.clone()))
     }
 
     /// Whether both links are part of the same hand.
-    pub fn belong_to_same_hand(&self, a: LinkId, b: LinkId) -> bool {
+    pub(crate) fn belong_to_same_hand(&self, a: LinkId, b: LinkId) -> bool {
         match (self.hand_of.get(a.index()), self.hand_of.get(b.index())) {
             (Some(Some(x)), Some(Some(y))) => x == y,
             _ => false,
@@ -162,7 +162,7 @@ impl Models {
     }
 
     /// What the link is to the physics engine: part of a hand, a gripping surface, or neither.
-    pub fn surface_of(&self, link: LinkId) -> Surface {
+    pub(crate) fn surface_of(&self, link: LinkId) -> Surface {
         let group = |link: LinkId| self.robot_geometry.group_of.get(link.index());
         for arm in &self.description.arms {
             let gripper = &arm.gripper;
@@ -183,7 +183,7 @@ impl Models {
     }
 
     /// The relation of the part to the floor; held objects may reach for it.
-    pub fn footing(&self, key: PartKey) -> Footing {
+    pub(crate) fn footing(&self, key: PartKey) -> Footing {
         let PartKey::Robot(i) = key else {
             return Footing::Reaches;
         };

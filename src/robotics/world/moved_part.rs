@@ -33,7 +33,7 @@ pub struct Part {
     /// The links that it moves.
     pub links: Vec<LinkId>,
     /// What rides along, by name, in the order of the world's objects.
-    pub riders: Vec<String>,
+    pub(crate) riders: Vec<String>,
 }
 
 /// A part at another position than it has.

@@ -19,7 +19,7 @@ pub struct MovingParts {
 
 impl MovingParts {
     /// When the joints move.
-    pub fn of_joints(tree: &KinematicTree, joints: &[JointId]) -> Self {
+    pub(crate) fn of_joints(tree: &KinematicTree, joints: &[JointId]) -> Self {
         Self::new(tree, false, |joint| {
             let leader = tree.joint(joint).mimic.map(|mimic| mimic.joint);
             joints.contains(&leader.unwrap_or(joint))
@@ -27,7 +27,7 @@ impl MovingParts {
     }
 
     /// When the base moves, and nothing else.
-    pub fn of_base(tree: &KinematicTree) -> Self {
+    pub(crate) fn of_base(tree: &KinematicTree) -> Self {
         Self::new(tree, true, |_| false)
     }
 
@@ -72,7 +72,7 @@ impl MovingParts {
     }
 
     /// Whether any two links may move relative to each other.
-    pub fn any_part(&self) -> bool {
+    pub(crate) fn any_part(&self) -> bool {
         self.groups.windows(2).any(|pair| pair[0] != pair[1])
     }
 

@@ -27,19 +27,19 @@ pub struct NoiseLevels {
     /// Probability that an object in sight is overlooked.
     pub misses: f64,
     /// Probability that an object is taken for one of another type.
-    pub false_types: f64,
+    pub(crate) false_types: f64,
     /// Standard deviation of where a drive ends, along x and y (m).
-    pub odometry_position: f64,
+    pub(crate) odometry_position: f64,
     /// Standard deviation of the heading in which a drive ends (rad).
-    pub odometry_yaw: f64,
+    pub(crate) odometry_yaw: f64,
     /// Standard deviation of where a hand arrives that approaches an object, along each axis (m).
-    pub grasp_position: f64,
+    pub(crate) grasp_position: f64,
     /// Standard deviation of the yaw of such a hand (rad).
-    pub grasp_yaw: f64,
+    pub(crate) grasp_yaw: f64,
 }
 
 /// One of the levels.
-pub struct NoiseSetting {
+pub(crate) struct NoiseSetting {
     /// Its name.
     pub name: &'static str,
     /// The largest value that makes sense.
@@ -183,9 +183,9 @@ pub struct Noise {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Perceived {
     /// Whether it is overlooked.
-    pub is_missed: bool,
+    pub(crate) is_missed: bool,
     /// If it is taken for one of another type, which of them: a number from 0 up to 1.
-    pub other_type: Option<f64>,
+    pub(crate) other_type: Option<f64>,
     /// The error of its position (m, along the axes of the map) and of its yaw (rad).
     error: ([f64; 3], f64),
 }
@@ -240,7 +240,7 @@ impl Noise {
 
     /// By how much a drive that is planned at the step ends beside its goal: x, y (m) and
     /// heading (rad).
-    pub fn of_drive(&self, step: u64) -> [f64; 3] {
+    pub(crate) fn of_drive(&self, step: u64) -> [f64; 3] {
         let mut draws = self.draws(&Kind::Drive, step, "");
         let NoiseLevels {
             odometry_position,
@@ -252,7 +252,7 @@ impl Noise {
 
     /// Where a hand that approaches an object arrives instead of at the goal, a pose in the frame
     /// of the base. The motion began at the step.
-    pub fn of_approach(&self, step: u64, side: Side, goal: &Pose) -> Pose {
+    pub(crate) fn of_approach(&self, step: u64, side: Side, goal: &Pose) -> Pose {
         let mut draws = self.draws(&Kind::Approach, step, side.name());
         let error = [(); 3].map(|()| draws.normal() * self.levels.grasp_position);
         let turn = Vector3::z() * (draws.normal() * self.levels.grasp_yaw);
@@ -316,7 +316,7 @@ impl super::World {
     }
 
     /// The same, to be changed.
-    pub fn noise_mut(&mut self) -> Option<&mut Noise> {
+    pub(crate) fn noise_mut(&mut self) -> Option<&mut Noise> {
         self.state.noise.as_mut()
     }
 

@@ -19,7 +19,7 @@ pub struct Attachment {
     pub link: LinkId,
     /// Pose of the object in the link's frame when it was attached.
     pub at: Pose,
-    pub weld: WeldHandle,
+    pub(crate) weld: WeldHandle,
     /// How fingers hold the object; `None` if it is merely fixed to the link.
     pub hold: Option<Hold>,
 }
@@ -33,7 +33,7 @@ pub struct Object {
     pub mass: f64,
     pub friction: f64,
     pub shapes: Arc<[PlacedShape]>,
-    pub solids: Arc<[Solid]>,
+    pub(crate) solids: Arc<[Solid]>,
     pub bounds: Aabb,
     pub number: u32,
     pub body: BodyHandle,

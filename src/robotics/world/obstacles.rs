@@ -52,7 +52,7 @@ impl Obstacles {
     }
 
     /// The places in the list of all of the solids whose bounds intersect the given ones (m).
-    pub fn places_near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = usize> + 'a {
+    pub(crate) fn places_near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = usize> + 'a {
         self.links
             .iter()
             .filter(|(link, _)| link.intersects(bounds))

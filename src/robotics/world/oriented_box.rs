@@ -29,7 +29,7 @@ impl OrientedBox {
     /// Whether two bodies, in their frames, are farther apart than the gap (m), which is not
     /// negative. The answer may be no for bodies that are.
     #[inline]
-    pub fn is_apart(&self, frame: &Frame, other: &Self, at: &Frame, gap: f64) -> bool {
+    pub(crate) fn is_apart(&self, frame: &Frame, other: &Self, at: &Frame, gap: f64) -> bool {
         let between = at.place(other.center) - frame.place(self.center);
         let gap = Vector::splat(gap);
         // Column by column, the axes of the other box in the frame of this one.

@@ -28,7 +28,7 @@ impl PartKey {
     }
 
     /// The key with that number; numbers that belong to no key count as the floor.
-    pub fn from_code(code: u64) -> Self {
+    pub(crate) fn from_code(code: u64) -> Self {
         // The low half is the index by construction.
         let index = (code & u64::from(u32::MAX)) as u32;
         match code >> 32 {

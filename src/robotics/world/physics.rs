@@ -41,7 +41,7 @@ use spatial::Pose;
 pub const STEP_SECONDS: f64 = 1.0 / 240.0;
 
 /// Acceleration of free fall (m/s²), towards -z.
-pub const GRAVITY: f64 = 9.81;
+pub(crate) const GRAVITY: f64 = 9.81;
 
 /// Gap (m) up to which the solver keeps bodies from running into each other within a step. With the
 /// engine's own, the sides of a mug, 8 mm above the table, would have as many constraints as its bottom.
@@ -86,11 +86,11 @@ pub struct BodyHandle(RigidBodyHandle);
 
 /// A soft weld between two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct WeldHandle(ImpulseJointHandle);
+pub(crate) struct WeldHandle(ImpulseJointHandle);
 
 /// The role of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BodyKind {
+pub(crate) enum BodyKind {
     /// Furniture that never moves.
     Static,
     /// Furniture that follows its joint.
@@ -134,7 +134,7 @@ pub enum Surface {
 }
 
 /// The engine with everything in it.
-pub struct Physics {
+pub(crate) struct Physics {
     sets: Sets,
     parameters: IntegrationParameters,
     pipeline: PhysicsPipeline,
@@ -203,7 +203,7 @@ impl Physics {
     }
 
     /// Adds the floor, the half-space below z = 0.
-    pub fn add_floor(&mut self, key: u64) {
+    pub(crate) fn add_floor(&mut self, key: u64) {
         let floor = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
             .friction(FRICTION)
             .collision_groups(groups(BodyKind::Static, Surface::Plain))
@@ -214,7 +214,7 @@ impl Physics {
     /// Adds a body made of the solids, each with the key of its part and what it is.
     ///
     /// The mass of an object is spread over its solids by volume.
-    pub fn add_body(
+    pub(crate) fn add_body(
         &mut self,
         kind: BodyKind,
         pose: &Pose,
@@ -279,7 +279,7 @@ impl Physics {
     }
 
     /// Gives an object another mass (kg), spread over its solids by volume.
-    pub fn set_mass(&mut self, body: BodyHandle, mass: f64) {
+    pub(crate) fn set_mass(&mut self, body: BodyHandle, mass: f64) {
         let s = self.edit();
         let Some(b) = s.bodies.get(body.0) else {
             return;
@@ -302,7 +302,7 @@ impl Physics {
     }
 
     /// Removes the body and its welds; what rested on it wakes up.
-    pub fn remove_body(&mut self, body: BodyHandle) {
+    pub(crate) fn remove_body(&mut self, body: BodyHandle) {
         let s = self.edit();
         s.bodies.remove(
             body.0,
@@ -345,7 +345,7 @@ impl Physics {
     }
 
     /// Makes a kinematic body move to the pose during the next step.
-    pub fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
+    pub(crate) fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
         let Some(b) = self.sets.bodies.get(body.0) else {
             return;
         };
@@ -364,7 +364,7 @@ impl Physics {
     }
 
     /// Whether the body is awake.
-    pub fn is_awake(&self, body: BodyHandle) -> bool {
+    pub(crate) fn is_awake(&self, body: BodyHandle) -> bool {
         let body = self.sets.bodies.get(body.0);
         body.is_some_and(|b| !b.is_sleeping())
     }
@@ -380,7 +380,7 @@ impl Physics {
     ///
     /// The engine must not be told that it sleeps: among others that are awake, it would go on
     /// falling, and its contacts would be left out.
-    pub fn need_not_wait(&mut self, object: BodyHandle) {
+    pub(crate) fn need_not_wait(&mut self, object: BodyHandle) {
         // What is borrowed mutably counts as changed, which would cost the step a little.
         if self.is_awake(object)
             && let Some(b) = self.edit().bodies.get_mut(object.0)
@@ -406,7 +406,7 @@ impl Physics {
     }
 
     /// Wakes the body and gives it the velocity that a step of falling would give it.
-    pub fn begin_to_fall(&mut self, body: BodyHandle) {
+    pub(crate) fn begin_to_fall(&mut self, body: BodyHandle) {
         self.wake(body);
         if let Some(b) = self.edit().bodies.get_mut(body.0) {
             let velocity = b.linvel() - Vector::new(0.0, 0.0, GRAVITY * STEP_SECONDS);
@@ -415,7 +415,7 @@ impl Physics {
     }
 
     /// Keeps a body from falling asleep.
-    pub fn keep_awake(&mut self, body: BodyHandle) {
+    pub(crate) fn keep_awake(&mut self, body: BodyHandle) {
         if let Some(b) = self.edit().bodies.get_mut(body.0) {
             b.activation_mut().normalized_linear_threshold = -1.0;
             b.wake_up(true);
@@ -423,7 +423,7 @@ impl Physics {
     }
 
     /// Lets a body fall asleep again.
-    pub fn let_sleep(&mut self, body: BodyHandle) {
+    pub(crate) fn let_sleep(&mut self, body: BodyHandle) {
         if let Some(b) = self.edit().bodies.get_mut(body.0) {
             let usual = RigidBodyActivation::default_normalized_linear_threshold();
             b.activation_mut().normalized_linear_threshold = usual;
@@ -432,7 +432,12 @@ impl Physics {
 
     /// Welds `carried` softly to `carrier` at pose `at` in the carrier's frame. The two no
     /// longer collide with each other.
-    pub fn weld(&mut self, carrier: BodyHandle, at: &Pose, carried: BodyHandle) -> WeldHandle {
+    pub(crate) fn weld(
+        &mut self,
+        carrier: BodyHandle,
+        at: &Pose,
+        carried: BodyHandle,
+    ) -> WeldHandle {
         let joint = FixedJointBuilder::new()
             .local_frame1(to_parry(at))
             .contacts_enabled(false)
@@ -445,12 +450,12 @@ impl Physics {
     }
 
     /// Removes the weld.
-    pub fn unweld(&mut self, weld: WeldHandle) {
+    pub(crate) fn unweld(&mut self, weld: WeldHandle) {
         self.edit().impulse_joints.remove(weld.0, true);
     }
 
     /// Force (N) that the weld has exerted during the last step.
-    pub fn weld_force(&self, weld: WeldHandle) -> f64 {
+    pub(crate) fn weld_force(&self, weld: WeldHandle) -> f64 {
         self.sets.impulse_joints.get(weld.0).map_or(0.0, |joint| {
             let [x, y, z, ..] = joint.impulses;
             // A joint's impulse covers only the last of the equal parts of a step.
@@ -498,7 +503,7 @@ impl Physics {
     }
 
     /// Feeds the bits of all poses and velocities.
-    pub fn hash_into(&self, hasher: &mut Hasher) {
+    pub(crate) fn hash_into(&self, hasher: &mut Hasher) {
         for (_, body) in self.sets.bodies.iter() {
             let (t, q) = (body.translation(), body.rotation());
             let (v, w) = (body.linvel(), body.angvel());

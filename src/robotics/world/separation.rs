@@ -7,7 +7,7 @@ use super::solid::Solid;
 
 /// The separation of two solids.
 #[derive(Clone, Copy, Debug)]
-pub struct Separation {
+pub(crate) struct Separation {
     /// Gap (m), negative for an overlap.
     pub distance: f64,
     /// A point between the two or in their overlap, in the map frame (m).
@@ -18,7 +18,7 @@ pub struct Separation {
 /// (m); with a negative margin only deeper overlaps count.
 ///
 /// Compare bounds first: this is the expensive part.
-pub fn separation(
+pub(crate) fn separation(
     pose1: &ParryPose,
     solid1: &Solid,
     pose2: &ParryPose,
@@ -58,7 +58,7 @@ pub fn overlap(
 
 /// The separation of a solid (its own pose in the map frame) from the floor z = 0, when it is
 /// below `margin` (m).
-pub fn below_floor(pose: &ParryPose, solid: &Solid, margin: f64) -> Option<Separation> {
+pub(crate) fn below_floor(pose: &ParryPose, solid: &Solid, margin: f64) -> Option<Separation> {
     let lowest = lowest_point(pose, solid);
     (lowest.z < margin).then_some(Separation {
         distance: lowest.z,
@@ -67,7 +67,7 @@ pub fn below_floor(pose: &ParryPose, solid: &Solid, margin: f64) -> Option<Separ
 }
 
 /// The point of the solid (its own pose in the map frame) with the least z (m).
-pub fn lowest_point(pose: &ParryPose, solid: &Solid) -> Vector {
+pub(crate) fn lowest_point(pose: &ParryPose, solid: &Solid) -> Vector {
     match solid.shape.as_support_map() {
         Some(shape) => shape.support_point(pose, -Vector::Z),
         // Every convex primitive has a support map; the bounds are the answer for anything else.

@@ -13,7 +13,7 @@ use super::oriented_box::OrientedBox;
 use spatial::{PlacedShape, Pose, Shape};
 
 /// The library's pose for ours.
-pub fn to_parry(pose: &Pose) -> ParryPose {
+pub(crate) fn to_parry(pose: &Pose) -> ParryPose {
     let t = &pose.translation.vector;
     let q = pose.rotation.quaternion();
     ParryPose::from_parts(
@@ -23,7 +23,7 @@ pub fn to_parry(pose: &Pose) -> ParryPose {
 }
 
 /// Our pose for the library's.
-pub fn from_parry(pose: &ParryPose) -> Pose {
+pub(crate) fn from_parry(pose: &ParryPose) -> Pose {
     let (t, q) = (pose.translation, pose.rotation);
     Pose::from_parts(
         Translation3::new(t.x, t.y, t.z),
@@ -32,7 +32,7 @@ pub fn from_parry(pose: &ParryPose) -> Pose {
 }
 
 /// Our vector for the library's.
-pub fn from_parry_vector(v: Vector) -> Vector3<f64> {
+pub(crate) fn from_parry_vector(v: Vector) -> Vector3<f64> {
     Vector3::new(v.x, v.y, v.z)
 }
 
@@ -46,7 +46,7 @@ pub struct Solid {
     /// Bounds in the owner's frame (m).
     pub bounds: Aabb,
     /// The box about the primitive, in the primitive's own frame.
-    pub containing_box: OrientedBox,
+    pub(crate) containing_box: OrientedBox,
     /// Volume (m³), the weight of this part in the mass of its owner.
     pub volume: f64,
 }
@@ -90,7 +90,7 @@ impl Solid {
 }
 
 /// Bounds (m) of all solids in their owner's frame; `None` if there are none.
-pub fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
+pub(crate) fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
     let mut points = solids
         .iter()
         .flat_map(|s| [s.bounds.mins, s.bounds.maxs])

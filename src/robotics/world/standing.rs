@@ -184,7 +184,7 @@ impl World {
 
     /// What the object would do if it were let go at the pose, with the robot out of its way.
     /// The world itself is not changed.
-    pub fn stand_trial(&self, name: &str, pose: &Pose) -> Result<StandTrial, WorldError> {
+    pub(crate) fn stand_trial(&self, name: &str, pose: &Pose) -> Result<StandTrial, WorldError> {
         let mut world = self.clone();
         world.detach(name)?;
         let body = world.object(name)?.body;

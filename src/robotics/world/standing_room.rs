@@ -254,7 +254,7 @@ impl<'w> StandingRoom<'w> {
     }
 
     /// Whether the load would be free on all sides at the pose. What is just below does not count.
-    pub fn check_free(&self, load: &Load, at: &Pose) -> Result<(), NoRoom> {
+    pub(crate) fn check_free(&self, load: &Load, at: &Pose) -> Result<(), NoRoom> {
         // Its own ground is as far below as the gap that everything else must keep.
         let mut raised = to_parry(at);
         raised.translation.z += GAP;

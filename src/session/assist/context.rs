@@ -17,7 +17,7 @@ pub(super) struct Open<'t> {
     /// The second element, if that is an atom.
     pub second: Option<&'t str>,
     /// Whether it is quoted.
-    pub is_quoted: bool,
+    pub(crate) is_quoted: bool,
 }
 
 /// The context of a cursor.
@@ -28,13 +28,13 @@ pub(super) struct Context<'t> {
     /// The part of the atom at the cursor that precedes it.
     pub word: &'t str,
     /// Byte at which it begins.
-    pub word_start: usize,
+    pub(crate) word_start: usize,
     /// Whether the cursor is in a string; `word` is then its contents so far.
-    pub in_string: bool,
+    pub(crate) in_string: bool,
     /// Whether the cursor is in a comment.
-    pub in_comment: bool,
+    pub(crate) in_comment: bool,
     /// Whether a `'` or `#'` precedes the word.
-    pub is_quoted: bool,
+    pub(crate) is_quoted: bool,
     /// The variables that are bound there by the text itself.
     pub locals: Vec<&'t str>,
 }

@@ -6,7 +6,7 @@ use view::picture::animation::Shot;
 use view::picture::{View, ViewError};
 
 /// Shots of a session over time.
-pub struct Film {
+pub(crate) struct Film {
     wanted: Filming,
     /// Simulated time (s) at which the next shot is due.
     next: f64,

@@ -13,7 +13,7 @@ use view::watch::{
 
 /// The followers of a session.
 #[derive(Default)]
-pub struct Followers {
+pub(crate) struct Followers {
     all: Vec<(FollowerId, Box<dyn Follower>)>,
     last: u64,
     /// Why the session does not go on, as followers know it.
@@ -24,11 +24,11 @@ pub struct Followers {
 
 /// Identifies a follower.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct FollowerId(u64);
+pub(crate) struct FollowerId(u64);
 
 impl Audience {
     /// Adds a follower, which is notified from now on.
-    pub fn add_follower(
+    pub(crate) fn add_follower(
         &mut self,
         simulation: &Simulation,
         image: &Image,
@@ -51,12 +51,12 @@ impl Audience {
     }
 
     /// Removes a follower.
-    pub fn remove_follower(&mut self, id: FollowerId) {
+    pub(crate) fn remove_follower(&mut self, id: FollowerId) {
         self.followers.all.retain(|(known, _)| *known != id);
     }
 
     /// Whether there are any followers.
-    pub fn has_followers(&self) -> bool {
+    pub(crate) fn has_followers(&self) -> bool {
         !self.followers.all.is_empty()
     }
 
@@ -85,7 +85,7 @@ impl Audience {
 
     /// Notifies the followers that the session does not go on, with the tasks that have stopped,
     /// or that it does.
-    pub fn tell_halt(&mut self, now: f64, halt: Option<Halt>, stopped: Vec<TaskNews>) {
+    pub(crate) fn tell_halt(&mut self, now: f64, halt: Option<Halt>, stopped: Vec<TaskNews>) {
         let before = std::mem::replace(&mut self.followers.stopped, stopped.clone());
         let is_still = |news: &&TaskNews| stopped.iter().any(|task| task.id == news.id);
         for news in before.iter().filter(|news| !is_still(news)) {
@@ -108,14 +108,14 @@ impl Audience {
     }
 
     /// Notifies the followers that the session goes on, if they do not know.
-    pub fn tell_resumed(&mut self, now: f64) {
+    pub(crate) fn tell_resumed(&mut self, now: f64) {
         if self.followers.halt.is_some() {
             self.tell_halt(now, None, Vec::new());
         }
     }
 
     /// Notifies the followers of changes in the states of tasks.
-    pub fn tell_tasks(&mut self, image: &Image) {
+    pub(crate) fn tell_tasks(&mut self, image: &Image) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -128,7 +128,7 @@ impl Audience {
     }
 
     /// Notifies the followers of a change in the state of a motion.
-    pub fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
+    pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -155,7 +155,7 @@ impl Audience {
     }
 
     /// Notifies the followers of the collision that stopped a motion.
-    pub fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
+    pub(crate) fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
         for (_, follower) in &mut self.followers.all {
             follower.collide(now, hit);
         }

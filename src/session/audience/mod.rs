@@ -22,7 +22,7 @@ pub use views::WatchError;
 use views::{KeptRun, LiveView, OpenRecording};
 
 /// Called with the world after every step of a motion.
-pub type Observer = Box<dyn FnMut(&World)>;
+pub(crate) type Observer = Box<dyn FnMut(&World)>;
 
 /// Everything that shows a session.
 #[derive(Default)]

@@ -15,7 +15,7 @@ const MOST_LAG: f64 = 0.1;
 const SLICE: Duration = Duration::from_millis(50);
 
 /// Keeps pace with real time.
-pub struct Pace {
+pub(crate) struct Pace {
     control: PaceControl,
     next: Instant,
 }

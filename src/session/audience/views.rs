@@ -18,14 +18,14 @@ use view::watch::recording::{Recorder, RecordingError, RecordingResult};
 use view::watch::{Cause, FrameBuilder};
 
 /// A recording in progress.
-pub struct OpenRecording {
+pub(crate) struct OpenRecording {
     follower: FollowerId,
     path: PathBuf,
     result: RecordingResult,
 }
 
 /// A run that is kept to be written into a file at its end.
-pub struct KeptRun {
+pub(crate) struct KeptRun {
     follower: FollowerId,
     path: PathBuf,
     file: File,
@@ -39,7 +39,7 @@ struct Seen {
 }
 
 /// The live view while it is open.
-pub struct LiveView {
+pub(crate) struct LiveView {
     server: Server,
     follower: FollowerId,
     seen: Seen,
@@ -111,7 +111,7 @@ impl Audience {
     }
 
     /// Closes the live view, if it is open.
-    pub fn close_view(&mut self) {
+    pub(crate) fn close_view(&mut self) {
         if let Some(view) = self.view.take() {
             self.remove_follower(view.follower);
             if !view.had_pace {
@@ -190,7 +190,7 @@ impl Audience {
 
     /// Writes what has been seen since the live view was opened, or since the beginning of a run
     /// that is kept, into a file as a page; otherwise the world as it is now.
-    pub fn save_view(
+    pub(crate) fn save_view(
         &mut self,
         simulation: &Simulation,
         image: &Image,

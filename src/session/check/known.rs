@@ -14,7 +14,7 @@ pub(crate) struct KnownNames {
     /// Names of functions, macros and variables.
     pub defined: BTreeSet<Sym>,
     /// Names in rules and definitions for designators, in upper case.
-    pub in_rules: BTreeSet<String>,
+    pub(crate) in_rules: BTreeSet<String>,
     /// Whether anything may be defined, because another file is loaded or a form made at run
     /// time is evaluated.
     pub is_open: bool,
@@ -22,7 +22,7 @@ pub(crate) struct KnownNames {
 
 impl KnownNames {
     /// Notes what the definitions at any depth in a form define.
-    pub fn note_form(&mut self, image: &Image, form: &Value) {
+    pub(crate) fn note_form(&mut self, image: &Image, form: &Value) {
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {
             let Some(head) = form.as_cons().map(|cons| cons.car()) else {
@@ -40,7 +40,7 @@ impl KnownNames {
     }
 
     /// Notes what one definition defines.
-    pub fn note_definition(&mut self, image: &Image, form: &Value) {
+    pub(crate) fn note_definition(&mut self, image: &Image, form: &Value) {
         let head = form.car_or_nil().as_symbol();
         let name = form.cdr_or_nil().car_or_nil();
         let named = match &name {

@@ -47,7 +47,7 @@ pub(super) struct Console {
     /// The value being inspected, last, after those through which it was reached.
     inspected: Vec<Value>,
     /// The poll at which the next input is to be interrupted.
-    pub interrupt_next: Option<u64>,
+    pub(crate) interrupt_next: Option<u64>,
 }
 
 impl Console {
@@ -133,7 +133,7 @@ impl Console {
     }
 
     /// Forgets everything that was stopped, without a word.
-    pub fn give_up(&mut self) {
+    pub(crate) fn give_up(&mut self) {
         *self = Console {
             is_interactive: self.is_interactive,
             opened: self.opened,
@@ -168,7 +168,7 @@ impl Console {
     }
 
     /// What the prompt shows after the package's name.
-    pub fn prompt_suffix(&self) -> String {
+    pub(crate) fn prompt_suffix(&self) -> String {
         let level = match self.levels.last().map(|level| &level.cause) {
             None => String::new(),
             Some(Cause::Interrupt) => " stopped".to_owned(),

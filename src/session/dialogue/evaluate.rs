@@ -89,7 +89,7 @@ impl Abort {
     }
 
     /// A line for each of the enclosing actions.
-    pub fn performing(&self) -> impl Iterator<Item = String> {
+    pub(crate) fn performing(&self) -> impl Iterator<Item = String> {
         self.actions.iter().map(|action| match &action.place {
             Some(place) => format!("in {} at {place}", action.call),
             None => format!("in {}", action.call),

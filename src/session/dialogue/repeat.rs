@@ -20,7 +20,7 @@ pub trait Repeat: Evaluate {
 const MARK: &str = " ; Ctrl-C at poll ";
 
 /// An input that was interrupted, as it is written in a transcript.
-pub fn with_interrupt(input: &str, at: u64) -> String {
+pub(crate) fn with_interrupt(input: &str, at: u64) -> String {
     format!("{input}{MARK}{at}")
 }
 

@@ -42,7 +42,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub static PLANS_TABLE: &[Builtin] = &[
+pub(crate) static PLANS_TABLE: &[Builtin] = &[
     control(
         "CONTAINER-STATE",
         "container",

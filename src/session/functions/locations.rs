@@ -70,7 +70,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub static VISUALIZATION_TABLE: &[Builtin] = &[control(
+pub(crate) static VISUALIZATION_TABLE: &[Builtin] = &[control(
     "CLEAR-COSTMAP-VIS-OBJECT",
     "",
     "Shows no map of a location any more.",
@@ -79,7 +79,7 @@ pub static VISUALIZATION_TABLE: &[Builtin] = &[control(
 )];
 
 /// Builtins of package `PLANWRIGHT`.
-pub static FURNITURE_TABLE: &[Builtin] = &[control(
+pub(crate) static FURNITURE_TABLE: &[Builtin] = &[control(
     "LIST-SURFACES",
     "",
     "The furniture on which things can be put: the names that (urdf-name …) takes.",

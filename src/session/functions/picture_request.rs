@@ -103,7 +103,7 @@ impl PictureRequest {
     }
 
     /// The vertical field of view (rad), if it is given, in degrees.
-    pub fn field_of_view(&self, image: &Image) -> Result<Option<f64>> {
+    pub(crate) fn field_of_view(&self, image: &Image) -> Result<Option<f64>> {
         let Some(value) = self.get("FOV") else {
             return Ok(None);
         };

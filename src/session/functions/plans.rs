@@ -224,7 +224,7 @@ impl Simulation {
 
     /// Names of the grasps defined for a type and an arm, in the order in which they are
     /// tried.
-    pub fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
+    pub(crate) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
             let names: Vec<String> = self
@@ -263,7 +263,7 @@ impl Simulation {
     }
 
     /// Whether the hand can be brought to all poses, given in the frame of the base.
-    pub fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+    pub(crate) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
         let search = description.torso_search(&self.models.robot, joints, arm);

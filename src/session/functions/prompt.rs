@@ -75,7 +75,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// The function behind `time`, in package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[control(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "CALL-WITH-TIMING",
     "function",
     "Calls a function and reports how long it took, in real and in simulated time.",
@@ -97,7 +97,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `PLANWRIGHT`.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "DOC",
     lambda_list: "name",
     doc: "Tells what is known about a name, which need not be quoted. At the prompt, ?name is short for it.",

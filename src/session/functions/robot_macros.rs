@@ -7,7 +7,7 @@ use lisp::value::known;
 use lisp::value::raise::Raise;
 
 /// Macros of package `CRAM-PR2-PROJECTION`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "WITH-SIMULATED-ROBOT",
         lambda_list: "&body body",

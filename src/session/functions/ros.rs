@@ -17,7 +17,7 @@ use lisp::value::raise::Raise;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `ROSLISP`.
-pub static LOG_TABLE: &[Builtin] = &[
+pub(crate) static LOG_TABLE: &[Builtin] = &[
     control(
         "LOG-LINE",
         "level tags text",
@@ -35,7 +35,7 @@ pub static LOG_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `ROSLISP-UTILITIES`.
-pub static UTILITIES_TABLE: &[Builtin] = &[
+pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
     control(
         "STARTUP-ROS",
         "&rest options",
@@ -53,7 +53,7 @@ pub static UTILITIES_TABLE: &[Builtin] = &[
 ];
 
 /// What the loader of systems, which is written in Lisp, asks: builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "LOAD-BUILT-IN-SYSTEM",
         "system",

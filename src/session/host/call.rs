@@ -10,18 +10,18 @@ use lisp::value::Value;
 use lisp::value::raise::Raise;
 
 /// A function that acts on a part of the host.
-pub type OwnerFn<O> = fn(&mut O, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
+pub(crate) type OwnerFn<O> = fn(&mut O, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
 
 /// A function that acts on the host.
-pub type HostFn = OwnerFn<SimulationHost>;
+pub(crate) type HostFn = OwnerFn<SimulationHost>;
 
 /// The request to call a function on the host.
-pub struct HostCall {
+pub(crate) struct HostCall {
     /// The name of the function, in Rust.
     pub name: &'static str,
     /// Whether its reply is all that comes of it, besides changes of the physical state: then the
     /// tape answers for it.
-    pub is_answered: bool,
+    pub(crate) is_answered: bool,
     /// The function.
     pub call: HostFn,
     /// Its arguments.
@@ -65,7 +65,7 @@ impl Owner for Audience {
 }
 
 /// Whether the tape answers for a function, as its first parameter says.
-pub fn is_answered<O: Owner>(_: OwnerFn<O>) -> bool {
+pub(crate) fn is_answered<O: Owner>(_: OwnerFn<O>) -> bool {
     O::IS_ANSWERED
 }
 

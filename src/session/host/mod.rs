@@ -19,11 +19,11 @@ use lisp::image::Image;
 use lisp::value::copy::Copier;
 
 /// Everything outside Lisp that a task can use.
-pub struct SimulationHost {
+pub(crate) struct SimulationHost {
     /// The robot in its world.
     pub simulation: Simulation,
     /// The state of the prompt.
-    pub person: Person,
+    pub(crate) person: Person,
     /// The outputs that show the session.
     pub audience: Audience,
     /// The task whose request is being carried out.

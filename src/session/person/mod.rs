@@ -4,19 +4,19 @@ mod snapshots;
 
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
-pub use snapshots::Snapshots;
+pub(crate) use snapshots::Snapshots;
 
 /// The state of the prompt.
 #[derive(Default)]
-pub struct Person {
+pub(crate) struct Person {
     /// Snapshots of earlier states.
     pub snapshots: Snapshots,
     /// The next step of the tour, counted from zero.
-    pub tour_step: usize,
+    pub(crate) tour_step: usize,
     /// A value that is to be inspected.
     pub inspected: Option<Value>,
     /// Whether the session can be served to an editor from here.
-    pub can_serve: bool,
+    pub(crate) can_serve: bool,
     /// The port by which it is to be served.
     pub port: Option<u16>,
     /// The exit status, once an exit has been requested.

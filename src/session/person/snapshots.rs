@@ -23,7 +23,7 @@ const MOST_MOTIONS: usize = 64;
 
 /// The state at one time.
 #[derive(Clone)]
-pub enum Snapshot {
+pub(crate) enum Snapshot {
     /// In memory.
     Here(Rc<Restored>),
     /// As a frame of the tape, which takes little memory.
@@ -42,7 +42,7 @@ struct BeforeForm {
 
 /// All snapshots that are kept.
 #[derive(Default)]
-pub struct Snapshots {
+pub(crate) struct Snapshots {
     /// Before forms that changed the world, and before the last form; newest last.
     forms: VecDeque<BeforeForm>,
     named: IndexMap<String, Snapshot>,
@@ -165,17 +165,17 @@ impl Snapshots {
     }
 
     /// Sets whether snapshots before motions are kept.
-    pub fn keep_snapshots_of_motions(&mut self, keeps: bool) {
+    pub(crate) fn keep_snapshots_of_motions(&mut self, keeps: bool) {
         self.keeps_motions = keeps;
     }
 
     /// Sets whether evaluation is on top of a stopped form.
-    pub fn set_aside(&mut self, is_aside: bool) {
+    pub(crate) fn set_aside(&mut self, is_aside: bool) {
         self.is_aside = is_aside;
     }
 
     /// Call when a form at top level is about to be evaluated.
-    pub fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
+    pub(crate) fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
         self.motions.clear();
         if !self.is_touched
             && let Some(last) = self.forms.back_mut()
@@ -200,7 +200,7 @@ impl Snapshots {
     }
 
     /// Whether the world differs from before the last form at top level.
-    pub fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
+    pub(crate) fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
         let last = self.forms.back();
         last.is_some_and(|before| {
             !simulation.tape.is_beyond_end_unmoved() && before.hash != simulation.state_hash()
@@ -208,7 +208,7 @@ impl Snapshots {
     }
 
     /// Restores the world to before the last form at top level.
-    pub fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
+    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
         let last = self.forms.back();
         if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
             snapshot.restore(simulation, image);
@@ -221,7 +221,7 @@ impl Snapshots {
     }
 
     /// Call when the next motion is about to begin.
-    pub fn begin_motion(&mut self, simulation: &Simulation) {
+    pub(crate) fn begin_motion(&mut self, simulation: &Simulation) {
         if !self.keeps_motions {
             return;
         }
@@ -229,7 +229,7 @@ impl Snapshots {
     }
 
     /// Call when a motion has begun on the tape.
-    pub fn note_motion(&mut self, begun_before: u64) {
+    pub(crate) fn note_motion(&mut self, begun_before: u64) {
         if self.keeps_motions {
             self.add_motion(begun_before, Snapshot::Absent);
         }
@@ -251,12 +251,17 @@ impl Snapshots {
     }
 
     /// Whether the world can be restored to before the motion with that number.
-    pub fn has_motion_snapshot(&self, motion: u64) -> bool {
+    pub(crate) fn has_motion_snapshot(&self, motion: u64) -> bool {
         self.motions.iter().any(|(n, _)| *n == motion)
     }
 
     /// Restores the world to before the motion with that number, if there is a snapshot.
-    pub fn go_back_to(&mut self, simulation: &mut Simulation, image: &mut Image, motion: u64) {
+    pub(crate) fn go_back_to(
+        &mut self,
+        simulation: &mut Simulation,
+        image: &mut Image,
+        motion: u64,
+    ) {
         let found = self.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, snapshot)) = found.cloned() {
             snapshot.restore(simulation, image);
@@ -316,7 +321,7 @@ impl Snapshots {
     }
 
     /// Restores a named snapshot of the world.
-    pub fn restore_kept(
+    pub(crate) fn restore_kept(
         &mut self,
         simulation: &mut Simulation,
         image: &mut Image,
@@ -344,7 +349,7 @@ impl Snapshots {
     }
 
     /// The names of the named snapshots.
-    pub fn kept_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
     }
 }

@@ -49,7 +49,7 @@ pub(crate) struct Restored {
     pub held: IndexMap<String, Held>,
     pub axes: Option<Axes>,
     /// How many searches for locations have begun.
-    pub searches: u64,
+    pub(crate) searches: u64,
 }
 
 impl Simulation {

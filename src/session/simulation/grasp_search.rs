@@ -37,7 +37,7 @@ pub(crate) struct Wanted {
     /// Name of its type.
     pub kind: String,
     /// Pose of the object in the map frame.
-    pub in_map: Pose,
+    pub(crate) in_map: Pose,
     /// The requested arm, if any.
     pub arm: Option<Side>,
     /// The requested grasp, if any.

@@ -20,7 +20,7 @@ pub(crate) struct Held {
     /// The angle (rad) by which that grasp was turned about the axis of a round object.
     pub turn: f64,
     /// Where it was detected before that, in the map.
-    pub taken_from: Pose,
+    pub(crate) taken_from: Pose,
 }
 
 impl Simulation {

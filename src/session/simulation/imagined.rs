@@ -16,7 +16,7 @@ pub(crate) struct Imagined<'a> {
     /// Its pose in the map frame; it stands on what is just below.
     pub object_pose: Option<Pose>,
     /// The pose of the base in the map frame.
-    pub base_pose: Option<Pose>,
+    pub(crate) base_pose: Option<Pose>,
     /// The open hand.
     pub side: Side,
     /// Its opening (m).

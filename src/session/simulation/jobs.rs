@@ -14,18 +14,18 @@ use view::watch::{self, About};
 
 /// A motion that a task waits for.
 pub struct Job {
-    pub ticket: Ticket,
+    pub(crate) ticket: Ticket,
     pub module: ProcessModule,
     motion: Box<dyn Motion>,
     /// The designator named in failures.
-    pub subject: Value,
+    pub(crate) subject: Value,
     /// The task that waits.
     pub task: TaskId,
     /// The kind of motion, for display.
     pub name: String,
     /// What followers are told of it.
     pub told: Told,
-    pub is_paused: bool,
+    pub(crate) is_paused: bool,
 }
 
 /// What followers are told of a motion, if there are any when it begins.
@@ -39,39 +39,39 @@ pub struct Told {
 
 /// All motions.
 #[derive(Default)]
-pub struct Jobs {
+pub(crate) struct Jobs {
     /// Active motions, in the order in which they started.
-    pub active: Vec<Job>,
+    pub(crate) active: Vec<Job>,
     /// Motions that have been cancelled and brake.
-    pub leaving: Vec<Job>,
+    pub(crate) leaving: Vec<Job>,
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     /// What has been done for the next step, if an interrupt came in between.
-    pub partial_step: Option<PartialStep>,
+    pub(crate) partial_step: Option<PartialStep>,
     /// Number of motions begun so far.
     pub begun: u64,
 }
 
 /// An incomplete step of the world: what motions have done for it so far.
 #[derive(Default)]
-pub struct PartialStep {
+pub(crate) struct PartialStep {
     /// Motions that have set their joints.
-    pub ticked: Vec<Ticket>,
+    pub(crate) ticked: Vec<Ticket>,
     /// Motions that have ended in this step.
     pub completions: Vec<Completion>,
 }
 
 /// How a motion has ended.
-pub type Completion = (Ticket, Result<Value, Box<Raise>>);
+pub(crate) type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Job {
     /// Whether the robot would not be at rest if the motion were left alone now.
-    pub fn is_moving(&self) -> bool {
+    pub(crate) fn is_moving(&self) -> bool {
         self.motion.is_moving()
     }
 
     /// Lets the motion set joints for a step of braking.
-    pub fn brake(&mut self, world: &mut World) {
+    pub(crate) fn brake(&mut self, world: &mut World) {
         if self.motion.is_moving() {
             self.motion.brake(world);
         }
@@ -121,7 +121,7 @@ impl Jobs {
     }
 
     /// Starts the motions whose process modules are free.
-    pub fn admit_waiting(&mut self) {
+    pub(crate) fn admit_waiting(&mut self) {
         if self.partial_step.is_some() {
             return;
         }
@@ -139,7 +139,7 @@ impl Jobs {
     }
 
     /// Ends a motion and removes it. Until [`Self::leave`] it goes on moving.
-    pub fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
+    pub(crate) fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
         let is_it = |job: &Job| job.ticket == ticket;
         let mut cancelled = match self.active.iter().position(is_it) {
             Some(place) => Some(self.active.remove(place)),
@@ -166,13 +166,13 @@ impl Jobs {
     }
 
     /// Whether motions brake that have been cancelled or paused.
-    pub fn is_braking(&self) -> bool {
+    pub(crate) fn is_braking(&self) -> bool {
         let paused = self.active.iter().filter(|job| job.is_paused);
         self.leaving.iter().chain(paused).any(Job::is_moving)
     }
 
     /// Pauses a motion or lets it continue.
-    pub fn set_paused(&mut self, ticket: Ticket, paused: bool) {
+    pub(crate) fn set_paused(&mut self, ticket: Ticket, paused: bool) {
         for job in self.active.iter_mut().chain(&mut self.waiting) {
             if job.ticket == ticket {
                 job.is_paused = paused;
@@ -181,7 +181,7 @@ impl Jobs {
     }
 
     /// What a motion is about.
-    pub fn subject(&self, ticket: Ticket) -> Option<&Value> {
+    pub(crate) fn subject(&self, ticket: Ticket) -> Option<&Value> {
         let mut all = self.active.iter().chain(&self.waiting);
         all.find(|job| job.ticket == ticket).map(|job| &job.subject)
     }

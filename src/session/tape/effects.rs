@@ -7,7 +7,7 @@ use lisp::value::package::PackageId;
 
 /// The state of the image before a call.
 #[derive(Clone, Copy)]
-pub struct Mark {
+pub(crate) struct Mark {
     written: usize,
     symbols: usize,
     polls: u64,
@@ -39,7 +39,7 @@ impl Mark {
 
     /// What has changed since; `None` if that cannot be repeated. `begun` is the number of motions
     /// begun.
-    pub fn effects(&self, image: &Image, begun: u64) -> Option<Effects> {
+    pub(crate) fn effects(&self, image: &Image, begun: u64) -> Option<Effects> {
         // An object that was printed got a number, and nobody knows which object that was.
         if image.printed.borrow().given() != self.identities {
             return None;

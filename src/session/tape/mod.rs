@@ -34,7 +34,7 @@ use serde::Serialize;
 use lisp::value::Value;
 
 pub use data::{Data, Name, RaiseData};
-pub use effects::Mark;
+pub(crate) use effects::Mark;
 pub use entry::{Answer, Done, Entry};
 pub use frame::Frame;
 pub use part::Part;
@@ -98,12 +98,12 @@ pub struct Tape {
 
 impl Tape {
     /// Has the world always answered itself, without anything being written down?
-    pub fn is_off(&self) -> bool {
+    pub(crate) fn is_off(&self) -> bool {
         matches!(self.mode, Mode::Off) && !self.is_stale && self.last.is_none() && self.begun == 0
     }
 
     /// Something looks at the physical state.
-    pub fn note_read(&self) {
+    pub(crate) fn note_read(&self) {
         self.is_touched.set(true);
         if self.is_stale {
             self.fail();
@@ -111,19 +111,19 @@ impl Tape {
     }
 
     /// Something changes the physical state.
-    pub fn note_change(&mut self) {
+    pub(crate) fn note_change(&mut self) {
         self.note_read();
         self.is_changed = true;
     }
 
     /// An operation that the tape answers for by itself changes the physical state.
-    pub fn note_change_apart(&mut self) {
+    pub(crate) fn note_change_apart(&mut self) {
         self.is_changed = true;
     }
 
     /// A call that the tape does not answer for has looked at the physical state, or has an effect
     /// on values that outlast it: the present input cannot be played.
-    pub fn note_lasting_effect(&self) {
+    pub(crate) fn note_lasting_effect(&self) {
         self.has_lasting_effect.set(true);
     }
 
@@ -133,22 +133,22 @@ impl Tape {
     }
 
     /// Whether there have been accesses since.
-    pub fn is_touched(&self) -> bool {
+    pub(crate) fn is_touched(&self) -> bool {
         self.is_touched.get()
     }
 
     /// Whether the physical state is an old one.
-    pub fn is_stale(&self) -> bool {
+    pub(crate) fn is_stale(&self) -> bool {
         self.is_stale
     }
 
     /// Whether answers are recorded.
-    pub fn is_recording(&self) -> bool {
+    pub(crate) fn is_recording(&self) -> bool {
         matches!(self.mode, Mode::Recording(_))
     }
 
     /// Whether answers are played.
-    pub fn is_playing(&self) -> bool {
+    pub(crate) fn is_playing(&self) -> bool {
         matches!(self.mode, Mode::Playing { .. })
     }
 
@@ -161,7 +161,7 @@ impl Tape {
     }
 
     /// The present input cannot be played.
-    pub fn spoil(&mut self) {
+    pub(crate) fn spoil(&mut self) {
         self.is_spoilt = true;
         if let Mode::Recording(entries) = &mut self.mode {
             *entries = Vec::new();
@@ -226,14 +226,14 @@ impl Tape {
     }
 
     /// An answer was played that the world has not given: it is stale from here on.
-    pub fn make_stale(&mut self) {
+    pub(crate) fn make_stale(&mut self) {
         self.is_stale = true;
         self.has_moved = true;
         self.last = None;
     }
 
     /// The world is in the state of that frame.
-    pub fn has_loaded(&mut self, frame: Rc<Frame>) {
+    pub(crate) fn has_loaded(&mut self, frame: Rc<Frame>) {
         self.is_stale = false;
         self.is_changed = false;
         self.next = self.next.max(frame.number + 1);
@@ -254,7 +254,7 @@ impl Tape {
     }
 
     /// The frame is that of the present state.
-    pub fn is_at(&mut self, frame: &Rc<Frame>) {
+    pub(crate) fn is_at(&mut self, frame: &Rc<Frame>) {
         self.last = Some(Rc::clone(frame));
         self.is_changed = false;
     }
@@ -265,7 +265,7 @@ impl Tape {
     }
 
     /// Makes frames of an earlier session known.
-    pub fn know(&mut self, frames: Vec<Rc<Frame>>) {
+    pub(crate) fn know(&mut self, frames: Vec<Rc<Frame>>) {
         for frame in frames {
             self.next = self.next.max(frame.number + 1);
             self.known.insert(frame.number, frame);
@@ -278,30 +278,30 @@ impl Tape {
     }
 
     /// An answer says how many motions have begun so far.
-    pub fn set_begun(&mut self, begun: u64) {
+    pub(crate) fn set_begun(&mut self, begun: u64) {
         self.begun = begun;
     }
 
     /// A motion is under way on the tape.
-    pub fn begin_motion(&mut self, ticket: u64, subject: Value) {
+    pub(crate) fn begin_motion(&mut self, ticket: u64, subject: Value) {
         self.motions.push((ticket, subject));
     }
 
     /// A motion on the tape has ended or is cancelled; returns what it was about.
-    pub fn end_motion(&mut self, ticket: u64) -> Option<Value> {
+    pub(crate) fn end_motion(&mut self, ticket: u64) -> Option<Value> {
         let at = self.motions.iter().position(|(t, _)| *t == ticket)?;
         Some(self.motions.remove(at).1)
     }
 
     /// Notes how a motion has ended; `None` if that cannot be written down.
-    pub fn note_end(&mut self, ticket: u64, done: Option<Done>) {
+    pub(crate) fn note_end(&mut self, ticket: u64, done: Option<Done>) {
         if self.is_recording() {
             self.ended.push((ticket, done));
         }
     }
 
     /// How the motions have ended that were noted; `None` if one cannot be written down.
-    pub fn take_ended(&mut self) -> Option<Vec<(u64, Done)>> {
+    pub(crate) fn take_ended(&mut self) -> Option<Vec<(u64, Done)>> {
         let ended = std::mem::take(&mut self.ended);
         ended
             .into_iter()
@@ -351,7 +351,7 @@ impl Tape {
 
     /// Whether the input that is played goes on after the last answer, without having moved the
     /// world: it was interrupted, which it was not when it was recorded.
-    pub fn is_beyond_end_unmoved(&self) -> bool {
+    pub(crate) fn is_beyond_end_unmoved(&self) -> bool {
         match &self.mode {
             Mode::Playing { entries, at, .. } => *at == entries.len() && !self.has_moved,
             _ => false,

@@ -18,7 +18,7 @@ use robotics::world::{Object, PartKey, World};
 pub const WIDTH: usize = 960;
 
 /// Least width (pixels) that leaves room for three panels.
-pub const LEAST_WIDTH: usize = 240;
+pub(crate) const LEAST_WIDTH: usize = 240;
 
 /// Colours of the background and the text of the strip below the panels.
 const PAPER: Rgb = [24, 26, 30];

@@ -15,7 +15,7 @@ pub struct Corner {
 
 /// A triangle of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Facet {
+pub(crate) struct Facet {
     /// Indices of its corners, counter-clockwise seen from outside.
     pub corners: [u32; 3],
     /// Index of its body in the scene.
@@ -31,18 +31,18 @@ const SHORT_PART: f64 = 0.17;
 
 /// Triangles and their corners.
 #[derive(Clone, Copy, Debug)]
-pub struct Mesh<'a> {
+pub(crate) struct Mesh<'a> {
     /// The corners.
     pub corners: &'a [Corner],
     /// The triangles, whose corners are all among these.
-    pub facets: &'a [Facet],
+    pub(crate) facets: &'a [Facet],
     /// Index of the first corner that belongs to them; those before it are others'.
     pub first: usize,
 }
 
 /// All triangles, sorted by how they block light: those of the floor, which blocks none, of
 /// small bodies, and of the others, each group in the order of the scene.
-pub struct Facets {
+pub(crate) struct Facets {
     corners: Vec<Corner>,
     facets: Vec<Facet>,
     /// Indices of the corner and the triangle at which each group starts.

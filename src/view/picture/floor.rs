@@ -6,19 +6,19 @@ use nalgebra::Vector3;
 use super::shade::{Color, smooth};
 
 /// Linear colour of the boards.
-pub const BOARD: Color = [0.40, 0.27, 0.165];
+pub(crate) const BOARD: Color = [0.40, 0.27, 0.165];
 
 /// Width and length of a board, and width of the gap between two boards (m).
-pub const BOARD_WIDTH: f32 = 0.16;
-pub const BOARD_LENGTH: f32 = 1.9;
-pub const BOARD_GAP: f32 = 0.005;
+pub(crate) const BOARD_WIDTH: f32 = 0.16;
+pub(crate) const BOARD_LENGTH: f32 = 1.9;
+pub(crate) const BOARD_GAP: f32 = 0.005;
 
 /// By how much boards differ in their brightness, and how much darker gaps are, as shares.
-pub const VARIETY: f32 = 0.28;
-pub const GAP_SHADE: f32 = 0.45;
+pub(crate) const VARIETY: f32 = 0.28;
+pub(crate) const GAP_SHADE: f32 = 0.45;
 
 /// Distances (m from the eye, along the floor) between which the floor fades out.
-pub const FADE: [f32; 2] = [7.0, 22.0];
+pub(crate) const FADE: [f32; 2] = [7.0, 22.0];
 
 /// The linear colour of the floor at a point (m, map frame), averaged where a pixel shows much
 /// of it; `grain` is the size (m) of a pixel there.

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 /// Red, green and blue in 8-bit sRGB.
-pub type Rgb = [u8; 3];
+pub(crate) type Rgb = [u8; 3];
 
 /// A picture in 8-bit sRGB.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub struct Image {
 
 impl Image {
     /// A black picture.
-    pub fn black(width: usize, height: usize) -> Self {
+    pub(crate) fn black(width: usize, height: usize) -> Self {
         Self::filled(width, height, [0; 3])
     }
 
@@ -77,7 +77,7 @@ impl Image {
     }
 
     /// As [`bytes`](Self::bytes), for painting.
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         &mut self.bytes
     }
 

@@ -9,9 +9,9 @@ use super::raster::{Corner, Patch, first_place, twice_area};
 
 /// A distant light, with a shadow map: for each cell of a grid across the light's direction,
 /// the height of the surface that it lights. The grid covers what is both seen and in shadow.
-pub struct Lamp {
+pub(crate) struct Lamp {
     /// Unit vector towards the light.
-    pub towards: Vector3<f32>,
+    pub(crate) towards: Vector3<f32>,
     /// What gives the column and the row (cells) of a point, and its height (m along `towards`):
     /// factors of its coordinates (m), and what is added.
     axes: [(Vector3<f32>, f32); 3],
@@ -25,15 +25,15 @@ pub struct Lamp {
 
 /// The direction and the resolution of a lamp.
 #[derive(Clone, Copy, Debug)]
-pub struct LampPlan {
+pub(crate) struct LampPlan {
     /// Towards the light; not zero.
-    pub towards: Vector3<f64>,
+    pub(crate) towards: Vector3<f64>,
     /// The most cells along an edge of the grid.
     pub most: f64,
     /// The least distance between cells (m).
     pub least: f64,
     /// Whether only large bodies block the light.
-    pub is_sky: bool,
+    pub(crate) is_sky: bool,
 }
 
 /// Cells beyond what is seen, for the neighbourhoods of the outermost points.
@@ -185,7 +185,7 @@ impl Lamp {
     }
 
     /// Distance (m) between cells of the grid.
-    pub fn grain(&self) -> f32 {
+    pub(crate) fn grain(&self) -> f32 {
         self.grain
     }
 
@@ -239,7 +239,7 @@ impl Lamp {
 
     /// What [`reaches`](Self::reaches) is on the whole flat piece of a surface with these corners
     /// (m, map frame) and this unit normal, if it is certain to be 0 everywhere, or 1.
-    pub fn reaches_all<const COUNT: usize>(
+    pub(crate) fn reaches_all<const COUNT: usize>(
         &self,
         corners: &[Vector3<f32>; 4],
         normal: &Vector3<f32>,

@@ -104,7 +104,7 @@ impl Line<'_> {
 
     /// Draws the line on a dark plate with the plate's upper left corner at the pixel, or moved
     /// to be inside the picture.
-    pub fn draw_on_plate(&self, image: &mut Image, column: usize, row: usize) {
+    pub(crate) fn draw_on_plate(&self, image: &mut Image, column: usize, row: usize) {
         let size = self.plate();
         let column = column.min(image.width().saturating_sub(size[0]));
         let row = row.min(image.height().saturating_sub(size[1]));

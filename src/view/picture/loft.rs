@@ -18,7 +18,7 @@ const TUBE: u32 = 10;
 /// The axis along which sections follow each other. The first and second directions of a
 /// section are the next two axes: y, z for x; z, x for y; x, y for z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Along {
+pub(crate) enum Along {
     X,
     Y,
     Z,
@@ -36,7 +36,7 @@ impl Along {
 
 /// A rectangle with rounded corners, perpendicular to the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub(crate) struct Section {
     /// Position on the axis (m).
     pub along: f64,
     /// Its centre (m).
@@ -95,7 +95,7 @@ impl Section {
 
 /// The body through the sections, which ascend along the axis, with flat ends whose edges are
 /// rounded by `ends` (m) at the first and the last section.
-pub fn lofted(axis: Along, sections: &[Section], ends: [f64; 2]) -> Surface {
+pub(crate) fn lofted(axis: Along, sections: &[Section], ends: [f64; 2]) -> Surface {
     let (Some(first), Some(last)) = (sections.first(), sections.last()) else {
         return Surface::default();
     };
@@ -161,7 +161,7 @@ fn ring_triangles(rings: u32, around: u32) -> Vec<[u32; 3]> {
 
 /// A tube along points in a plane, rounded at both ends. `aside` (a unit vector) is
 /// perpendicular to the plane; each point has its own radius (m).
-pub fn tube(path: &[([f64; 3], f64)], aside: [f64; 3]) -> Surface {
+pub(crate) fn tube(path: &[([f64; 3], f64)], aside: [f64; 3]) -> Surface {
     let aside = Vector3::from(aside);
     let point = |i: usize| path.get(i).map(|(p, _)| Vector3::from(*p));
     let mut points = Vec::new();

@@ -30,9 +30,9 @@ pub const FREE: [f32; 4] = [0.10, 0.46, 0.16, 0.62];
 pub const BLOCKED: [f32; 4] = [0.70, 0.07, 0.05, 0.62];
 
 /// Name of the area that is free, as a body of a scene.
-pub const FREE_NAME: &str = "free";
+pub(crate) const FREE_NAME: &str = "free";
 /// Name of the area that is blocked.
-pub const BLOCKED_NAME: &str = "blocked";
+pub(crate) const BLOCKED_NAME: &str = "blocked";
 
 /// A grid of squares where the base can stand or cannot.
 #[derive(Clone, Debug, PartialEq, Eq)]

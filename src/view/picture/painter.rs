@@ -13,7 +13,7 @@ use super::scene::{Body, Finish, Scene};
 use super::shade::{Color, Foreknown, Lights, Reach, Shading, background, unit};
 
 /// Edge length (pixels) of the largest squares that are coloured at once.
-pub const TILE: usize = 32;
+pub(crate) const TILE: usize = 32;
 
 /// Edge length (pixels) of the squares that are coloured pixel by pixel.
 const LEAST_TILE: usize = 8;
@@ -73,17 +73,17 @@ struct Known {
 }
 
 /// A band of rows while it is drawn.
-pub struct Band<'a> {
+pub(crate) struct Band<'a> {
     /// Its first row of pixels in the picture.
     pub first: usize,
     /// The faces seen at its samples, row by row.
-    pub samples: &'a [u32],
+    pub(crate) samples: &'a [u32],
     /// Its pixels, which cover the same rows.
     pub pixels: &'a mut [Rgb],
 }
 
 /// What is needed to draw a picture.
-pub struct Painter<'a> {
+pub(crate) struct Painter<'a> {
     scene: &'a Scene,
     lights: &'a Lights,
     projector: &'a Projector,

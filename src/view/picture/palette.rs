@@ -10,7 +10,7 @@ const BITS: u32 = 5;
 const CELLS: usize = 1 << (3 * BITS);
 
 /// A few colours that stand for many.
-pub struct Palette {
+pub(crate) struct Palette {
     colors: Vec<Rgb>,
     /// For each cell of the colour cube, the index of its colour.
     nearest: Vec<u8>,

@@ -7,20 +7,20 @@ use super::raster::{Corner, Patch, twice_area};
 use robotics::perception::camera::Camera;
 
 /// Samples per pixel, along rows and columns.
-pub const SAMPLES: usize = 2;
+pub(crate) const SAMPLES: usize = 2;
 
 /// A triangle, or the part of it in front of the camera, in the grid of samples.
 pub struct Seen {
-    pub patch: Patch,
+    pub(crate) patch: Patch,
     /// What gives the weight of each corner at a column and row of the grid: factors of these,
     /// and what is added.
     weights: [[f64; 3]; 3],
     points: [Vector3<f32>; 3],
     normals: [Vector3<f32>; 3],
     /// Whether the normal is the same everywhere.
-    pub is_flat: bool,
+    pub(crate) is_flat: bool,
     /// Index of the first of the triangles next to one another in this plane, this one among them.
-    pub face: u32,
+    pub(crate) face: u32,
     /// Unit vector away from the solid.
     outward: Vector3<f32>,
     pub body: usize,
@@ -75,7 +75,7 @@ impl Seen {
     }
 
     /// The plane of a flat triangle.
-    pub fn plane(&self) -> Plane {
+    pub(crate) fn plane(&self) -> Plane {
         let factors = |i: usize| {
             let sum = self.weights.iter().map(|weights| weights[i]).sum();
             let points = self.points.iter().zip(self.weights);
@@ -90,7 +90,7 @@ impl Seen {
 }
 
 /// A plane as a camera sees it.
-pub struct Plane {
+pub(crate) struct Plane {
     /// What gives positions, times a nearness, and this nearness at a column and row of the grid:
     /// factors of these, and what is added.
     factors: [(Vector3<f64>, f64); 3],
@@ -118,12 +118,12 @@ struct Vertex {
 }
 
 /// Projects onto the grid of samples of a camera's picture.
-pub struct Projector {
+pub(crate) struct Projector {
     pub eye: Vector3<f64>,
     to_camera: Matrix3<f64>,
     near: f64,
     /// Distance of the picture plane (samples).
-    pub focal: f64,
+    pub(crate) focal: f64,
     pub width: usize,
     pub height: usize,
 }
@@ -142,14 +142,14 @@ impl Projector {
     }
 
     /// Direction (map frame, not normalised) in which the place of the grid looks.
-    pub fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
+    pub(crate) fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
         let across = (x - self.width as f64 / 2.0) / self.focal;
         let down = (y - self.height as f64 / 2.0) / self.focal;
         self.to_camera.tr_mul(&Vector3::new(across, down, 1.0))
     }
 
     /// The parts of the triangles that may be visible, in order.
-    pub fn project(&self, mesh: Mesh<'_>) -> Vec<Seen> {
+    pub(crate) fn project(&self, mesh: Mesh<'_>) -> Vec<Seen> {
         let camera = |corner: &facet::Corner| self.to_camera * (corner.point - self.eye);
         let places: Vec<_> = mesh.corners.iter().map(camera).collect();
         let mut seen = Vec::with_capacity(mesh.facets.len() / 2);

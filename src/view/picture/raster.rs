@@ -33,7 +33,7 @@ impl Line {
 
 /// A triangle that is ready to be filled row by row.
 #[derive(Clone, Debug)]
-pub struct Patch {
+pub(crate) struct Patch {
     rows: Range<usize>,
     left: [Line; 2],
     right: [Line; 2],
@@ -106,7 +106,7 @@ impl Patch {
     }
 
     /// Nearness at a place, and its change per column.
-    pub fn nearness(&self, column: usize, row: usize) -> (f32, f32) {
+    pub(crate) fn nearness(&self, column: usize, row: usize) -> (f32, f32) {
         let [per_column, per_row, base] = self.nearness;
         let here = base + per_column * (column as f64 + 0.5) + per_row * (row as f64 + 0.5);
         (here as f32, per_column as f32)
@@ -123,7 +123,7 @@ pub fn first_place(value: f64) -> usize {
 }
 
 /// Twice the signed area of the triangle.
-pub fn twice_area(a: Corner, b: Corner, c: Corner) -> f64 {
+pub(crate) fn twice_area(a: Corner, b: Corner, c: Corner) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 

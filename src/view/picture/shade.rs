@@ -10,10 +10,10 @@ use super::scene::{Body, Finish};
 use spatial::trig;
 
 /// Linear red, green and blue; 1 is white paper in full light.
-pub type Color = [f32; 3];
+pub(crate) type Color = [f32; 3];
 
 /// Direction towards the lamp.
-pub const LAMP: [f64; 3] = [-0.55, -0.42, 1.25];
+pub(crate) const LAMP: [f64; 3] = [-0.55, -0.42, 1.25];
 const KEY_COLOR: Color = [0.80, 0.74, 0.65];
 /// Most cells along its shadow map, for each row of the picture and in all, and the least distance
 /// between them (m). About as fine as the pixels: what is finer takes time and is not seen.
@@ -42,7 +42,7 @@ const ZENITH: Color = [0.36, 0.44, 0.55];
 
 /// The light that reaches a place.
 #[derive(Clone, Copy, Debug)]
-pub struct Reach {
+pub(crate) struct Reach {
     /// Share (0..1) of the sky's light.
     open: f32,
     /// Share (0 or 1) of the lamp's light, if it is the same all around.
@@ -51,14 +51,14 @@ pub struct Reach {
 
 impl Reach {
     /// Whether the light of the lamp is the same all around.
-    pub fn is_even(&self) -> bool {
+    pub(crate) fn is_even(&self) -> bool {
         self.key.is_some()
     }
 }
 
 /// What is known of the light on a piece of a surface before any place on it is looked at.
 #[derive(Clone, Copy, Debug)]
-pub struct Foreknown {
+pub(crate) struct Foreknown {
     /// The light of those lights of the sky that reach all of it, or nothing.
     open: f32,
     /// The other lights of the sky, as bits.
@@ -76,7 +76,7 @@ impl Foreknown {
 
 /// How the light at a place makes the colour of what is there.
 #[derive(Clone, Copy, Debug)]
-pub struct Shading {
+pub(crate) struct Shading {
     /// What is scattered, if the surface is white.
     light: Color,
     /// What is reflected of the lamp's light.
@@ -104,7 +104,7 @@ impl Shading {
 }
 
 /// All lights of a scene.
-pub struct Lights {
+pub(crate) struct Lights {
     key: Lamp,
     sky: Vec<Lamp>,
     /// The light of the whole sky on the floor.
@@ -137,7 +137,7 @@ impl Lights {
     }
 
     /// One lamp of the plans, for a picture that shows these points.
-    pub fn lamp(plan: LampPlan, facets: &Facets, seen: &[Vector3<f32>]) -> Lamp {
+    pub(crate) fn lamp(plan: LampPlan, facets: &Facets, seen: &[Vector3<f32>]) -> Lamp {
         let blocking = match plan.is_sky {
             true => facets.large(),
             false => facets.solid(),
@@ -155,7 +155,7 @@ impl Lights {
     }
 
     /// Nothing is known.
-    pub fn nothing_known(&self) -> Foreknown {
+    pub(crate) fn nothing_known(&self) -> Foreknown {
         Foreknown {
             open: 0.0,
             // There are less than 32 lights.
@@ -166,7 +166,7 @@ impl Lights {
 
     /// What is known of the light on the flat piece of a surface with these corners and this unit
     /// normal, given what is known of a larger piece.
-    pub fn foreknown(
+    pub(crate) fn foreknown(
         &self,
         corners: &[Vector3<f32>; 4],
         normal: &Vector3<f32>,
@@ -216,7 +216,12 @@ impl Lights {
     }
 
     /// Whether a surface reflects the lamp visibly to the eye, at a point (m, map frame) of it.
-    pub fn shines(&self, finish: Finish, normal: &Vector3<f32>, view: &Vector3<f32>) -> bool {
+    pub(crate) fn shines(
+        &self,
+        finish: Finish,
+        normal: &Vector3<f32>,
+        view: &Vector3<f32>,
+    ) -> bool {
         self.gloss(finish, normal, view) > FAINT
     }
 
@@ -235,7 +240,7 @@ impl Lights {
     }
 
     /// How the light at a point of the body, with this normal, makes its colour.
-    pub fn shading(
+    pub(crate) fn shading(
         &self,
         body: &Body,
         [point, normal]: [&Vector3<f32>; 2],

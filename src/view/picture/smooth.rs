@@ -12,7 +12,7 @@ const EDGE: f64 = 0.62;
 const SAME: f64 = 1e-9;
 
 /// The surface of the triangles (indices into `points`); those without area are omitted.
-pub fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surface {
+pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surface {
     let point = |i: u32| points.get(i as usize).copied();
     let known: Vec<_> = triangles
         .iter()

@@ -46,7 +46,7 @@ impl Surface {
     }
 
     /// A horizontal square around the origin, facing up; `half` is half its edge length (m).
-    pub fn ground(half: f64) -> Self {
+    pub(crate) fn ground(half: f64) -> Self {
         let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
         let corner = |[x, y]: [f64; 2]| Corner {
             point: Point3::new(x, y, 0.0),
@@ -60,7 +60,7 @@ impl Surface {
 
     /// Adds a horizontal convex polygon that faces up, at a height (m); its corners (m) are in
     /// counter-clockwise order seen from above.
-    pub fn add_flat(&mut self, corners: &[[f64; 2]], height: f64) {
+    pub(crate) fn add_flat(&mut self, corners: &[[f64; 2]], height: f64) {
         // A surface of four billion corners does not fit into memory.
         let first = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
         self.corners.extend(corners.iter().map(|[x, y]| Corner {
@@ -157,7 +157,7 @@ impl Surface {
     /// The surface of revolution of a line about the z axis. The line is given by its points,
     /// as distances from the axis and heights (m); the solid is to the left of it as it
     /// ascends.
-    pub fn lathed(line: &[[f64; 2]]) -> Self {
+    pub(crate) fn lathed(line: &[[f64; 2]]) -> Self {
         let pieces: Vec<_> = line
             .windows(2)
             .filter_map(|pair| {
@@ -236,7 +236,7 @@ impl Profile {
 #[cfg(test)]
 impl Surface {
     /// Volume (m³) enclosed by the surface; positive only if the triangles face outwards.
-    pub fn volume(&self) -> f64 {
+    pub(crate) fn volume(&self) -> f64 {
         let corner = |i: u32| self.corners[i as usize].point.coords;
         let six: f64 = self
             .triangles

@@ -69,8 +69,8 @@ pub enum ViewError {
 
 /// Position of the eye of [`View::Follow`], and of the point it looks at (m, relative to the
 /// robot's base but along the axes of the map): it never turns.
-pub const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
-pub const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
+pub(crate) const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
+pub(crate) const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
 
 /// Height (m) of the eye of [`View::Map`]: from so far away, nothing looks nearer than the
 /// floor.

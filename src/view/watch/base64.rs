@@ -22,7 +22,7 @@ pub fn base64(bytes: &[u8]) -> String {
 }
 
 /// The bytes of a text; `None` if it is not base64 with padding.
-pub fn from_base64(text: &str) -> Option<Vec<u8>> {
+pub(crate) fn from_base64(text: &str) -> Option<Vec<u8>> {
     let digit = |byte: u8| {
         let place = DIGITS.iter().position(|digit| *digit == byte)?;
         u32::try_from(place).ok()

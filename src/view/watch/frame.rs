@@ -56,7 +56,7 @@ impl Placed {
 
 impl Placed {
     /// The same pose as seen from another one.
-    pub fn seen_from(&self, other: &Placed) -> Placed {
+    pub(crate) fn seen_from(&self, other: &Placed) -> Placed {
         Placed::new(self.node, &(other.pose().inverse() * self.pose()))
     }
 
@@ -119,7 +119,7 @@ pub struct Path {
 
 impl Path {
     /// What can have a path.
-    pub const WHAT: [&'static str; 3] = ["base", "left", "right"];
+    pub(crate) const WHAT: [&'static str; 3] = ["base", "left", "right"];
 }
 
 impl Frame {

@@ -140,7 +140,7 @@ impl FrameBuilder {
     }
 
     /// The names of the joints in [`Frame::joints`].
-    pub fn joint_names(&self, world: &World) -> Vec<String> {
+    pub(crate) fn joint_names(&self, world: &World) -> Vec<String> {
         let models = world.models();
         let robot = self.joints.iter().map(|id| &models.robot.joint(*id).name);
         let kitchen = self.kitchen_joints.iter();

@@ -19,7 +19,8 @@ pub use base64::base64;
 pub use frame::{Frame, Hit, Hold, Path, Placed, Press};
 pub use frame_builder::FrameBuilder;
 pub use halt::{Halt, HaltKind};
-pub use node::{Kind, Node, Vertex, VisualMesh};
+pub(crate) use node::Vertex;
+pub use node::{Kind, Node, VisualMesh};
 pub use watch_event::{About, TaskId, TaskNews, TaskState, WatchEvent};
 
 use std::sync::Arc;
@@ -30,7 +31,7 @@ use robotics::world::{CollisionHit, World};
 use spatial::Pose;
 
 /// Length (m) of the arrow for a force of 1 N.
-pub const FORCE_SCALE: f32 = 0.02;
+pub(crate) const FORCE_SCALE: f32 = 0.02;
 
 /// The world as it is now, and what is shown with it.
 #[derive(Clone, Copy)]

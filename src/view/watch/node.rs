@@ -55,7 +55,7 @@ pub struct Node {
 
 /// A corner of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
+pub(crate) struct Vertex {
     /// Position (m).
     pub at: [f32; 3],
     /// Unit normal.
@@ -63,14 +63,14 @@ pub struct Vertex {
     /// Linear colour, red green blue alpha in 0..1.
     pub color: [f32; 4],
     /// How clearly it reflects the lamp, 0..1.
-    pub gloss: f32,
+    pub(crate) gloss: f32,
 }
 
 /// A coloured mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VisualMesh {
     /// Corners.
-    pub vertices: Vec<Vertex>,
+    pub(crate) vertices: Vec<Vertex>,
     /// Triangles as indices into `vertices`, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }

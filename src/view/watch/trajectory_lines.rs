@@ -14,7 +14,7 @@ const MOST_POINTS: usize = 90;
 const ABOVE_FLOOR: f32 = 0.015;
 
 /// A planned trajectory as polylines.
-pub struct TrajectoryLines {
+pub(crate) struct TrajectoryLines {
     number: u64,
     duration: f64,
     end: Vec<f64>,

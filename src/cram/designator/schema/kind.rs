@@ -86,7 +86,7 @@ impl Kind {
     }
 
     /// The name of a kind that was probably meant.
-    pub fn nearest_name(name: &str) -> Option<&'static str> {
+    pub(crate) fn nearest_name(name: &str) -> Option<&'static str> {
         closest_name(name, Kind::names())
     }
 

@@ -13,7 +13,8 @@ mod types;
 pub use described::{LOCATION_KEYS, OBJECT_KEYS};
 pub use kind::Kind;
 pub use row::{Key, Text, TypeRow};
-pub use types::{all, define, install, is_type, nearest_type, rows};
+pub(crate) use types::nearest_type;
+pub use types::{all, define, install, is_type, rows};
 
 /// Keys that every designator of a class takes, in addition to those of its type.
-pub const COMMON_KEYS: &[&str] = &["TYPE", "GOAL", "FOR", "DESCRIPTION"];
+pub(crate) const COMMON_KEYS: &[&str] = &["TYPE", "GOAL", "FOR", "DESCRIPTION"];

@@ -83,12 +83,12 @@ impl TypeRow {
     }
 
     /// All key names, with aliases.
-    pub fn key_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn key_names(&self) -> impl Iterator<Item = &str> {
         self.keys.iter().flat_map(Key::names)
     }
 
     /// What is required but missing, as shown to users: a key, or one of several.
-    pub fn lacking(&self, is_there: impl Fn(&str) -> bool) -> Option<String> {
+    pub(crate) fn lacking(&self, is_there: impl Fn(&str) -> bool) -> Option<String> {
         let is_given = |key: &Key| key.names().any(&is_there);
         if let Some(key) = self.keys.iter().find(|k| k.is_required && !is_given(k)) {
             let meaning = match &*key.doc {

@@ -69,7 +69,7 @@ pub fn is_type(image: &Image, class: Class, name: &str) -> bool {
 }
 
 /// The name of a type that was probably meant.
-pub fn nearest_type(image: &Image, class: Class, name: &str) -> Option<String> {
+pub(crate) fn nearest_type(image: &Image, class: Class, name: &str) -> Option<String> {
     let rows = all(image, class);
     let mut names: Vec<&str> = Vec::new();
     for known in rows.iter().flat_map(|row| row.names()) {

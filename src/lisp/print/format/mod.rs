@@ -58,7 +58,7 @@ impl Control {
 
     /// What the control string makes of the arguments, perhaps as a part of a document, and the
     /// arguments that it leaves.
-    pub fn run_for_rest(
+    pub(crate) fn run_for_rest(
         &self,
         image: &Image,
         args: &[Value],
@@ -74,7 +74,7 @@ impl Control {
     }
 
     /// The same as a part of a document, whose lines will break.
-    pub fn run_in_document(
+    pub(crate) fn run_in_document(
         &self,
         image: &Image,
         args: &[Value],
@@ -88,7 +88,7 @@ impl Control {
 
 /// The text that a control string makes of the arguments; objects that need Lisp code print in
 /// their default form.
-pub fn format_to_string(
+pub(crate) fn format_to_string(
     image: &Image,
     control: &str,
     args: &[Value],

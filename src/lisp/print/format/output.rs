@@ -31,7 +31,7 @@ impl Output {
         }
     }
 
-    pub fn into_document(self) -> Document {
+    pub(crate) fn into_document(self) -> Document {
         self.document.unwrap_or_else(|| Document::new(false))
     }
 
@@ -99,7 +99,7 @@ impl Output {
         }
     }
 
-    pub fn into_text(self) -> String {
+    pub(crate) fn into_text(self) -> String {
         self.text
     }
 }

@@ -87,7 +87,7 @@ fn address<T>(object: &Rc<T>) -> usize {
 }
 
 /// Can the value never change, nor anything that it refers to?
-pub fn is_fixed(value: &Value) -> bool {
+pub(crate) fn is_fixed(value: &Value) -> bool {
     match value {
         Value::Symbol(_, hold) => hold.is_none(),
         Value::Int(_)
@@ -129,7 +129,7 @@ impl Copier {
 
     /// The copy of an object that has an address, if a copy has been asked for and the object may be
     /// known by its address.
-    pub fn copy_at(&self, address: usize) -> Option<&Value> {
+    pub(crate) fn copy_at(&self, address: usize) -> Option<&Value> {
         self.copies.get(&address)
     }
 

@@ -149,7 +149,7 @@ fn sub_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(* a b)`.
 #[inline]
-pub fn mul(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn mul(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_mul(*y) {
             Some(product) => Ok(Value::Int(product)),
@@ -199,7 +199,7 @@ fn div_slowly(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(- a)`.
-pub fn negate(a: &Value) -> NumberResult {
+pub(crate) fn negate(a: &Value) -> NumberResult {
     match a {
         // Zero minus zero would lose the sign of a float.
         Value::Double(x) => Ok(Value::Double(-x)),
@@ -210,13 +210,13 @@ pub fn negate(a: &Value) -> NumberResult {
 
 /// `(1+ a)`.
 #[inline]
-pub fn increment(a: &Value) -> NumberResult {
+pub(crate) fn increment(a: &Value) -> NumberResult {
     add(a, &Value::Int(1))
 }
 
 /// `(1- a)`.
 #[inline]
-pub fn decrement(a: &Value) -> NumberResult {
+pub(crate) fn decrement(a: &Value) -> NumberResult {
     sub(a, &Value::Int(1))
 }
 
@@ -237,7 +237,7 @@ pub fn abs(a: &Value) -> NumberResult {
 }
 
 /// `(signum a)`: -1, 0 or 1 in the type of the number.
-pub fn signum(a: &Value) -> NumberResult {
+pub(crate) fn signum(a: &Value) -> NumberResult {
     match a {
         Value::Double(x) if *x == 0.0 => Ok(a.clone()),
         Value::Double(x) => Ok(Value::Double(x.signum())),

@@ -12,7 +12,7 @@ use crate::value::raise::Raise;
 
 /// `(byte size position)`: a run of bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct ByteSpecifier {
+pub(crate) struct ByteSpecifier {
     /// Number of bits.
     pub size: u32,
     /// Number of bits below.
@@ -53,7 +53,7 @@ pub fn not(a: &Value) -> NumberResult {
 }
 
 /// `(ash a count)`: shifted to the left, or to the right if negative.
-pub fn ash(a: &Value, count: &Value) -> NumberResult {
+pub(crate) fn ash(a: &Value, count: &Value) -> NumberResult {
     let n = big(a)?;
     let count = match count {
         Value::Int(count) => *count,
@@ -78,14 +78,14 @@ pub fn ash(a: &Value, count: &Value) -> NumberResult {
 }
 
 /// `(integer-length a)`.
-pub fn bit_length(a: &Value) -> NumberResult {
+pub(crate) fn bit_length(a: &Value) -> NumberResult {
     let n = big(a)?;
     let n = if n.is_negative() { !n } else { n };
     Ok(Value::Int(i64::try_from(n.bits()).unwrap_or(i64::MAX)))
 }
 
 /// `(logcount a)`: the bits that differ from the sign.
-pub fn bit_count(a: &Value) -> NumberResult {
+pub(crate) fn bit_count(a: &Value) -> NumberResult {
     let n = big(a)?;
     let n = if n.is_negative() { !n } else { n };
     Ok(Value::Int(
@@ -94,7 +94,7 @@ pub fn bit_count(a: &Value) -> NumberResult {
 }
 
 /// `(logbitp index a)`.
-pub fn is_bit_set(index: &Value, a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_bit_set(index: &Value, a: &Value) -> Result<bool, Box<Raise>> {
     let n = big(a)?;
     match index {
         Value::Int(i) if *i >= 0 => Ok(n.bit(i.unsigned_abs())),
@@ -108,7 +108,7 @@ fn mask(size: u32) -> BigInt {
 }
 
 /// `(ldb byte a)`.
-pub fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
+pub(crate) fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
     let n = big(a)?;
     if let (Some(small), true) = (n.to_i64(), byte.size < 63) {
         let shifted = small >> byte.position.min(63);
@@ -121,7 +121,7 @@ pub fn extract(byte: ByteSpecifier, a: &Value) -> NumberResult {
 }
 
 /// `(dpb new byte a)`.
-pub fn deposit(new: &Value, byte: ByteSpecifier, a: &Value) -> NumberResult {
+pub(crate) fn deposit(new: &Value, byte: ByteSpecifier, a: &Value) -> NumberResult {
     let (new, n) = (big(new)?, big(a)?);
     if u64::from(byte.size) + u64::from(byte.position) > MAX_BITS {
         return Err(too_large("DPB"));

@@ -73,7 +73,7 @@ fn compare_rationals(a: &Value, b: &Value) -> Option<Ordering> {
 }
 
 /// Are two numbers of whatever types equal in value? False unless both are numbers.
-pub fn equal_by_value(a: &Value, b: &Value) -> bool {
+pub(crate) fn equal_by_value(a: &Value, b: &Value) -> bool {
     is_number(a) && is_number(b) && matches!(number_equal(a, b), Ok(true))
 }
 
@@ -139,7 +139,11 @@ pub fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// Do two numbers compare like that?
 #[inline(always)]
-pub fn compare_like(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn compare_like(
+    comparison: Comparison,
+    a: &Value,
+    b: &Value,
+) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(comparison.holds(*x, *y)),
         _ => compare_any(comparison, a, b),
@@ -163,7 +167,7 @@ pub fn maximum(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// The smaller of two numbers, unconverted; the first if they are equal.
-pub fn minimum(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn minimum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(b, a)? { b.clone() } else { a.clone() })
 }
 
@@ -180,17 +184,17 @@ pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
 }
 
 /// `(plusp a)`.
-pub fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
     greater(a, &Value::Int(0))
 }
 
 /// `(minusp a)`.
-pub fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
     less(a, &Value::Int(0))
 }
 
 /// `(evenp a)`.
-pub fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(n % 2 == 0),
         Value::Big(n) => Ok(n.is_even()),

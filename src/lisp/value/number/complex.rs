@@ -20,7 +20,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// A complex number.
-pub struct Complex {
+pub(crate) struct Complex {
     /// The real part.
     re: Value,
     /// The imaginary part.
@@ -49,12 +49,12 @@ impl Foreign for Complex {
 }
 
 /// Is this a complex number that is not real?
-pub fn is_complex(value: &Value) -> bool {
+pub(crate) fn is_complex(value: &Value) -> bool {
     value.as_foreign::<Complex>().is_some()
 }
 
 /// `(complex re im)`: a real number if both parts are rational and the second is zero.
-pub fn complex(re: &Value, im: &Value) -> NumberResult {
+pub(crate) fn complex(re: &Value, im: &Value) -> NumberResult {
     for part in [re, im] {
         if !is_real(part) {
             return Err(not_real(part));
@@ -83,12 +83,12 @@ pub fn complex(re: &Value, im: &Value) -> NumberResult {
 }
 
 /// `(realpart z)`.
-pub fn real_part(value: &Value) -> NumberResult {
+pub(crate) fn real_part(value: &Value) -> NumberResult {
     parts(value).map(|(re, _)| re)
 }
 
 /// `(imagpart z)`.
-pub fn imaginary_part(value: &Value) -> NumberResult {
+pub(crate) fn imaginary_part(value: &Value) -> NumberResult {
     parts(value).map(|(_, im)| im)
 }
 
@@ -137,7 +137,7 @@ fn divide(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(conjugate z)`.
-pub fn conjugate(value: &Value) -> NumberResult {
+pub(crate) fn conjugate(value: &Value) -> NumberResult {
     match value.as_foreign::<Complex>() {
         Some(z) => complex(&z.re, &negate(&z.im)?),
         None if is_real(value) => Ok(value.clone()),
@@ -167,24 +167,24 @@ pub(super) fn float(re: f64, im: f64, is_double: bool) -> NumberResult {
 }
 
 /// The magnitude of a complex number.
-pub fn magnitude(value: &Value) -> NumberResult {
+pub(crate) fn magnitude(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     finite(libm::hypot(re, im), is_double, known::SQRT, &[value])
 }
 
 /// `(phase z)`: the angle (rad) of the number in the plane.
-pub fn phase(value: &Value) -> NumberResult {
+pub(crate) fn phase(value: &Value) -> NumberResult {
     let (re, im) = parts(value)?;
     atan2(&im, &re)
 }
 
 /// `(cis angle)`: the number of magnitude one at an angle (rad).
-pub fn cis(angle: &Value) -> NumberResult {
+pub(crate) fn cis(angle: &Value) -> NumberResult {
     complex(&cos(angle)?, &sin(angle)?)
 }
 
 /// The square root of a negative or complex number: that in the right half of the plane.
-pub fn square_root(value: &Value) -> NumberResult {
+pub(crate) fn square_root(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     let im = if is_complex(value) { im } else { 0.0 };
     // Numbers whose magnitude would overflow are made smaller by a square.
@@ -206,20 +206,20 @@ pub fn square_root(value: &Value) -> NumberResult {
 }
 
 /// The natural logarithm of a negative or complex number.
-pub fn logarithm(value: &Value) -> NumberResult {
+pub(crate) fn logarithm(value: &Value) -> NumberResult {
     let (re, im, is_double) = as_doubles(value)?;
     let angle = libm::atan2(if is_complex(value) { im } else { 0.0 }, re);
     float(libm::log(libm::hypot(re, im)), angle, is_double)
 }
 
 /// e to the power of a complex number.
-pub fn exponential(value: &Value) -> NumberResult {
+pub(crate) fn exponential(value: &Value) -> NumberResult {
     let (re, im) = parts(value)?;
     mul(&exp(&re)?, &cis(&im)?)
 }
 
 /// A power with a complex base or exponent, or a fractional power of a negative number.
-pub fn power(base: &Value, exponent: &Value) -> NumberResult {
+pub(crate) fn power(base: &Value, exponent: &Value) -> NumberResult {
     if is_integer(exponent) && is_exact(base) {
         return exact_power(base, exponent);
     }

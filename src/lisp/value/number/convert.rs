@@ -13,7 +13,7 @@ use crate::value::Value;
 use crate::value::known;
 
 /// An integer as a value: immediate if it fits 64 bits.
-pub fn from_big(n: BigInt) -> Value {
+pub(crate) fn from_big(n: BigInt) -> Value {
     match n.to_i64() {
         Some(small) => Value::Int(small),
         None => Value::Big(Rc::new(n)),
@@ -41,7 +41,7 @@ pub fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
 }
 
 /// The integer as a big one; `None` if the value is not an integer.
-pub fn to_big(value: &Value) -> Option<BigInt> {
+pub(crate) fn to_big(value: &Value) -> Option<BigInt> {
     match value {
         Value::Int(n) => Some(BigInt::from(*n)),
         Value::Big(n) => Some(n.as_ref().clone()),
@@ -60,12 +60,12 @@ pub fn is_real(value: &Value) -> bool {
 }
 
 /// Is this an integer or a ratio?
-pub fn is_rational(value: &Value) -> bool {
+pub(crate) fn is_rational(value: &Value) -> bool {
     is_integer(value) || matches!(value, Value::Ratio(_))
 }
 
 /// Is this an integer?
-pub fn is_integer(value: &Value) -> bool {
+pub(crate) fn is_integer(value: &Value) -> bool {
     matches!(value, Value::Int(_) | Value::Big(_))
 }
 
@@ -89,7 +89,7 @@ pub fn to_f64(value: &Value) -> Option<f64> {
 
 /// The number as the nearest single float; infinite beyond the largest one; `None` if it is not a
 /// real number.
-pub fn to_f32(value: &Value) -> Option<f32> {
+pub(crate) fn to_f32(value: &Value) -> Option<f32> {
     match value {
         Value::Int(n) => Some(*n as f32),
         Value::Big(n) => n.to_f32(),
@@ -157,7 +157,7 @@ fn fraction_to_f64(numerator: &BigInt, denominator: &BigInt, bits: u32, lowest: 
 }
 
 /// `(coerce x 'single-float)`.
-pub fn to_single(value: &Value) -> NumberResult {
+pub(crate) fn to_single(value: &Value) -> NumberResult {
     let x = to_f32(value).ok_or_else(|| not_real(value))?;
     if x.is_infinite() && to_f64(value).is_some_and(f64::is_finite)
         || x.is_infinite() && is_rational(value)
@@ -168,7 +168,7 @@ pub fn to_single(value: &Value) -> NumberResult {
 }
 
 /// `(coerce x 'double-float)`.
-pub fn to_double(value: &Value) -> NumberResult {
+pub(crate) fn to_double(value: &Value) -> NumberResult {
     let x = to_f64(value).ok_or_else(|| not_real(value))?;
     if x.is_infinite() && is_rational(value) {
         return Err(overflow(known::FLOAT, &[value]));
@@ -177,7 +177,7 @@ pub fn to_double(value: &Value) -> NumberResult {
 }
 
 /// `(float x prototype)`.
-pub fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
+pub(crate) fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
     match prototype {
         Value::Double(_) => to_double(value),
         _ => to_single(value),
@@ -185,7 +185,7 @@ pub fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
 }
 
 /// `rational`: the exact value of a number.
-pub fn rational(value: &Value) -> NumberResult {
+pub(crate) fn rational(value: &Value) -> NumberResult {
     match value {
         Value::Single(x) => Ok(exact(f64::from(*x)).unwrap_or(Value::Int(0))),
         Value::Double(x) => Ok(exact(*x).unwrap_or(Value::Int(0))),
@@ -201,7 +201,7 @@ pub fn exact(x: f64) -> Option<Value> {
 }
 
 /// A finite float as a fraction whose denominator is a power of two.
-pub fn exact_fraction(x: f64) -> Option<(BigInt, BigInt)> {
+pub(crate) fn exact_fraction(x: f64) -> Option<(BigInt, BigInt)> {
     if !x.is_finite() {
         return None;
     }
@@ -216,7 +216,7 @@ pub fn exact_fraction(x: f64) -> Option<(BigInt, BigInt)> {
 }
 
 /// Numerator and denominator of an exact number.
-pub fn fraction_of(value: &Value) -> Option<(BigInt, BigInt)> {
+pub(crate) fn fraction_of(value: &Value) -> Option<(BigInt, BigInt)> {
     match value {
         Value::Ratio(r) => Some((r.numerator.clone(), r.denominator.clone())),
         other => Some((to_big(other)?, BigInt::one())),
@@ -224,7 +224,7 @@ pub fn fraction_of(value: &Value) -> Option<(BigInt, BigInt)> {
 }
 
 /// `numerator`.
-pub fn numerator(value: &Value) -> NumberResult {
+pub(crate) fn numerator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.numerator.clone())),
         n if is_integer(n) => Ok(n.clone()),
@@ -236,7 +236,7 @@ pub fn numerator(value: &Value) -> NumberResult {
 }
 
 /// `denominator`.
-pub fn denominator(value: &Value) -> NumberResult {
+pub(crate) fn denominator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.denominator.clone())),
         n if is_integer(n) => Ok(Value::Int(1)),
@@ -248,7 +248,7 @@ pub fn denominator(value: &Value) -> NumberResult {
 }
 
 /// `rationalize`: the simplest exact number that is read back as the same float.
-pub fn rationalize(value: &Value) -> NumberResult {
+pub(crate) fn rationalize(value: &Value) -> NumberResult {
     let (x, is_same): (f64, fn(f64, f64) -> bool) = match value {
         Value::Single(x) => (f64::from(*x), |a, b| a as f32 == b as f32),
         Value::Double(x) => (*x, |a, b| a == b),

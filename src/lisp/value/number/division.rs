@@ -17,7 +17,7 @@ use crate::value::symbol::Sym;
 
 /// Which integer a quotient becomes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Rounding {
+pub(crate) enum Rounding {
     /// The one below or equal.
     Floor,
     /// The one above or equal.
@@ -40,7 +40,11 @@ impl Rounding {
 }
 
 /// Quotient, an integer, and remainder of `a` by `b`: `a = quotient * b + remainder`.
-pub fn divide(a: &Value, b: &Value, rounding: Rounding) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn divide(
+    a: &Value,
+    b: &Value,
+    rounding: Rounding,
+) -> Result<(Value, Value), Box<Raise>> {
     if let (Value::Int(x), Value::Int(y)) = (a, b)
         && *y != 0
         && *y != -1
@@ -198,7 +202,7 @@ fn integer_of(x: f64) -> Value {
 }
 
 /// Like [`divide`], but the quotient is a float (`ffloor` and so on).
-pub fn divide_to_float(
+pub(crate) fn divide_to_float(
     a: &Value,
     b: &Value,
     rounding: Rounding,
@@ -238,11 +242,11 @@ pub fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
 }
 
 /// `(mod a b)`.
-pub fn modulo(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn modulo(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Floor)?.1)
 }
 
 /// `(rem a b)`.
-pub fn remainder(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn remainder(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Truncate)?.1)
 }

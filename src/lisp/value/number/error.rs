@@ -6,29 +6,29 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// The result of an operation on numbers.
-pub type NumberResult = Result<Value, Box<Raise>>;
+pub(crate) type NumberResult = Result<Value, Box<Raise>>;
 
 /// `datum` is not a number.
 #[cold]
-pub fn not_a_number(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_a_number(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::NUMBER)
 }
 
 /// `datum` is not a real number.
 #[cold]
-pub fn not_real(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_real(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::REAL)
 }
 
 /// `datum` is not an integer.
 #[cold]
-pub fn not_an_integer(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_an_integer(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::INTEGER)
 }
 
 /// `datum` is not a float.
 #[cold]
-pub fn not_a_float(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_a_float(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::FLOAT)
 }
 
@@ -49,13 +49,13 @@ fn arithmetic(class: Sym, operation: Sym, operands: &[&Value]) -> Box<Raise> {
 
 /// A division by zero.
 #[cold]
-pub fn division_by_zero(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub(crate) fn division_by_zero(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::DIVISION_BY_ZERO, operation, operands)
 }
 
 /// A result too large for its float format.
 #[cold]
-pub fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub(crate) fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_OVERFLOW, operation, operands)
 }
 

@@ -36,7 +36,7 @@ pub fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
 }
 
 /// `integer-decode-float`: an integer mantissa, an exponent, and the sign as an integer.
-pub fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
+pub(crate) fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
     let x = as_double(value)?;
     let bits = if matches!(value, Value::Double(_)) {
         53
@@ -79,7 +79,7 @@ pub fn digits(value: &Value) -> NumberResult {
 }
 
 /// `float-precision`: significant bits of the mantissa.
-pub fn precision(value: &Value) -> NumberResult {
+pub(crate) fn precision(value: &Value) -> NumberResult {
     let x = as_double(value)?;
     let (full, lowest) = match value {
         Value::Double(_) => (53, -1074),
@@ -93,7 +93,7 @@ pub fn precision(value: &Value) -> NumberResult {
 }
 
 /// `(float-sign x y)`: the magnitude of y with the sign of x.
-pub fn sign_of(value: &Value, magnitude: Option<&Value>) -> NumberResult {
+pub(crate) fn sign_of(value: &Value, magnitude: Option<&Value>) -> NumberResult {
     let x = as_double(value)?;
     match magnitude {
         None => Ok(sign(value, x)),

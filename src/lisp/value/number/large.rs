@@ -22,7 +22,7 @@ const CONVERTED_AT_ONCE: u64 = 1 << 14;
 const STEPS: usize = 64;
 
 /// The product.
-pub fn multiply(a: &BigInt, b: &BigInt) -> BigInt {
+pub(crate) fn multiply(a: &BigInt, b: &BigInt) -> BigInt {
     if a.bits().min(b.bits()) <= MULTIPLIED_AT_ONCE && a.bits().max(b.bits()) <= MULTIPLIED_AT_ONCE
     {
         return a * b;
@@ -57,7 +57,7 @@ fn split(n: &BigUint, at: u64) -> (BigUint, BigUint) {
 }
 
 /// `base` to the power of `exponent`.
-pub fn power(base: &BigInt, mut exponent: u64) -> BigInt {
+pub(crate) fn power(base: &BigInt, mut exponent: u64) -> BigInt {
     let mut result = BigInt::one();
     let mut square = base.clone();
     while exponent > 0 {
@@ -73,7 +73,7 @@ pub fn power(base: &BigInt, mut exponent: u64) -> BigInt {
 }
 
 /// Quotient, rounded towards zero, and remainder. The divisor is not zero.
-pub fn divide(a: &BigInt, b: &BigInt) -> (BigInt, BigInt) {
+pub(crate) fn divide(a: &BigInt, b: &BigInt) -> (BigInt, BigInt) {
     if a.bits().saturating_sub(b.bits()).min(b.bits()) <= DIVIDED_AT_ONCE
         && a.bits() <= MULTIPLIED_AT_ONCE
     {
@@ -87,7 +87,7 @@ pub fn divide(a: &BigInt, b: &BigInt) -> (BigInt, BigInt) {
 }
 
 /// Quotient, rounded downwards, and remainder. The divisor is not zero.
-pub fn divide_down(a: &BigInt, b: &BigInt) -> (BigInt, BigInt) {
+pub(crate) fn divide_down(a: &BigInt, b: &BigInt) -> (BigInt, BigInt) {
     let (quotient, rest) = divide(a, b);
     if rest.is_zero() || rest.sign() == b.sign() {
         (quotient, rest)
@@ -166,7 +166,7 @@ fn three_by_two(
 }
 
 /// The largest integer whose square is not above `n`.
-pub fn square_root(n: &BigUint) -> BigUint {
+pub(crate) fn square_root(n: &BigUint) -> BigUint {
     if n.bits() <= CONVERTED_AT_ONCE {
         return n.sqrt();
     }
@@ -184,7 +184,7 @@ pub fn square_root(n: &BigUint) -> BigUint {
 }
 
 /// The greatest common divisor.
-pub fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
+pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     if a.bits().min(b.bits()) <= CONVERTED_AT_ONCE && a.bits().max(b.bits()) <= MULTIPLIED_AT_ONCE {
         return a.gcd(b);
     }
@@ -221,7 +221,7 @@ pub fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
 }
 
 /// The digits in a radix from 2 to 36, small letters among them, behind a minus sign if need be.
-pub fn to_text(n: &BigInt, radix: u32) -> String {
+pub(crate) fn to_text(n: &BigInt, radix: u32) -> String {
     if n.bits() <= CONVERTED_AT_ONCE {
         return n.to_str_radix(radix);
     }
@@ -283,7 +283,7 @@ fn write_digits(
 }
 
 /// The integer of digits in a radix from 2 to 36; the digits have been checked.
-pub fn from_digits(digits: &str, radix: u32) -> BigUint {
+pub(crate) fn from_digits(digits: &str, radix: u32) -> BigUint {
     let powers = powers(radix, |exponent, _| 2 * exponent >= digits.len());
     read_digits(digits.as_bytes(), radix, &powers)
 }

@@ -22,37 +22,40 @@ mod random;
 mod ratio;
 mod transcendental;
 
-pub use arithmetic::{abs, add, decrement, div, increment, mul, negate, signum, sub};
-pub use bits::{
-    ByteSpecifier, and, ash, bit_count, bit_length, deposit, extract, is_bit_set, not, or, xor,
+pub use arithmetic::{abs, add, div, sub};
+pub(crate) use arithmetic::{decrement, increment, mul, negate, signum};
+pub(crate) use bits::{
+    ByteSpecifier, ash, bit_count, bit_length, deposit, extract, is_bit_set, xor,
 };
+pub use bits::{and, not, or};
 pub use compare::{
-    compare, compare_like, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus,
-    is_zero, less, less_equal, maximum, minimum, number_equal,
+    compare, greater, greater_equal, is_zero, less, less_equal, maximum, number_equal,
 };
-pub use complex::{cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
-pub use convert::{
-    denominator, from_big, is_integer, is_number, is_rational, is_real, numerator, ratio, rational,
-    rationalize, to_big, to_double, to_f64, to_float_like, to_single,
+pub(crate) use compare::{compare_like, equal_by_value, is_even, is_minus, is_plus, minimum};
+pub(crate) use complex::{cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
+pub(crate) use convert::{
+    denominator, from_big, is_integer, is_rational, numerator, rational, rationalize, to_big,
+    to_double, to_float_like, to_single,
 };
-pub use division::{Rounding, divide, divide_to_float, modulo, remainder};
+pub use convert::{is_number, is_real, ratio, to_f64};
+pub(crate) use division::{Rounding, divide, divide_to_float, modulo, remainder};
 #[cfg(test)]
 pub use division::{ceiling, floor, round, truncate};
-pub use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
-pub use power::{expt, gcd, isqrt, lcm, sqrt};
+pub use float_parts::{decode, digits, scale};
+pub(crate) use float_parts::{integer_decode, precision, sign_of};
+pub(crate) use power::lcm;
+pub use power::{expt, gcd, isqrt, sqrt};
 #[cfg(test)]
 pub use random::random;
-pub use random::{RandomState, make_random_state, random_from};
+pub(crate) use random::{RandomState, make_random_state, random_from};
 pub use ratio::Ratio;
-pub use transcendental::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
-    tanh,
-};
+pub use transcendental::{acos, asin, atan2, cos, log, sin};
+pub(crate) use transcendental::{acosh, asinh, atan, atanh, cosh, exp, log_base, sinh, tan, tanh};
 
 /// The largest fixnum: `most-positive-fixnum`.
-pub const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;
+pub(crate) const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;
 /// The smallest fixnum: `most-negative-fixnum`.
-pub const MOST_NEGATIVE_FIXNUM: i64 = -(1 << 62);
+pub(crate) const MOST_NEGATIVE_FIXNUM: i64 = -(1 << 62);
 
 #[cfg(test)]
 mod tests;

@@ -20,11 +20,11 @@ use crate::value::known;
 use crate::value::raise::Raise;
 
 /// Integers of more bits than this (8 MB) are not computed.
-pub const MAX_BITS: u64 = 1 << 26;
+pub(crate) const MAX_BITS: u64 = 1 << 26;
 
 /// A result beyond [`MAX_BITS`].
 #[cold]
-pub fn too_large(operation: &str) -> Box<Raise> {
+pub(crate) fn too_large(operation: &str) -> Box<Raise> {
     Raise::new(
         known::HEAP_EXHAUSTED_ERROR,
         format!("The result of {operation} would have more than {MAX_BITS} bits."),
@@ -167,7 +167,7 @@ pub fn gcd(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(lcm a b)`.
-pub fn lcm(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn lcm(a: &Value, b: &Value) -> NumberResult {
     if is_zero(a).map_err(|_| not_an_integer(a))? || is_zero(b).map_err(|_| not_an_integer(b))? {
         return Ok(Value::Int(0));
     }

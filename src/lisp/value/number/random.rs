@@ -18,7 +18,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// A generator of its own, or the image's: the value of `*random-state*`.
-pub struct RandomState {
+pub(crate) struct RandomState {
     /// None for the image's generator.
     pub generator: Option<RefCell<Pcg64>>,
 }
@@ -41,7 +41,7 @@ impl Foreign for RandomState {
 
 /// `(make-random-state state)`: a generator that continues as another one would (for `NIL`, the
 /// image's) or, for `T`, unlike any other.
-pub fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
+pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
         (Value::Symbol(known::NIL, ..), _) => default.clone(),
         (Value::Symbol(known::T, ..), _) => {
@@ -60,7 +60,7 @@ pub fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
 }
 
 /// `(random limit state)`
-pub fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> NumberResult {
+pub(crate) fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> NumberResult {
     match state.as_foreign::<RandomState>() {
         Some(RandomState {
             generator: Some(generator),

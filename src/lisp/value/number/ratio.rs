@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Ratio {
     /// Numerator, with the sign.
-    pub numerator: BigInt,
+    pub(crate) numerator: BigInt,
     /// Denominator, greater than one.
-    pub denominator: BigInt,
+    pub(crate) denominator: BigInt,
 }

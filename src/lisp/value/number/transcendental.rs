@@ -65,7 +65,7 @@ functions! {
 }
 
 /// `(exp x)`.
-pub fn exp(value: &Value) -> NumberResult {
+pub(crate) fn exp(value: &Value) -> NumberResult {
     if complex::is_complex(value) {
         return complex::exponential(value);
     }
@@ -136,7 +136,7 @@ pub fn acos(value: &Value) -> NumberResult {
 }
 
 /// `(acosh x)`.
-pub fn acosh(value: &Value) -> NumberResult {
+pub(crate) fn acosh(value: &Value) -> NumberResult {
     let bounded = Bounded {
         operation: known::ACOSH,
         function: libm::acosh,
@@ -150,7 +150,7 @@ pub fn acosh(value: &Value) -> NumberResult {
 }
 
 /// `(atanh x)`.
-pub fn atanh(value: &Value) -> NumberResult {
+pub(crate) fn atanh(value: &Value) -> NumberResult {
     let bounded = Bounded {
         operation: known::ATANH,
         function: libm::atanh,
@@ -206,7 +206,7 @@ pub fn log(value: &Value) -> NumberResult {
 }
 
 /// `(log x base)`.
-pub fn log_base(value: &Value, base: &Value) -> NumberResult {
+pub(crate) fn log_base(value: &Value, base: &Value) -> NumberResult {
     if let (Value::Int(x), Value::Int(b)) = (value, base)
         && *x > 0
         && *b > 1

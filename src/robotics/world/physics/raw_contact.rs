@@ -9,7 +9,7 @@ use crate::world::solid::from_parry_vector;
 
 /// A contact of a body that carries load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RawContact {
+pub(crate) struct RawContact {
     /// Key of the other body's part.
     pub other: u64,
     /// Normal force (N), averaged over the last step.
@@ -24,7 +24,7 @@ impl Physics {
     /// Calls `visit` for every contact of the body that carried load in the last step, in the
     /// order of the body's parts: those for whose two keys, the body's own first, `counts` is true.
     /// Finding out the force takes long, that is for no other contacts.
-    pub fn visit_contacts(
+    pub(crate) fn visit_contacts(
         &self,
         body: BodyHandle,
         counts: impl Fn(u64, u64) -> bool,

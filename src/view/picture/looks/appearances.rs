@@ -20,7 +20,7 @@ const BEVEL: f64 = 0.006;
 
 /// The looks of a file.
 #[derive(Debug, Default)]
-pub struct Appearances {
+pub(crate) struct Appearances {
     colors: IndexMap<String, Color>,
     /// By type of object.
     objects: IndexMap<String, Vec<Drawn>>,
@@ -40,7 +40,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 
 impl Appearances {
     /// The looks of `world/looks.sexp`, read once.
-    pub fn built_in() -> &'static Self {
+    pub(crate) fn built_in() -> &'static Self {
         static BUILT_IN: LazyLock<Appearances> = LazyLock::new(|| {
             Appearances::from_sexp(LOOKS, "looks.sexp").expect("the built-in looks are right")
         });
@@ -63,7 +63,7 @@ impl Appearances {
     }
 
     /// The looks of an object of this type with these shapes.
-    pub fn of_object(&self, kind: &str, shapes: &[PlacedShape]) -> Vec<Look> {
+    pub(crate) fn of_object(&self, kind: &str, shapes: &[PlacedShape]) -> Vec<Look> {
         let Some(surfaces) = self.objects.get(kind) else {
             return as_described(shapes);
         };
@@ -77,13 +77,13 @@ impl Appearances {
     }
 
     /// The looks of a robot's link; `None` if it looks as its model says.
-    pub fn of_link(&self, robot: &str, link: &str) -> Option<&[Look]> {
+    pub(crate) fn of_link(&self, robot: &str, link: &str) -> Option<&[Look]> {
         let looks = self.links.get(&(robot.to_owned(), link.to_owned()));
         looks.map(Vec::as_slice)
     }
 
     /// What a piece of furniture shows in addition to its model.
-    pub fn of_furniture(&self, link: &str) -> &[Look] {
+    pub(crate) fn of_furniture(&self, link: &str) -> &[Look] {
         self.furniture.get(link).map_or(&[], Vec::as_slice)
     }
 

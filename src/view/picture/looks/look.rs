@@ -9,14 +9,14 @@ use spatial::pose::from_xyz_rpy;
 use spatial::{PlacedShape, Pose};
 
 /// A linear colour: red, green, blue, alpha.
-pub type Color = [f32; 4];
+pub(crate) type Color = [f32; 4];
 
 /// Colour of things without a colour of their own.
-pub const PLAIN: Color = [0.6, 0.6, 0.6, 1.0];
+pub(crate) const PLAIN: Color = [0.6, 0.6, 0.6, 1.0];
 
 /// A surface that a link or an object shows.
 #[derive(Clone, Debug)]
-pub struct Look {
+pub(crate) struct Look {
     pub surface: Arc<Surface>,
     /// Pose of the surface's frame in the frame of the link or object.
     pub at: Pose,
@@ -27,7 +27,7 @@ pub struct Look {
 
 impl Look {
     /// The shape itself, its edges bevelled by at most `bevel` (m).
-    pub fn of_shape(placed: &PlacedShape, bevel: f64, finish: Finish) -> Self {
+    pub(crate) fn of_shape(placed: &PlacedShape, bevel: f64, finish: Finish) -> Self {
         Self {
             surface: Arc::new(Surface::of(&placed.shape, bevel)),
             at: placed.pose,
@@ -37,7 +37,7 @@ impl Look {
     }
 
     /// A glossy surface at a pose in the frame of the link or object.
-    pub fn of_surface(surface: Arc<Surface>, at: Pose, color: Option<Color>) -> Self {
+    pub(crate) fn of_surface(surface: Arc<Surface>, at: Pose, color: Option<Color>) -> Self {
         Self {
             surface,
             at,
@@ -48,7 +48,7 @@ impl Look {
 
     /// The pose of a surface of revolution about an axis through `middle` (m; y, z for x; z, x
     /// for y; x, y for z).
-    pub fn pose_of_axis(along: Along, middle: [f64; 2]) -> Pose {
+    pub(crate) fn pose_of_axis(along: Along, middle: [f64; 2]) -> Pose {
         let quarter = std::f64::consts::FRAC_PI_2;
         let [u, v] = middle;
         match along {

@@ -114,7 +114,7 @@ impl Scene {
     }
 
     /// The appearance of a link, in the link's frame.
-    pub fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+    pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
         let kind = if is_robot {
             Kind::Robot
         } else {
@@ -124,7 +124,7 @@ impl Scene {
     }
 
     /// The appearance of an object, in its own frame.
-    pub fn of_object(object: &Object) -> Self {
+    pub(crate) fn of_object(object: &Object) -> Self {
         object_scene(object)
     }
 }

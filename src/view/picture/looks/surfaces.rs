@@ -66,7 +66,10 @@ pub fn surface(node: Node<'_>, colors: &IndexMap<String, Color>) -> Result<Drawn
 }
 
 /// A colour: its name, or red, green, blue and optionally alpha.
-pub fn color_of(node: Node<'_>, colors: &IndexMap<String, Color>) -> Result<Color, DataError> {
+pub(crate) fn color_of(
+    node: Node<'_>,
+    colors: &IndexMap<String, Color>,
+) -> Result<Color, DataError> {
     match node.symbol() {
         Ok(name) => colors.get(name).copied().ok_or_else(|| {
             let closest = closest_name(name, colors.keys().map(String::as_str));

@@ -38,7 +38,7 @@ struct Ring {
 }
 
 /// What to draw for the shapes of an object.
-pub fn parts_of(shapes: &[PlacedShape]) -> Vec<Part<'_>> {
+pub(crate) fn parts_of(shapes: &[PlacedShape]) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     let mut left = shapes;
     while let Some((first, rest)) = left.split_first() {

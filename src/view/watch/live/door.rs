@@ -18,7 +18,7 @@ const MOST_GUESTS: usize = 96;
 
 /// Who is connected.
 #[derive(Debug, Default)]
-pub struct Door {
+pub(crate) struct Door {
     strangers: Mutex<Strangers>,
     guests: AtomicUsize,
     /// Number of connections that have not ended, of those who had to leave, too.
@@ -35,7 +35,7 @@ struct Strangers {
 impl Door {
     /// Admits a stranger; the one that has been waiting longest may have to leave. Waits while
     /// those who have to leave have not left.
-    pub fn admit(self: &Arc<Self>, stream: &TcpStream) -> io::Result<Stranger> {
+    pub(crate) fn admit(self: &Arc<Self>, stream: &TcpStream) -> io::Result<Stranger> {
         while self.all.load(Ordering::Relaxed) >= 2 * MOST_STRANGERS + MOST_GUESTS {
             thread::sleep(Duration::from_millis(1));
         }
@@ -67,7 +67,7 @@ impl Door {
 
 /// A connection that has not shown the word.
 #[derive(Debug)]
-pub struct Stranger {
+pub(crate) struct Stranger {
     door: Arc<Door>,
     number: u64,
 }
@@ -98,7 +98,7 @@ impl Drop for Stranger {
 
 /// A connection that has shown the word.
 #[derive(Debug)]
-pub struct Guest(Arc<Door>);
+pub(crate) struct Guest(Arc<Door>);
 
 impl Drop for Guest {
     fn drop(&mut self) {

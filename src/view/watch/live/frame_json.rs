@@ -13,7 +13,7 @@ const METRE: f32 = 1e4;
 const UNIT: f32 = 1e5;
 
 /// The frame as a JSON object that holds the difference from the frame that the page has.
-pub fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
+pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     let mut text = String::with_capacity(4096);
     // Writing to a string cannot fail.
     let _ = write!(
@@ -84,7 +84,7 @@ pub fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
 }
 
 /// Frames in order of time as a JSON list, each as its difference from the one before.
-pub fn frames_json(frames: &[Arc<Frame>]) -> String {
+pub(crate) fn frames_json(frames: &[Arc<Frame>]) -> String {
     let mut before = None;
     let frames: Vec<String> = frames
         .iter()

@@ -63,7 +63,7 @@ pub struct ReadPosition {
 
 impl ReadPosition {
     /// Whether the last read reached the end.
-    pub fn is_read(&self) -> bool {
+    pub(crate) fn is_read(&self) -> bool {
         self.has_all
     }
 }
@@ -110,7 +110,7 @@ impl History {
     }
 
     /// Adds a news item with its simulated time (s). A halt lasts until the session is resumed.
-    pub fn add_news(&self, time: f64, event: &WatchEvent) {
+    pub(crate) fn add_news(&self, time: f64, event: &WatchEvent) {
         let (event, halt) = match event {
             WatchEvent::Output(text) => (WatchEvent::Output(shortened(text)), None),
             WatchEvent::Halted(halt) => {

@@ -16,7 +16,7 @@ const TIMEOUT: Duration = Duration::from_secs(3);
 
 /// Why a request is not served.
 #[derive(Debug, Error)]
-pub enum HttpError {
+pub(crate) enum HttpError {
     /// The client left, or was too slow.
     #[error("the client is gone: {0}")]
     Gone(#[from] io::Error),
@@ -94,7 +94,7 @@ impl Request {
 }
 
 /// Reads one request.
-pub fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError> {
+pub(crate) fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError> {
     let deadline = Instant::now() + TIMEOUT;
     stream.set_write_timeout(Some(TIMEOUT))?;
     let mut bytes = Vec::new();
@@ -165,7 +165,7 @@ pub fn answer(
 }
 
 /// Begins an answer that is an endless stream of events.
-pub fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
+pub(crate) fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
     let head = format!("HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n{ALWAYS}\r\n");
     stream.write_all(head.as_bytes())
 }

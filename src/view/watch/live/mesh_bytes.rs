@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::watch::Node;
 
 /// The meshes of the nodes, one after the other.
-pub fn mesh_bytes(nodes: &[Arc<Node>]) -> Vec<u8> {
+pub(crate) fn mesh_bytes(nodes: &[Arc<Node>]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for node in nodes {
         let mesh = &node.mesh;

@@ -65,7 +65,7 @@ impl PaceControl {
     }
 
     /// Changes the speed.
-    pub fn set_speed(&self, speed: Speed) {
+    pub(crate) fn set_speed(&self, speed: Speed) {
         self.state().speed = speed;
     }
 

@@ -48,7 +48,7 @@ pub fn page(word: &str) -> String {
 
 /// The page of a saved run, which is a JSON text without `<`. It is in a file, so the policy that
 /// the server would send is in its head: nothing from elsewhere, and no way to anywhere.
-pub fn page_of_run(run: &str) -> String {
+pub(crate) fn page_of_run(run: &str) -> String {
     let policy = format!(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
          script-src 'nonce-{WORD}'; style-src 'nonce-{WORD}'; img-src data: blob:; \

@@ -115,7 +115,7 @@ impl Shared {
     }
 
     /// Counts a viewer for as long as the result lives.
-    pub fn begin_viewing(self: &Arc<Self>) -> Viewing {
+    pub(crate) fn begin_viewing(self: &Arc<Self>) -> Viewing {
         self.viewers.fetch_add(1, Ordering::Relaxed);
         self.had_viewer.store(true, Ordering::Relaxed);
         Viewing(Arc::clone(self))
@@ -123,7 +123,7 @@ impl Shared {
 }
 
 /// A connected viewer.
-pub struct Viewing(Arc<Shared>);
+pub(crate) struct Viewing(Arc<Shared>);
 
 impl Drop for Viewing {
     fn drop(&mut self) {

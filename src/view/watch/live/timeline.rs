@@ -11,7 +11,7 @@ const MOST_BYTES: usize = 96 << 20;
 /// Frames in order of time. When they take too much memory, every other one of the older half
 /// is forgotten, so the past gets coarser with age.
 #[derive(Debug)]
-pub struct Timeline {
+pub(crate) struct Timeline {
     frames: VecDeque<Arc<Frame>>,
     bytes: usize,
     most_bytes: usize,

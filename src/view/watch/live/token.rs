@@ -7,7 +7,7 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 ///
 /// The standard library seeds each thread's hash keys from the operating system's source of
 /// randomness, so hashes under these keys are unpredictable.
-pub fn random_word() -> String {
+pub(crate) fn random_word() -> String {
     let mut word = String::new();
     for _ in 0..2 {
         let mut hasher = RandomState::new().build_hasher();

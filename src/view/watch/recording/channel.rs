@@ -4,7 +4,7 @@ use super::schema::{self, MessageType};
 
 /// A channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Channel {
+pub(crate) enum Channel {
     /// Transforms of the links and objects that can move.
     Transforms,
     /// Transforms of furniture that cannot move; written once.
@@ -87,7 +87,7 @@ impl Channel {
     }
 
     /// The channel with this topic.
-    pub fn of_topic(topic: &str) -> Option<Self> {
+    pub(crate) fn of_topic(topic: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|channel| channel.topic() == topic)

@@ -12,7 +12,7 @@ pub struct Time {
 
 impl Time {
     /// The time in nanoseconds.
-    pub fn nanoseconds(seconds: f64) -> u64 {
+    pub(crate) fn nanoseconds(seconds: f64) -> u64 {
         // The cast saturates; negative times become zero.
         (seconds * 1e9).round() as u64
     }
@@ -77,7 +77,7 @@ impl From<Quaternion> for [f32; 4] {
 
 /// `foxglove.FrameTransform`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FrameTransform {
+pub(crate) struct FrameTransform {
     pub timestamp: Time,
     pub parent_frame_id: String,
     pub child_frame_id: String,
@@ -87,20 +87,20 @@ pub struct FrameTransform {
 
 /// `foxglove.FrameTransforms`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FrameTransforms {
+pub(crate) struct FrameTransforms {
     pub transforms: Vec<FrameTransform>,
 }
 
 /// `foxglove.SceneUpdate`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SceneUpdate {
+pub(crate) struct SceneUpdate {
     pub deletions: Vec<SceneEntityDeletion>,
     pub entities: Vec<SceneEntity>,
 }
 
 /// `foxglove.SceneEntityDeletion`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneEntityDeletion {
+pub(crate) struct SceneEntityDeletion {
     pub timestamp: Time,
     /// 1 deletes everything on the topic.
     #[serde(rename = "type")]
@@ -110,7 +110,7 @@ pub struct SceneEntityDeletion {
 
 /// `foxglove.SceneEntity`. Kinds of primitives that we never write are always empty.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SceneEntity {
+pub(crate) struct SceneEntity {
     pub timestamp: Time,
     pub frame_id: String,
     pub id: String,
@@ -139,21 +139,21 @@ impl SceneEntity {
 
 /// `foxglove.KeyValuePair`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct KeyValuePair {
+pub(crate) struct KeyValuePair {
     pub key: String,
     pub value: String,
 }
 
 /// `foxglove.Pose`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PoseMessage {
+pub(crate) struct PoseMessage {
     pub position: Vector3,
     pub orientation: Quaternion,
 }
 
 /// `foxglove.Color`, in sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Color {
+pub(crate) struct Color {
     pub r: f32,
     pub g: f32,
     pub b: f32,
@@ -162,24 +162,24 @@ pub struct Color {
 
 /// `foxglove.ArrowPrimitive`: from the pose's origin along its x axis; lengths in m.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ArrowPrimitive {
+pub(crate) struct ArrowPrimitive {
     pub pose: PoseMessage,
-    pub shaft_length: f32,
-    pub shaft_diameter: f32,
-    pub head_length: f32,
-    pub head_diameter: f32,
+    pub(crate) shaft_length: f32,
+    pub(crate) shaft_diameter: f32,
+    pub(crate) head_length: f32,
+    pub(crate) head_diameter: f32,
     pub color: Color,
 }
 
 /// `foxglove.LinePrimitive`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct LinePrimitive {
+pub(crate) struct LinePrimitive {
     /// 0: a line through all points; 2: a line for each pair of points.
     #[serde(rename = "type")]
     pub kind: u8,
     pub pose: PoseMessage,
-    pub thickness: f32,
-    pub scale_invariant: bool,
+    pub(crate) thickness: f32,
+    pub(crate) scale_invariant: bool,
     pub points: Vec<Vector3>,
     pub color: Color,
     pub colors: Vec<Color>,
@@ -188,7 +188,7 @@ pub struct LinePrimitive {
 
 /// `foxglove.TriangleListPrimitive`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TriangleListPrimitive {
+pub(crate) struct TriangleListPrimitive {
     pub pose: PoseMessage,
     pub points: Vec<Vector3>,
     pub color: Color,
@@ -198,26 +198,26 @@ pub struct TriangleListPrimitive {
 
 /// `foxglove.TextPrimitive`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TextPrimitive {
+pub(crate) struct TextPrimitive {
     pub pose: PoseMessage,
-    pub billboard: bool,
+    pub(crate) billboard: bool,
     /// m, or pixels if the size does not depend on the distance.
-    pub font_size: f32,
-    pub scale_invariant: bool,
+    pub(crate) font_size: f32,
+    pub(crate) scale_invariant: bool,
     pub color: Color,
     pub text: String,
 }
 
 /// `foxglove.JointStates`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointStates {
+pub(crate) struct JointStates {
     pub timestamp: Time,
     pub joints: Vec<JointState>,
 }
 
 /// `foxglove.JointState`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointState {
+pub(crate) struct JointState {
     pub name: String,
     /// rad or m.
     pub position: f64,
@@ -228,7 +228,7 @@ pub struct JointState {
 
 /// `foxglove.CompressedImage`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CompressedImage {
+pub(crate) struct CompressedImage {
     pub timestamp: Time,
     pub frame_id: String,
     pub data: String,
@@ -238,12 +238,12 @@ pub struct CompressedImage {
 /// `foxglove.CameraCalibration`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[expect(non_snake_case, reason = "the schema names matrices so")]
-pub struct CameraCalibration {
+pub(crate) struct CameraCalibration {
     pub timestamp: Time,
     pub frame_id: String,
     pub width: u32,
     pub height: u32,
-    pub distortion_model: String,
+    pub(crate) distortion_model: String,
     pub D: Vec<f64>,
     pub K: [f64; 9],
     pub R: [f64; 9],
@@ -252,7 +252,7 @@ pub struct CameraCalibration {
 
 /// `foxglove.Log`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Log {
+pub(crate) struct Log {
     pub timestamp: Time,
     /// 0 unknown, 1 debug, 2 info, 3 warning, 4 error.
     pub level: u8,
@@ -301,7 +301,7 @@ pub struct Shown {
 /// A body that presses on an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "TouchingForm")]
-pub struct Touching {
+pub(crate) struct Touching {
     /// Frame of the body; empty for the floor.
     pub link: String,
     /// Frame of the object.
@@ -380,7 +380,7 @@ pub struct Axes {
 
 /// A planned path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PathMessage {
+pub(crate) struct PathMessage {
     /// `base`, `left` or `right`.
     pub what: String,
     pub frame_id: String,

@@ -5,10 +5,10 @@
 //! JSON of [`super::message`].
 
 /// A type of messages.
-pub struct MessageType {
+pub(crate) struct MessageType {
     /// Its full name, as in `foxglove.Pose`.
     pub name: &'static str,
-    pub fields: &'static [Field],
+    pub(crate) fields: &'static [Field],
     /// The enumeration that it defines.
     pub names: Option<&'static Names>,
 }
@@ -21,7 +21,7 @@ pub struct Names {
 }
 
 /// A field of a message.
-pub struct Field {
+pub(crate) struct Field {
     pub name: &'static str,
     /// Its name in JSON, if that is another one.
     pub json: &'static str,
@@ -47,7 +47,7 @@ pub enum Kind {
 
 /// How often a field occurs.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Count {
+pub(crate) enum Count {
     One,
     /// Whether it is there matters.
     Optional,
@@ -179,7 +179,7 @@ static FRAME_TRANSFORM: MessageType = message(
 );
 
 /// Transforms between frames.
-pub static FRAME_TRANSFORMS: MessageType = message(
+pub(crate) static FRAME_TRANSFORMS: MessageType = message(
     "foxglove.FrameTransforms",
     &[many(1, "transforms", Kind::Message(&FRAME_TRANSFORM))],
 );
@@ -321,7 +321,7 @@ static SCENE_ENTITY_DELETION: MessageType = MessageType {
 };
 
 /// Bodies, lines and texts.
-pub static SCENE_UPDATE: MessageType = message(
+pub(crate) static SCENE_UPDATE: MessageType = message(
     "foxglove.SceneUpdate",
     &[
         many(1, "deletions", Kind::Message(&SCENE_ENTITY_DELETION)),
@@ -341,7 +341,7 @@ static JOINT_STATE: MessageType = message(
 );
 
 /// Positions and velocities of joints.
-pub static JOINT_STATES: MessageType = message(
+pub(crate) static JOINT_STATES: MessageType = message(
     "foxglove.JointStates",
     &[
         one(1, "timestamp", TIME),
@@ -350,7 +350,7 @@ pub static JOINT_STATES: MessageType = message(
 );
 
 /// A picture.
-pub static COMPRESSED_IMAGE: MessageType = message(
+pub(crate) static COMPRESSED_IMAGE: MessageType = message(
     "foxglove.CompressedImage",
     &[
         one(1, "timestamp", TIME),
@@ -361,7 +361,7 @@ pub static COMPRESSED_IMAGE: MessageType = message(
 );
 
 /// The calibration of a camera.
-pub static CAMERA_CALIBRATION: MessageType = message(
+pub(crate) static CAMERA_CALIBRATION: MessageType = message(
     "foxglove.CameraCalibration",
     &[
         one(1, "timestamp", TIME),
@@ -398,7 +398,7 @@ pub static LOG: MessageType = MessageType {
 };
 
 /// A task of a plan, an action, or a motion.
-pub static TASK: MessageType = message(
+pub(crate) static TASK: MessageType = message(
     "planwright.Task",
     &[
         one(1, "timestamp", TIME),

@@ -219,7 +219,7 @@ fn moved(at: [f32; 3], axis: usize, distance: f32) -> Vector3 {
 }
 
 /// The name of something that has a path, as in [`Path::WHAT`].
-pub fn path_name(text: &str) -> Option<&'static str> {
+pub(crate) fn path_name(text: &str) -> Option<&'static str> {
     Path::WHAT.into_iter().find(|what| *what == text)
 }
 

@@ -35,7 +35,7 @@ const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 const ALL_AGAIN: f64 = 2.0;
 
 /// Writes a recording.
-pub struct RecordingWriter<W: Write> {
+pub(crate) struct RecordingWriter<W: Write> {
     file: McapFile<W>,
     ids: Vec<(Channel, u16)>,
     markers: Markers,
