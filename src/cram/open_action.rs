@@ -24,7 +24,7 @@ pub(crate) struct OpenAction {
 
 impl OpenAction {
     /// Notes the begin of an action at a place, if the journal is kept.
-    pub fn begin(image: &Image, designator: &Value, place: Place) -> Option<Rc<OpenAction>> {
+    pub(crate) fn begin(image: &Image, designator: &Value, place: Place) -> Option<Rc<OpenAction>> {
         let plan = Plan::of(image);
         let task = plan.journal.running().filter(|_| plan.journal.is_kept())?;
         let starter = plan.starter(task);

@@ -6,10 +6,10 @@ use lisp::value::Value;
 use lisp::value::symbol::Sym;
 
 /// A function and its arguments.
-pub type Call = (Value, Vec<Value>);
+pub(crate) type Call = (Value, Vec<Value>);
 
 /// A request to the scheduler.
-pub enum Request {
+pub(crate) enum Request {
     /// Wait for this many simulated seconds; the answer is `NIL`.
     Sleep(f64),
     /// Wait until the fluent is pulsed (the answer is `T`) or until a time (`NIL`).

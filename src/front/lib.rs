@@ -24,6 +24,8 @@
 //! [`Abort`] of an unhandled condition. The same text with the same
 //! [`seed`](SessionOptions::seed) always has the same result, to the bit.
 
+#![warn(missing_docs)]
+
 mod command;
 mod jupyter;
 mod manual;

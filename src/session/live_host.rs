@@ -17,7 +17,7 @@ pub(super) struct LiveHost<'a> {
 }
 
 impl<'a> LiveHost<'a> {
-    pub fn new(
+    pub(crate) fn new(
         host: &'a mut SimulationHost,
         sink: &'a mut dyn FnMut(Event),
         tells_progress: bool,

@@ -38,7 +38,7 @@ impl Extension for Record {
 
 impl Record {
     /// Call when an input is about to be evaluated.
-    pub fn begin(&self, prompt: String, source_name: &str, input: &str) {
+    pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
         self.0.borrow_mut().push(Entry {
@@ -51,7 +51,7 @@ impl Record {
     }
 
     /// Records an event.
-    pub fn note(&self, event: &Event) {
+    pub(crate) fn note(&self, event: &Event) {
         if let Some(entry) = self.0.borrow_mut().last_mut() {
             // Writing to memory does not fail.
             let _ = entry.screen.show(event);
@@ -59,7 +59,7 @@ impl Record {
     }
 
     /// Call when the input has been evaluated.
-    pub fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
+    pub(crate) fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
         if let Some(entry) = self.0.borrow_mut().last_mut() {
             entry.interrupted_at = interrupted_at;
             entry.quits = matches!(outcome, Outcome::Quit(_));

@@ -19,7 +19,7 @@ use lisp::vm::step::Step;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "+",
         "&rest numbers",

@@ -14,7 +14,7 @@ use lisp::value::known;
 use lisp::value::symbol::Sym;
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "FIND-TAGS",
         "forms",

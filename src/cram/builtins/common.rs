@@ -6,7 +6,7 @@ use lisp::builtin::{Builtin, control, pure};
 use lisp::value::Value;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "SLEEP",
     "seconds",
     "Waits for so many simulated seconds.",

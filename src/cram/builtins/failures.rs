@@ -16,7 +16,7 @@ use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "FAIL",
     "&rest failure",
     "Fails: with a text and its arguments, with the name of a condition class and initargs, with a condition object, or just so.",

@@ -21,7 +21,7 @@ use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-FLUENT",
         "&key name value test",

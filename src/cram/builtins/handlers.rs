@@ -5,7 +5,7 @@ use lisp::builtin::{Builtin, pure};
 use lisp::value::Value;
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "KNOW-HANDLER",
         "clause",

@@ -13,7 +13,7 @@ use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "FL-AND",
         "&rest values",

@@ -11,7 +11,7 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
 /// A policy.
-pub struct Policy {
+pub(crate) struct Policy {
     name: Value,
     parameters: Value,
     doc: Value,
@@ -42,7 +42,7 @@ impl Foreign for Policy {
 }
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "PARAMETERS",
         "policy",
@@ -60,7 +60,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "MAKE-POLICY",
         "name parameters doc parts",

@@ -17,7 +17,7 @@ use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "STATUS",
         "task",
@@ -159,7 +159,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "PUSH-SUSPENSION-HOOK",
         "function",

@@ -15,7 +15,7 @@ use lisp::vm::step::Step;
 use std::rc::Rc;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "GET-TOP-LEVEL-TASK-TREE",
         "name",
@@ -65,7 +65,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "MAKE-TAG",
         "name",

@@ -15,7 +15,7 @@ use lisp::value::symbol::Sym;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DESIGNATOR-OF-FORM",
         "quantifier class properties",
@@ -216,7 +216,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Macros of package `CRAM-DESIGNATORS`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "WITH-DESIGNATORS",
         lambda_list: "((variable class properties)…) &body body",

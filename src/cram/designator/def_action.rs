@@ -17,7 +17,7 @@ use lisp::value::symbol::Sym;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Macros of package `CRAM-DESIGNATORS`.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "DEF-ACTION",
     lambda_list: "type (key… [&optional key…]) [documentation] option… body…",
     doc: "Defines a type of actions together with its plan. A key is a name, or (name kind \"what it means\" :aliases (name…) :default form); in the body ?name is its value. Kinds are location, place, object, detected-object, objects, number, keywords, keyword, (member name…), symbol, string, list, pose, poses, keyword-or-object, action, and t for anything. Options: (:aliases type…) other names of the type, (:one-of key…) keys of which one is needed, (:plan function) the name of the plan if it is not that of the type (without a body, a function that is there already), (:variant name) another definition of the same type that is told apart by the keys it needs, (:example designator). Checks, completion, hints and help know the type at once.",
@@ -28,7 +28,7 @@ pub static OPERATORS: &[Operator] = &[Operator {
 }];
 
 /// Functions of package `CRAM-DESIGNATORS` that `def-action` expands into.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "DEFINE-ACTION-TYPE",
     "definition",
     "What DEF-ACTION expands into.",

@@ -89,7 +89,7 @@ pub(crate) struct Unresolved {
 
 impl Unresolved {
     /// A reason without a suggestion.
-    pub fn new(reason: impl Into<String>) -> Unresolved {
+    pub(crate) fn new(reason: impl Into<String>) -> Unresolved {
         Unresolved {
             reason: reason.into(),
             suggestion: None,

@@ -10,7 +10,7 @@ use lisp::value::equality;
 use lisp::value::raise::Raise;
 
 /// The functors.
-pub static TABLE: &[Functor] = &[
+pub(crate) static TABLE: &[Functor] = &[
     functor(
         "PROPERTY",
         "designator property",

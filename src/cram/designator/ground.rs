@@ -27,7 +27,7 @@ pub(crate) enum Refusal {
 
 impl Refusal {
     /// The reason, unless it is an error.
-    pub fn reason(self) -> Result<Unresolved, Box<Raise>> {
+    pub(crate) fn reason(self) -> Result<Unresolved, Box<Raise>> {
         match self {
             Refusal::Error(raise) => Err(raise),
             Refusal::UnknownType(why) | Refusal::Incomplete(why) => Ok(why),

@@ -23,7 +23,7 @@ const GROUNDING: &str = "LOCATION-GROUNDING-GENERATOR";
 const GROUNDING_PRIORITY: i64 = 10;
 
 /// Functions of package `SYSTEM`: what the macros that register generators and validators expand into.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "ADD-LOCATION-GENERATOR",
         "priority function &optional documentation",
@@ -41,7 +41,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DELETE-LOCATION-GENERATOR-FUNCTION",
         "function",
@@ -126,7 +126,7 @@ enum Change {
 }
 
 /// Defines the variables.
-pub fn define(image: &mut Image) {
+pub(crate) fn define(image: &mut Image) {
     let list = variable(image, GENERATORS);
     let grounding = Value::list([
         GROUNDING_PRIORITY.into(),

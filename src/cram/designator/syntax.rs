@@ -24,7 +24,7 @@ const MOST_NESTED: usize = 200;
 const LONGEST_CHAIN: usize = 32;
 
 /// Macros of package `CRAM-DESIGNATORS`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "A",
         lambda_list: "type &rest properties",

@@ -15,7 +15,7 @@ use lisp::vm::step::Step;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The computation of a fluent's value.
-pub struct Reading {
+pub(crate) struct Reading {
     stack: Vec<Frame>,
     /// Whether pulses and changes remain unread.
     peek: bool,
@@ -32,7 +32,7 @@ struct Frame {
 
 impl Reading {
     /// Starts to compute the value of the fluent; with `fresh`, a cached value is not used.
-    pub fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
+    pub(crate) fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
         let mut reading = Reading {
             stack: Vec::new(),
             peek,
@@ -256,7 +256,7 @@ impl Computation for Reading {
 }
 
 /// The value of a fluent, for use inside a builtin.
-pub async fn value(calls: &Calls, fluent: &FluentRef) -> Result<Value> {
+pub(crate) async fn value(calls: &Calls, fluent: &FluentRef) -> Result<Value> {
     match fluent.get().known_value() {
         Some(value) => Ok(value),
         None => calls.compute(Reading::new(fluent, false, false)).await,
@@ -264,7 +264,7 @@ pub async fn value(calls: &Calls, fluent: &FluentRef) -> Result<Value> {
 }
 
 /// The step that returns the value of a fluent.
-pub fn read(machine: &mut Machine<'_>, fluent: &FluentRef, peek: bool) -> Result<Step> {
+pub(crate) fn read(machine: &mut Machine<'_>, fluent: &FluentRef, peek: bool) -> Result<Step> {
     match fluent.get().known_value() {
         Some(value) => Ok(Step::Return(value)),
         None => compute(machine, "VALUE", Reading::new(fluent, peek, false)),

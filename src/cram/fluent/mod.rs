@@ -23,9 +23,9 @@ use lisp::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
 use lisp::value::slot::Slot;
 use lisp::value::symbol::Sym;
 
-pub use evaluation::{read, value};
+pub(crate) use evaluation::{read, value};
 pub(crate) use propagation::{Propagation, pulse};
-pub use propagation::{settle, store};
+pub(crate) use propagation::{settle, store};
 pub(crate) use reference::FluentRef;
 
 /// A waiting task, at a particular wait.
@@ -123,7 +123,7 @@ pub(crate) enum Missed {
 
 impl Fluent {
     /// The name as shown.
-    pub fn name(&self, context: &dyn PrintContext) -> String {
+    pub(crate) fn name(&self, context: &dyn PrintContext) -> String {
         match &self.name {
             FluentName::Given(name) => context.text(name, false),
             FluentName::Numbered(prefix, n) => format!("{prefix}{n}"),
@@ -158,7 +158,7 @@ impl Fluent {
     }
 
     /// The test for whether a stored value is a change; `NIL` stands for `eql`.
-    pub fn test(&self) -> Value {
+    pub(crate) fn test(&self) -> Value {
         match &self.kind {
             Kind::Value { test, .. } => test.clone(),
             _ => Value::NIL,
@@ -185,7 +185,7 @@ impl Fluent {
     }
 
     /// The callback with that name.
-    pub fn callback(&self, name: &Value) -> Option<Value> {
+    pub(crate) fn callback(&self, name: &Value) -> Option<Value> {
         let callbacks = self.callbacks.borrow();
         let found = callbacks.iter().find(|(n, _)| n.is_eql(name));
         found.map(|(_, function)| function.clone())

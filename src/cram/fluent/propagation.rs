@@ -38,7 +38,7 @@ enum Purpose {
 }
 
 /// Stores a value that differs from the old one.
-pub fn store(machine: &mut Machine<'_>, fluent: &FluentRef, new: Value) -> Result<Step> {
+pub(crate) fn store(machine: &mut Machine<'_>, fluent: &FluentRef, new: Value) -> Result<Step> {
     if let Kind::Value { value, .. } = &fluent.get().kind {
         value.set(new.clone());
         fluent.note();
@@ -66,7 +66,7 @@ fn spread(machine: &mut Machine<'_>, fluent: &FluentRef, result: Value) -> Resul
 
 /// Stores a value and propagates the change until a Lisp function must be called; the rest, if any,
 /// must continue in a fiber.
-pub fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Option<Propagation> {
+pub(crate) fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Option<Propagation> {
     let plan = Plan::of(image);
     if let Kind::Value { value, .. } = &fluent.get().kind {
         value.set(new.clone());
@@ -210,7 +210,7 @@ impl Propagation {
     }
 
     /// Continues in a fiber.
-    pub fn spread(self, machine: &mut Machine<'_>) -> Result<Step> {
+    pub(crate) fn spread(self, machine: &mut Machine<'_>) -> Result<Step> {
         compute(machine, "PULSE", self)
     }
 }

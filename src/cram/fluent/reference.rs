@@ -62,7 +62,7 @@ impl FluentRef {
     }
 
     /// A network over the fluents among the arguments.
-    pub fn net(
+    pub(crate) fn net(
         plan: &Plan,
         prefix: &'static str,
         operation: Operation,
@@ -105,7 +105,7 @@ impl FluentRef {
 
     /// A fluent that is true once per change of the source. `old` is the present value of the
     /// source after applying the key function.
-    pub fn change(
+    pub(crate) fn change(
         plan: &Plan,
         source: &FluentRef,
         test: Value,
@@ -141,7 +141,7 @@ impl FluentRef {
     }
 
     /// The fluent, if the value is one.
-    pub fn from_value(value: &Value) -> Option<FluentRef> {
+    pub(crate) fn from_value(value: &Value) -> Option<FluentRef> {
         match value {
             Value::Foreign(object) if object.downcast_ref::<Fluent>().is_some() => {
                 Some(FluentRef(object.clone()))
@@ -151,7 +151,7 @@ impl FluentRef {
     }
 
     /// The fluent as a value.
-    pub fn value(&self) -> Value {
+    pub(crate) fn value(&self) -> Value {
         Value::Foreign(self.0.clone())
     }
 
@@ -160,7 +160,7 @@ impl FluentRef {
     /// # Panics
     ///
     /// Never: every function that makes a reference checks what it refers to.
-    pub fn get(&self) -> &Fluent {
+    pub(crate) fn get(&self) -> &Fluent {
         match self.0.downcast_ref() {
             Some(fluent) => fluent,
             None => unreachable!("a fluent reference refers to a fluent"),
@@ -168,7 +168,7 @@ impl FluentRef {
     }
 
     /// Whether this is the same fluent.
-    pub fn is(&self, other: &FluentRef) -> bool {
+    pub(crate) fn is(&self, other: &FluentRef) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
 

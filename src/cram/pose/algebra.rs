@@ -12,7 +12,7 @@ use lisp::value::Value;
 use spatial::trig;
 
 /// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "V+",
         "vector &rest vectors",

@@ -13,7 +13,7 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
 /// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-3D-VECTOR",
         "x y z",
@@ -212,7 +212,7 @@ fn parts(image: &Image, args: &[Value]) -> Result<Placement> {
 }
 
 /// The placement with the parts that two keyword arguments replace.
-pub fn changed(
+pub(crate) fn changed(
     image: &Image,
     mut placement: Placement,
     args: &[Value],

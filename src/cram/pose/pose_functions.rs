@@ -12,7 +12,7 @@ use lisp::image::Image;
 use lisp::value::Value;
 
 /// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "TRANSFORM*",
         "transform &rest transforms",
@@ -116,7 +116,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// The inverse: a stamped transform then leads from the child frame to the frame.
-pub fn invert(transform: &Value) -> Result<Value> {
+pub(crate) fn invert(transform: &Value) -> Result<Value> {
     let placement = argument::as_kind(transform, names::TRANSFORM)?;
     let inverse = Placement::of(&placement.to_pose().inverse());
     Ok(match value::as_transform_stamped(transform) {

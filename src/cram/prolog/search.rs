@@ -30,7 +30,7 @@ pub(crate) struct Search {
 
 impl Search {
     /// A search that has not begun.
-    pub fn new(engine: Engine) -> Search {
+    pub(crate) fn new(engine: Engine) -> Search {
         Search {
             engine: RefCell::new(engine),
             call: RefCell::new(None),
@@ -73,7 +73,7 @@ pub(crate) struct NextProofs {
 
 impl NextProofs {
     /// Of a search.
-    pub fn of(search: Value) -> NextProofs {
+    pub(crate) fn of(search: Value) -> NextProofs {
         NextProofs {
             search,
             found: Vec::new(),

@@ -15,7 +15,7 @@ use lisp::value::symbol::Sym;
 const MOST_NESTED: usize = 500;
 
 /// A variable of a proof.
-pub struct Variable {
+pub(crate) struct Variable {
     /// Its index in the bindings.
     pub index: usize,
     /// The symbol it was written as.

@@ -149,7 +149,7 @@ pub(super) enum Told {
 }
 
 impl Live {
-    pub fn new(id: TaskId, answer: Answer) -> Live {
+    pub(crate) fn new(id: TaskId, answer: Answer) -> Live {
         Live {
             id,
             fiber: Fiber::default(),

@@ -26,7 +26,7 @@ mod task_start;
 
 pub(crate) use group::composite;
 pub(crate) use group::unwrapped;
-pub use overview::TaskInfo;
+pub(crate) use overview::TaskInfo;
 pub(crate) use requests::outside_a_plan;
 pub use root::Evaluation;
 

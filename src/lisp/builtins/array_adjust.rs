@@ -153,7 +153,7 @@ fn kept_items(array: &Value, old: &[usize], new: &[usize], filler: Value) -> Vec
 }
 
 /// Adjustment of arrays.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "ADJUST-ARRAY",
     "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset",
     "An array of another size with the same elements; an adjustable vector is changed itself.",

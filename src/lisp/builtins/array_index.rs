@@ -6,7 +6,7 @@ use crate::value::known;
 use crate::value::raise::Raise;
 
 /// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
-pub fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
+pub(crate) fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
     invalid_on_axis(array, index, None, bound)
 }
 

@@ -25,7 +25,7 @@ type Outcome = Result<Value, Box<Raise>>;
 pub(super) const MAX_RANK: usize = 128;
 
 /// Keyword arguments of `make-array` and `adjust-array`.
-pub struct Options {
+pub(crate) struct Options {
     /// The value of all elements.
     pub element: Option<Value>,
     /// Nested sequences of the elements.
@@ -41,7 +41,7 @@ pub struct Options {
 
 impl Options {
     /// From keyword arguments.
-    pub fn parse(image: &mut Image, args: &[Value]) -> Result<Options, Box<Raise>> {
+    pub(crate) fn parse(image: &mut Image, args: &[Value]) -> Result<Options, Box<Raise>> {
         let [
             element,
             contents,
@@ -143,7 +143,7 @@ impl Options {
 }
 
 /// The dimensions given by an argument: an integer or a list of integers.
-pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let shape: Vec<usize> = if value.is_list() {
         list_items(value)?
             .iter()
@@ -171,7 +171,7 @@ pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The elements of nested sequences in row-major order; the shape must fit.
-pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
     let mut level = vec![contents.clone()];
     for size in shape {
         let mut next = Vec::new();
@@ -196,7 +196,7 @@ pub(crate) fn filler(element_type: ElementType) -> Value {
 }
 
 /// A vector or string made of items.
-pub fn vector(
+pub(crate) fn vector(
     element_type: ElementType,
     items: Vec<Value>,
     fill_pointer: Option<usize>,
@@ -300,7 +300,7 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making arrays.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "MAKE-ARRAY",
     "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset",
     "An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has the elements of another one, from an index in row-major order on.",

@@ -14,7 +14,7 @@ use crate::value::sequence::{checked_element, index};
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Sizes of an array's dimensions; a fill pointer does not count.
-pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(vec![v.items.len()]),
         Value::Str(s) => Ok(vec![s.capacity()]),
@@ -275,7 +275,7 @@ fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Arrays.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "AREF",
         "array &rest subscripts",
@@ -415,7 +415,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "AREF",
         "value array &rest subscripts",

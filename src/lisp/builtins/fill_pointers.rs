@@ -122,7 +122,7 @@ fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Vectors with fill pointers.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "ARRAY-HAS-FILL-POINTER-P",
         "array",
@@ -161,7 +161,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[pure(
+pub(crate) static SETTERS: &[Builtin] = &[pure(
     "FILL-POINTER",
     "value vector",
     "Sets the number of active elements.",

@@ -18,7 +18,7 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "NO-APPLICABLE-METHOD",
         "generic-function &rest arguments",
@@ -125,7 +125,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%ADD-METHOD",
         "name qualifiers specializers lambda-list takes-next documentation function",
@@ -178,7 +178,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFGENERIC",
         lambda_list: "name lambda-list &rest options",

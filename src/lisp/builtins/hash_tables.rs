@@ -21,7 +21,7 @@ use crate::vm::step::Step;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// A value as a hash table.
-pub fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
+pub(crate) fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
     match value {
         Value::Hash(table) => Ok(table),
         _ => Err(Raise::type_error(value, known::HASH_TABLE)),
@@ -216,7 +216,7 @@ fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Hash tables.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-HASH-TABLE",
         "&key test size rehash-size rehash-threshold",
@@ -306,7 +306,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What the expansions of macros call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%HASH-ITERATOR",
         "table",
@@ -345,7 +345,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[pure(
+pub(crate) static SETTERS: &[Builtin] = &[pure(
     "GETHASH",
     "value key table &optional default",
     "Sets the value of a key.",

@@ -103,7 +103,7 @@ fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Searching in lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MEMBER",
         "item list &key key test test-not",

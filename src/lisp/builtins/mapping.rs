@@ -123,7 +123,7 @@ fn mapcon(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 }
 
 /// Mapping over lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MAPCAR",
         "function list &rest lists",

@@ -16,7 +16,7 @@ use crate::value::raise::Raise;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%RELATED-CLASSES",
         "class relation",

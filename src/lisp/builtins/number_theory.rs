@@ -14,7 +14,7 @@ use crate::value::raise::Raise;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "GCD",
         "&rest integers",

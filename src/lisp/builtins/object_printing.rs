@@ -8,7 +8,7 @@ use crate::value::Value;
 use crate::value::raise::Raise;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "PRINT-OBJECT",
     "object stream",
     "Prints an object. Add methods to print instances of your classes in a form of your own.",

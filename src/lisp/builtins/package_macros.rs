@@ -249,7 +249,7 @@ fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What the expansions call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%MAKE-PACKAGE",
         "name &key nicknames use",

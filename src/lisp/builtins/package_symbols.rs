@@ -202,7 +202,7 @@ fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What is done to the symbols of packages.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "IMPORT",
         "symbols &optional package",

@@ -50,7 +50,7 @@ fn namestring(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Pathnames.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "PATHNAMEP",
     "object",
     "Is the object a pathname?",
@@ -62,7 +62,7 @@ pub static TABLE: &[Builtin] = &[pure(
 )];
 
 /// What the library makes pathnames with, in package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%PARSE-PATHNAME",
         "name",

@@ -19,7 +19,7 @@ use crate::vm::step::Step;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%OUTPUT-STREAM",
         "designator",

@@ -113,7 +113,7 @@ fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// A value as a symbol.
-pub fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
+pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
     value
         .as_symbol()
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
@@ -149,7 +149,7 @@ fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Property lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "GETF",
         "plist indicator &optional default",
@@ -191,7 +191,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What `setf` and `remf` of `getf` expand into; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "PUTF",
         "plist indicator value",
@@ -209,7 +209,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "GET",
         "value symbol indicator &optional default",

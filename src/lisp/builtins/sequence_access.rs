@@ -185,7 +185,7 @@ fn vector(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Parts of sequences.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "LENGTH",
         "sequence",
@@ -275,7 +275,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "ELT",
         "value sequence index",

@@ -140,7 +140,7 @@ fn limit(count: Option<&Value>) -> Result<usize, Box<Raise>> {
 }
 
 /// The sequence without the chosen elements.
-pub fn removed(
+pub(crate) fn removed(
     sequence: &Sequence,
     items: Vec<Value>,
     chosen: &[bool],
@@ -250,7 +250,7 @@ const REPLACE_ITEM: &str = "new old sequence &key key start end from-end count t
 const REPLACE_IF: &str = "new predicate sequence &key key start end from-end count";
 
 /// Removing and replacing elements.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "REMOVE",
         REMOVE_ITEM,

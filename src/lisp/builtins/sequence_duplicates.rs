@@ -133,7 +133,7 @@ fn delete_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
 const LAMBDA_LIST: &str = "sequence &key key start end from-end test test-not";
 
 /// Removing duplicates.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "REMOVE-DUPLICATES",
         LAMBDA_LIST,

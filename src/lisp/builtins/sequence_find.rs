@@ -171,7 +171,7 @@ const BY_ITEM: &str = "item sequence &key key start end from-end test test-not";
 const BY_PREDICATE: &str = "predicate sequence &key key start end from-end";
 
 /// Finding and counting elements.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "FIND",
         BY_ITEM,

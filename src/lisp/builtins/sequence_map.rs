@@ -209,7 +209,7 @@ fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 }
 
 /// Functions over the elements of sequences.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MAP",
         "result-type function sequence &rest sequences",

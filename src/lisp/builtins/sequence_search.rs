@@ -125,7 +125,7 @@ const LAMBDA_LIST: &str =
     "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2";
 
 /// Comparing sequences.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SEARCH",
         LAMBDA_LIST,

@@ -161,7 +161,7 @@ WRITE-BYTE WRITE-CHAR WRITE-LINE WRITE-SEQUENCE WRITE-STRING WRITE-TO-STRING Y-O
 YES-OR-NO-P ZEROP";
 
 /// Makes and exports all standard names.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     for name in NAMES.split_whitespace() {
         image.export_symbol(PackageTable::CL, name);
     }

@@ -171,7 +171,7 @@ fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Elements of streams.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "READ-SEQUENCE",
         "sequence stream &key start end",

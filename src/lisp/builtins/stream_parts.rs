@@ -159,7 +159,7 @@ fn stream_file(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making and combining streams.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-STRING-OUTPUT-STREAM",
         "&key element-type",
@@ -280,7 +280,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What expansions call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%MAKE-FILL-POINTER-STREAM",
         "string",

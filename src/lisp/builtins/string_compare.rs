@@ -78,7 +78,7 @@ macro_rules! comparisons {
             Ok(if holds { index.into() } else { Value::NIL })
         })*
         /// Comparisons of strings that return the index where they differ.
-        pub static TABLE: &[Builtin] = &[
+        pub(crate) static TABLE: &[Builtin] = &[
             pure("STRING=", LAMBDA_LIST, "Are two texts the same?", &["(string= 'foo \"FOO\") => T", "(string= \"foo\" \"foobar\" :end2 3) => T"], string_eq),
             pure("STRING-EQUAL", LAMBDA_LIST, "Are two texts the same, whatever their case?", &["(string-equal \"foo\" \"FOO\") => T"], string_equal),
             $(pure($name, LAMBDA_LIST, $doc, &[$example], $function),)*

@@ -6,7 +6,7 @@ use crate::structure::expand::expand_defstruct;
 use crate::structure::typed::define_typed_structure;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "COPY-STRUCTURE",
     "structure",
     "A structure of the same type with the same slot values.",
@@ -15,7 +15,7 @@ pub static TABLE: &[Builtin] = &[pure(
 )];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%DEFINE-STRUCTURE",
         "name parent slots copier predicate documentation conc-name",
@@ -40,7 +40,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "DEFSTRUCT",
     lambda_list: "name-and-options &rest slots",
     doc: "Defines a structure with its constructor, accessors, predicate and copier. A slot is a name or (name default :type type :read-only flag); options are :conc-name :constructor :copier :predicate :include :print-function :print-object :type :named :initial-offset.",

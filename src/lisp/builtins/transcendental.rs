@@ -4,7 +4,7 @@ use crate::builtin::{Builtin, pure};
 use crate::value::{Value, number};
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "EXPT",
         "base power",

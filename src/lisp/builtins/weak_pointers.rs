@@ -37,7 +37,7 @@ impl Foreign for WeakPointer {
 }
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%MAKE-WEAK-POINTER",
         "object",

@@ -40,7 +40,7 @@ pub(super) struct Compiler<'a> {
 }
 
 impl<'a> Compiler<'a> {
-    pub fn new(image: &'a mut Image) -> Compiler<'a> {
+    pub(crate) fn new(image: &'a mut Image) -> Compiler<'a> {
         Compiler {
             image,
             functions: Vec::new(),
@@ -118,7 +118,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses something inside `count` dynamic entries of a kind.
-    pub fn inside<R>(
+    pub(crate) fn inside<R>(
         &mut self,
         kind: DynamicKind,
         count: usize,
@@ -158,7 +158,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Records a reference to a variable from the current function.
-    pub fn refer(&self, var: &Rc<Var>) {
+    pub(crate) fn refer(&self, var: &Rc<Var>) {
         var.used.set(true);
         if var.owner == self.current {
             return;
@@ -179,7 +179,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Is every binding of the name dynamic?
-    pub fn is_special(&self, name: Sym) -> bool {
+    pub(crate) fn is_special(&self, name: Sym) -> bool {
         self.image.symbol(name).kind == VariableKind::Special
     }
 
@@ -421,7 +421,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// Binds a name; returns the binding and the scope in which it is visible.
-    pub fn bind(&mut self, name: Sym, declared_special: bool, scope: &Scope) -> (Binding, Scope) {
+    pub(crate) fn bind(
+        &mut self,
+        name: Sym,
+        declared_special: bool,
+        scope: &Scope,
+    ) -> (Binding, Scope) {
         if declared_special || self.is_special(name) {
             let scope = scope.with(Entry::Variable(name, VariableMeaning::Special));
             (Binding::Special(name), scope)

@@ -14,7 +14,7 @@ pub(super) struct Environment(Scope);
 
 impl Environment {
     /// The environment of a scope.
-    pub fn value(scope: &Scope) -> Value {
+    pub(crate) fn value(scope: &Scope) -> Value {
         Value::foreign(Environment(scope.clone()))
     }
 }

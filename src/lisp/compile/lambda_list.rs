@@ -62,7 +62,7 @@ enum Section {
 impl LambdaList {
     /// Parses a lambda list. `destructuring` allows patterns, `&whole`, `&environment` and
     /// a dotted tail.
-    pub fn parse(
+    pub(crate) fn parse(
         image: &mut Image,
         list: &Value,
         destructuring: bool,

@@ -9,7 +9,7 @@ use crate::value::code::Parameters;
 use crate::value::symbol::Sym;
 
 /// What a call calls.
-pub enum Target {
+pub(crate) enum Target {
     /// A global function.
     Global(Sym),
     /// A function that an expression computes.
@@ -17,7 +17,7 @@ pub enum Target {
 }
 
 /// One variable that a form binds.
-pub enum Binding {
+pub(crate) enum Binding {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic binding.
@@ -25,7 +25,7 @@ pub enum Binding {
 }
 
 /// An optional or key parameter.
-pub struct Default {
+pub(crate) struct Default {
     /// The parameter's own variable: the slot that the machine fills.
     pub var: Rc<Var>,
     /// The value if it is not supplied.
@@ -66,7 +66,7 @@ pub(crate) struct LambdaNode {
 }
 
 /// A piece of program.
-pub enum Node {
+pub(crate) enum Node {
     /// A constant.
     Const(Value),
     /// The value of a lexical variable.
@@ -134,5 +134,5 @@ pub enum Node {
 
 impl Node {
     /// The constant `NIL`.
-    pub const NIL: Node = Node::Const(Value::NIL);
+    pub(crate) const NIL: Node = Node::Const(Value::NIL);
 }

@@ -58,7 +58,7 @@ pub(crate) enum DynamicKind {
     Unwind,
 }
 
-pub struct Block {
+pub(crate) struct Block {
     pub name: Sym,
     /// The function it is in.
     pub owner: usize,
@@ -86,7 +86,7 @@ pub(crate) struct Tagbody {
 }
 
 /// One link of the chain of scopes, innermost first.
-pub enum Entry {
+pub(crate) enum Entry {
     /// A name in variable position.
     Variable(Sym, VariableMeaning),
     /// A name in function position; the flag distinguishes `(setf name)` from `name`.
@@ -99,7 +99,7 @@ pub enum Entry {
 
 /// An immutable chain of scopes.
 #[derive(Clone, Default)]
-pub struct Scope(Option<Rc<Link>>);
+pub(crate) struct Scope(Option<Rc<Link>>);
 
 struct Link {
     entry: Entry,
@@ -120,7 +120,7 @@ impl Drop for Link {
 
 impl Scope {
     /// The scope with one more entry.
-    pub fn with(&self, entry: Entry) -> Scope {
+    pub(crate) fn with(&self, entry: Entry) -> Scope {
         Scope(Some(Rc::new(Link {
             entry,
             outer: self.clone(),
@@ -137,7 +137,7 @@ impl Scope {
     }
 
     /// The meaning of a variable name, if it is not global.
-    pub fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
+    pub(crate) fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Variable(n, meaning) if *n == name => Some(meaning),
             _ => None,
@@ -145,7 +145,7 @@ impl Scope {
     }
 
     /// The names of lexical variables, innermost first.
-    pub fn variables(&self) -> impl Iterator<Item = Sym> {
+    pub(crate) fn variables(&self) -> impl Iterator<Item = Sym> {
         self.entries().filter_map(|e| match e {
             Entry::Variable(name, VariableMeaning::Lexical(_)) => Some(*name),
             _ => None,
@@ -153,7 +153,7 @@ impl Scope {
     }
 
     /// The meaning of a function name, if it is not global.
-    pub fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
+    pub(crate) fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Function(n, s, meaning) if *n == name && *s == is_setf => Some(meaning),
             _ => None,
@@ -161,7 +161,7 @@ impl Scope {
     }
 
     /// The innermost block of that name.
-    pub fn block(&self, name: Sym) -> Option<&Rc<Block>> {
+    pub(crate) fn block(&self, name: Sym) -> Option<&Rc<Block>> {
         self.entries().find_map(|e| match e {
             Entry::Block(b) if b.name == name => Some(b),
             _ => None,
@@ -169,7 +169,7 @@ impl Scope {
     }
 
     /// The innermost tagbody with that tag, and the tag's number.
-    pub fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
+    pub(crate) fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
         self.entries().find_map(|e| match e {
             Entry::Tagbody(t) => {
                 let index = t.tags.iter().position(|other| other.is_eql(tag))?;

@@ -29,7 +29,7 @@ pub(crate) enum Adding {
 
 impl Adding {
     /// What a word of a clause means.
-    pub fn named(word: &str) -> Option<Adding> {
+    pub(crate) fn named(word: &str) -> Option<Adding> {
         Some(match word {
             "COLLECT" | "COLLECTING" => Adding::Collect,
             "APPEND" | "APPENDING" => Adding::Append,
@@ -52,7 +52,7 @@ impl Adding {
 }
 
 /// Reads what follows the form of an accumulation, and builds the form that adds.
-pub fn parse(
+pub(crate) fn parse(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     word: &str,

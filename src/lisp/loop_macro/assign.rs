@@ -12,7 +12,7 @@ const MAX_VARIABLES: usize = 10_000;
 /// Reads a variable or tree of variables, and a type if one follows.
 ///
 /// Returns the tree and the type.
-pub fn variable(
+pub(crate) fn variable(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     clause: &str,
@@ -75,7 +75,7 @@ pub(crate) fn variable_type(
 }
 
 /// The value of a variable that was not given one.
-pub fn default_value(of_type: Option<&Value>) -> Value {
+pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
     match of_type {
         Some(Value::Symbol(
             known::FIXNUM
@@ -140,7 +140,7 @@ fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Each variable of a tree, with the form that extracts its value from a variable.
-pub fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
+pub(crate) fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), whole.clone())];
     while let Some((part, form)) = pending.pop() {

@@ -52,7 +52,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// Reads all clauses.
-pub fn parse(parser: &mut Parser<'_>) -> Result<Plan, Box<Raise>> {
+pub(crate) fn parse(parser: &mut Parser<'_>) -> Result<Plan, Box<Raise>> {
     let mut plan = Plan {
         name: Value::NIL,
         end_tag: parser.fresh("END"),

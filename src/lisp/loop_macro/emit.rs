@@ -12,7 +12,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// The form of a whole loop.
-pub fn form(image: &mut Image, mut plan: Plan) -> Value {
+pub(crate) fn form(image: &mut Image, mut plan: Plan) -> Value {
     let next_tag: Value = image.gensym("NEXT").into();
     let first_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.first));
     let next_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.next));

@@ -37,7 +37,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 }
 
 /// Reads a `for` clause, after that word, and the clauses that `and` joins to it.
-pub fn parse(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
+pub(crate) fn parse(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
     let mut joined = one(parser, plan)?;
     while parser.accept(&["AND"]) {
         parser.accept(&["FOR", "AS"]);

@@ -20,7 +20,7 @@ use crate::builtin::Operator;
 use crate::image::Image;
 use crate::value::Value;
 
-pub use support::SYSTEM_TABLE;
+pub(crate) use support::SYSTEM_TABLE;
 
 /// Expands `(loop …)`.
 fn expand(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
@@ -58,7 +58,7 @@ fn stray_finish(_: &mut Image, _: &Value) -> Result<Value, Box<Raise>> {
 }
 
 /// `loop` and `loop-finish`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "LOOP",
         lambda_list: "&rest clauses",

@@ -7,7 +7,7 @@ use crate::value::Value;
 use crate::value::raise::Raise;
 
 /// The forms of a loop, and how many have been read.
-pub struct Parser<'a> {
+pub(crate) struct Parser<'a> {
     /// The image: names of symbols, fresh variables.
     pub image: &'a mut Image,
     forms: Vec<Value>,
@@ -16,7 +16,7 @@ pub struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     /// A parser of the forms after `loop`.
-    pub fn new(image: &'a mut Image, forms: Vec<Value>) -> Parser<'a> {
+    pub(crate) fn new(image: &'a mut Image, forms: Vec<Value>) -> Parser<'a> {
         Parser {
             image,
             forms,
@@ -30,12 +30,12 @@ impl<'a> Parser<'a> {
     }
 
     /// The next form, without reading it.
-    pub fn peek(&self) -> Option<&Value> {
+    pub(crate) fn peek(&self) -> Option<&Value> {
         self.forms.get(self.position)
     }
 
     /// The name of the next form, if that is a symbol.
-    pub fn word(&self) -> Option<&str> {
+    pub(crate) fn word(&self) -> Option<&str> {
         let sym = self.peek()?.as_symbol()?;
         Some(self.image.name(sym))
     }
@@ -46,7 +46,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads the next form if it is one of these words.
-    pub fn accept(&mut self, words: &[&str]) -> bool {
+    pub(crate) fn accept(&mut self, words: &[&str]) -> bool {
         let found = self.is_any(words);
         if found {
             self.position += 1;
@@ -55,7 +55,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads the next form; `after` names what it belongs to.
-    pub fn form(&mut self, after: &str) -> Result<Value, Box<Raise>> {
+    pub(crate) fn form(&mut self, after: &str) -> Result<Value, Box<Raise>> {
         match self.forms.get(self.position) {
             Some(form) => {
                 let form = form.clone();
@@ -88,12 +88,12 @@ impl<'a> Parser<'a> {
     }
 
     /// A form as messages show it.
-    pub fn shown(&self, form: &Value) -> String {
+    pub(crate) fn shown(&self, form: &Value) -> String {
         print::to_string(self.image, form, true)
     }
 
     /// The error for a next form that is none of the words allowed here.
-    pub fn unexpected(&self, after: &str, words: &[&str]) -> Box<Raise> {
+    pub(crate) fn unexpected(&self, after: &str, words: &[&str]) -> Box<Raise> {
         let expected = match words.split_last() {
             Some((last, [])) => (*last).to_owned(),
             Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
@@ -115,7 +115,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A fresh variable.
-    pub fn fresh(&mut self, name: &str) -> Value {
+    pub(crate) fn fresh(&mut self, name: &str) -> Value {
         self.image.gensym(name).into()
     }
 }

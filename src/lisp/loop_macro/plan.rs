@@ -8,7 +8,7 @@ pub(crate) type Assignment = (Value, Value);
 /// What happens when the variables of some `for` clauses take their next values: tests that end the
 /// loop, assignments, tests, assignments. Each set of assignments is made in parallel.
 #[derive(Clone, Default)]
-pub struct Step {
+pub(crate) struct Step {
     /// Forms that end the loop when they are true, before anything is assigned.
     pub tests: Vec<Value>,
     /// What the user's variables get.
@@ -21,7 +21,7 @@ pub struct Step {
 
 impl Step {
     /// Adds what another clause, joined by `and`, does at the same time.
-    pub fn join(&mut self, other: Step) {
+    pub(crate) fn join(&mut self, other: Step) {
         self.tests.extend(other.tests);
         self.sets.extend(other.sets);
         self.tests_after.extend(other.tests_after);
@@ -56,7 +56,7 @@ pub(crate) struct Accumulator {
 
 /// A whole loop.
 #[derive(Default)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The name of the block.
     pub name: Value,
     /// Bindings, group by group; those of a group are made in parallel.

@@ -17,12 +17,12 @@ use crate::value::sequence::last_pair;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The symbol of a name in `COMMON-LISP`.
-pub fn common(image: &mut Image, name: &str) -> Value {
+pub(crate) fn common(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::CL, name).into()
 }
 
 /// The symbol of a name in `SYSTEM`.
-pub fn system(image: &mut Image, name: &str) -> Value {
+pub(crate) fn system(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::SYSTEM, name).into()
 }
 
@@ -88,7 +88,7 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Functions that loops call, in package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "EXTEND-LIST",
         "last-pair element",

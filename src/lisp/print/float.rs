@@ -110,7 +110,7 @@ fn float(decimal: &Decimal, magnitude: f64, is_negative: bool, marker: Option<ch
 }
 
 /// The decimal without an exponent, with at least one digit on each side of the point.
-pub fn plain(decimal: &Decimal) -> String {
+pub(crate) fn plain(decimal: &Decimal) -> String {
     let digits = &decimal.digits;
     let length = i32::try_from(digits.len()).unwrap_or(i32::MAX);
     let zeros = |n: i32| "0".repeat(usize::try_from(n).unwrap_or(0));

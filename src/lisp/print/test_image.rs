@@ -3,6 +3,6 @@
 use crate::image::Image;
 
 /// An image like the one that sessions start with, in `COMMON-LISP-USER`.
-pub fn image() -> Image {
+pub(crate) fn image() -> Image {
     Image::new()
 }

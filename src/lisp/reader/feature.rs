@@ -9,7 +9,7 @@ use crate::value::known;
 const MAX_DEPTH: usize = 64;
 
 /// Does the feature expression hold with the current `*features*`?
-pub fn holds(image: &Image, expression: &Value) -> Result<bool, ReadErrorKind> {
+pub(crate) fn holds(image: &Image, expression: &Value) -> Result<bool, ReadErrorKind> {
     holds_at(image, expression, 0)
 }
 

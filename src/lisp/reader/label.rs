@@ -23,7 +23,7 @@ struct Label {
 
 impl Labels {
     /// Starts a labelled form.
-    pub fn open(&mut self, number: u32) -> Result<(), ReadErrorKind> {
+    pub(crate) fn open(&mut self, number: u32) -> Result<(), ReadErrorKind> {
         if self.entries.iter().any(|l| l.number == number) {
             return Err(ReadErrorKind::BadLabel(format!(
                 "multiply defined label: #{number}="
@@ -39,7 +39,7 @@ impl Labels {
     }
 
     /// The form that a label stands for.
-    pub fn reference(&mut self, number: Option<u32>) -> Result<Value, ReadErrorKind> {
+    pub(crate) fn reference(&mut self, number: Option<u32>) -> Result<Value, ReadErrorKind> {
         let number = number.ok_or(ReadErrorKind::DispatchArgument {
             letter: '#',
             reason: "the label",
@@ -56,7 +56,7 @@ impl Labels {
     }
 
     /// Ends a labelled form.
-    pub fn close(&mut self, number: u32, value: &Value) -> Result<(), ReadErrorKind> {
+    pub(crate) fn close(&mut self, number: u32, value: &Value) -> Result<(), ReadErrorKind> {
         let Some(label) = self.entries.iter_mut().find(|l| l.number == number) else {
             return Ok(());
         };

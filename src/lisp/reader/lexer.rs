@@ -98,7 +98,7 @@ pub struct Lexer<'t> {
 
 /// Is the character blank space between tokens? Pasted text may contain exotic ones.
 #[inline]
-pub fn is_blank(c: char) -> bool {
+pub(crate) fn is_blank(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200B}' | '\u{FEFF}')
 }
 

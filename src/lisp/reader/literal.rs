@@ -23,7 +23,7 @@ const MAX_FILL: usize = 1 << 24;
 const MAX_RANK: u32 = 128;
 
 /// A string from the text between its quotation marks.
-pub fn string(body: &str) -> Value {
+pub(crate) fn string(body: &str) -> Value {
     if !body.contains('\\') {
         return Value::string(body);
     }
@@ -36,7 +36,7 @@ pub fn string(body: &str) -> Value {
 }
 
 /// A character from the text after `#\`.
-pub fn character(name: &str) -> Result<Value, ReadErrorKind> {
+pub(crate) fn character(name: &str) -> Result<Value, ReadErrorKind> {
     let mut chars = name.chars();
     match (chars.next(), chars.next()) {
         (Some(c), None) => Ok(Value::Char(c)),
@@ -47,7 +47,7 @@ pub fn character(name: &str) -> Result<Value, ReadErrorKind> {
 }
 
 /// The value of `#x…`, `#b…`, `#o…`, `#nr…`, `#*…` and `#:…`.
-pub fn prefixed(
+pub(crate) fn prefixed(
     image: &mut Image,
     argument: Option<u32>,
     letter: char,
@@ -107,7 +107,7 @@ fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
 }
 
 /// A vector; if a length is given, the last element is repeated to reach it.
-pub fn vector(
+pub(crate) fn vector(
     items: Vec<Value>,
     length: Option<u32>,
     is_skipped: bool,
@@ -154,7 +154,7 @@ pub(super) fn elements(sequence: &Value) -> Option<Vec<Value>> {
 }
 
 /// An array of a rank from nested sequences.
-pub fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind> {
+pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind> {
     let not_rectangular = || ReadErrorKind::NotRectangular { rank };
     if rank > MAX_RANK {
         return Err(not_rectangular());
@@ -195,7 +195,7 @@ pub(crate) enum Structure {
 }
 
 /// A structure from its name and slots.
-pub fn structure(image: &mut Image, contents: &Value) -> Result<Structure, ReadErrorKind> {
+pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure, ReadErrorKind> {
     let bad = |reason: String| ReadErrorKind::BadStructure(reason);
     let parts = contents
         .list_to_vec()

@@ -91,7 +91,7 @@ impl Readtable {
 
     /// Characters that are not what they are in the standard syntax: parts of symbols, and blank
     /// macro characters.
-    pub fn significant(&self) -> Vec<char> {
+    pub(crate) fn significant(&self) -> Vec<char> {
         let constituents = self.constituents.borrow();
         let macros = self.macros.borrow();
         let blank_macros = macros.keys().filter(|c| is_blank(**c));

@@ -9,7 +9,7 @@ use crate::value::package::{Access, PackageId, PackageTable};
 use crate::value::symbol::Sym;
 
 /// A token split at its package marker, escapes resolved and letters in the case of the readtable.
-pub struct Name {
+pub(crate) struct Name {
     /// The text before the marker; `None` without a marker.
     pub package: Option<String>,
     /// The text after the marker.
@@ -80,7 +80,7 @@ fn unescaped(token: &str) -> impl Iterator<Item = char> + Clone {
 }
 
 /// Splits a token.
-pub fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
+pub(crate) fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
     let fold = fold(token, case);
     let mut result = Name {
         package: None,
@@ -140,7 +140,7 @@ pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
 }
 
 /// The symbol that a split token denotes.
-pub fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
+pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
     let Some(package_name) = &name.package else {
         return Ok(image.intern_read(&name.name));
     };

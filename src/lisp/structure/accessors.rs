@@ -27,7 +27,7 @@ fn wrong_type(value: &Value, class: &Class) -> Box<Raise> {
 }
 
 /// Defines the reader of a slot and, unless it is read-only, its writer.
-pub fn define(
+pub(crate) fn define(
     image: &mut Image,
     class: &Rc<Class>,
     index: usize,

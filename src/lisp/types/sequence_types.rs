@@ -22,7 +22,7 @@ pub(crate) struct SequenceType {
 
 impl SequenceType {
     /// The sequence type that a type specifier denotes, if it names a kind of sequence.
-    pub fn of(
+    pub(crate) fn of(
         image: &Image,
         specifier: &Value,
         answers: &mut Answers,
@@ -79,7 +79,7 @@ impl SequenceType {
     }
 
     /// The sequence type that a type specifier denotes; an error if it is not a kind of sequence.
-    pub fn new(
+    pub(crate) fn new(
         image: &Image,
         specifier: &Value,
         answers: &mut Answers,
@@ -99,7 +99,7 @@ impl SequenceType {
     }
 
     /// A fresh sequence of this type.
-    pub fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub(crate) fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         self.check_length(items.len())?;
         self.kind.make(items)
     }

@@ -11,7 +11,7 @@ use crate::value::{Value, known};
 
 /// An answer, which may be unknown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// Certainly.
     Yes,
     /// Certainly not.

@@ -24,7 +24,7 @@ pub(crate) struct Pathname {
 
 impl Pathname {
     /// Takes a file's name apart.
-    pub fn parse(text: &str) -> Pathname {
+    pub(crate) fn parse(text: &str) -> Pathname {
         let (folder, file) = match text.rfind('/') {
             Some(slash) => text.split_at(slash + 1),
             None => ("", text),
@@ -49,7 +49,7 @@ impl Pathname {
     }
 
     /// The name of the file, put together.
-    pub fn namestring(&self) -> String {
+    pub(crate) fn namestring(&self) -> String {
         if let Value::Str(host) = &self.host {
             return self.logical_namestring(&host.text());
         }

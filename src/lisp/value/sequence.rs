@@ -23,7 +23,7 @@ pub(crate) enum Sequence {
 
 impl Sequence {
     /// A value as a sequence.
-    pub fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
+    pub(crate) fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
         match value {
             Value::Symbol(known::NIL, ..) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
             Value::Vector(vector) => Ok(Sequence::Vector(vector.clone())),
@@ -33,7 +33,7 @@ impl Sequence {
     }
 
     /// The sequence as a value.
-    pub fn value(&self) -> Value {
+    pub(crate) fn value(&self) -> Value {
         match self {
             Sequence::List(list) => list.clone(),
             Sequence::Vector(vector) => Value::Vector(vector.clone()),
@@ -42,7 +42,7 @@ impl Sequence {
     }
 
     /// Number of elements.
-    pub fn len(&self) -> Result<usize, Box<Raise>> {
+    pub(crate) fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
             Sequence::Vector(vector) => Ok(vector.len()),
@@ -51,7 +51,7 @@ impl Sequence {
     }
 
     /// Walks the elements from `start` to `end` (`None`: to the end).
-    pub fn walk(&self, bounds: Bounds) -> Walk {
+    pub(crate) fn walk(&self, bounds: Bounds) -> Walk {
         let state = match self {
             Sequence::List(list) => State::List(ListWalk::new(list.clone())),
             Sequence::Vector(vector) => State::Vector(vector.clone()),
@@ -67,7 +67,7 @@ impl Sequence {
     }
 
     /// The elements within bounds.
-    pub fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
+    pub(crate) fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
         let mut items = Vec::new();
         let mut walk = self.walk(bounds);
         while let Some(item) = walk.next()? {
@@ -77,7 +77,7 @@ impl Sequence {
     }
 
     /// All elements.
-    pub fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
+    pub(crate) fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
         match self {
             Sequence::Vector(vector) => Ok(vector.to_vec()),
             _ => self.items(Bounds::ALL),
@@ -85,7 +85,7 @@ impl Sequence {
     }
 
     /// The kind of the sequence.
-    pub fn kind(&self) -> Kind {
+    pub(crate) fn kind(&self) -> Kind {
         match self {
             Sequence::List(_) => Kind::List,
             Sequence::Vector(vector) => Kind::Vector(vector.element_type),
@@ -115,7 +115,7 @@ impl Sequence {
     }
 
     /// Replaces the element at an index that is within the sequence.
-    pub fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
+    pub(crate) fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
         let length = match self {
             Sequence::List(list) => {
                 let mut rest = list.clone();
@@ -149,7 +149,7 @@ impl Sequence {
     }
 
     /// The element at an index.
-    pub fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
+    pub(crate) fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
         let found = match self {
             Sequence::List(list) => {
                 let mut walk = ListWalk::new(list.clone());
@@ -277,13 +277,13 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     /// The whole sequence.
-    pub const ALL: Bounds = Bounds {
+    pub(crate) const ALL: Bounds = Bounds {
         start: 0,
         end: None,
     };
 
     /// Checks `:start` and `:end` arguments against a sequence.
-    pub fn new(
+    pub(crate) fn new(
         sequence: &Sequence,
         start: Option<&Value>,
         end: Option<&Value>,
@@ -311,7 +311,7 @@ impl Bounds {
     }
 
     /// Index after the last element, for a sequence of a length.
-    pub fn end_of(self, length: usize) -> usize {
+    pub(crate) fn end_of(self, length: usize) -> usize {
         self.end.unwrap_or(length)
     }
 }
@@ -391,7 +391,7 @@ impl Walk {
     }
 
     /// The next element.
-    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         if self.end.is_some_and(|end| self.index >= end) {
             return Ok(None);
         }
@@ -416,7 +416,7 @@ pub(crate) struct ListWalk {
 
 impl ListWalk {
     /// A walk over a list.
-    pub fn new(list: Value) -> ListWalk {
+    pub(crate) fn new(list: Value) -> ListWalk {
         ListWalk {
             rest: list,
             rounds: Rounds::default(),
@@ -443,7 +443,7 @@ impl ListWalk {
     }
 
     /// The next element.
-    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         Ok(self.next_cons()?.map(|cons| cons.car()))
     }
 }
@@ -519,12 +519,12 @@ pub(crate) struct ListBuilder {
 
 impl ListBuilder {
     /// An empty list.
-    pub fn new() -> ListBuilder {
+    pub(crate) fn new() -> ListBuilder {
         ListBuilder::default()
     }
 
     /// Adds an element at the end.
-    pub fn push(&mut self, item: Value) {
+    pub(crate) fn push(&mut self, item: Value) {
         let cons = Cons::shared(item, Value::NIL);
         match self.last.replace(cons.clone()) {
             Some(last) => last.set_cdr(Value::Cons(cons)),
@@ -544,7 +544,7 @@ impl ListBuilder {
     }
 
     /// The list.
-    pub fn finish(self) -> Value {
+    pub(crate) fn finish(self) -> Value {
         self.finish_with(Value::NIL)
     }
 }

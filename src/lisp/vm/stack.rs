@@ -156,13 +156,13 @@ impl DerefMut for Stack {
 impl Window<'_> {
     /// The height of the stack.
     #[inline(always)]
-    pub fn height(&self) -> usize {
+    pub(crate) fn height(&self) -> usize {
         self.base + self.top
     }
 
     /// Notes the height in the stack, for others who look at it.
     #[inline(always)]
-    pub fn close(&self) {
+    pub(crate) fn close(&self) {
         self.height.set(self.height());
     }
 

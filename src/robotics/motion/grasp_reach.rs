@@ -146,7 +146,7 @@ struct Hand<'w> {
 
 impl<'w> GraspReach<'w> {
     /// For an object of the world, if it is about one. The torso stays as it is, unless it may move.
-    pub fn new(world: &'w World, object: Option<&'w str>, torso_moves: bool) -> Self {
+    pub(crate) fn new(world: &'w World, object: Option<&'w str>, torso_moves: bool) -> Self {
         let description = &world.models().description;
         let hands = Side::BOTH.map(|side| {
             let contacts = |mode| ExpectedContacts::of(world, [side].into_iter(), mode, object);
@@ -191,7 +191,7 @@ impl<'w> GraspReach<'w> {
     }
 
     /// The robot with its base at a pose in the map frame; everything else is as it is.
-    pub fn with_base_at(&self, base: &Pose, effort: Effort) -> GraspReachFrom<'_> {
+    pub(crate) fn with_base_at(&self, base: &Pose, effort: Effort) -> GraspReachFrom<'_> {
         let mut robot = self.world.robot_configuration().clone();
         robot.base = *base;
         GraspReachFrom {
@@ -228,7 +228,7 @@ pub(crate) struct GraspReachFrom<'w> {
 impl<'w> GraspReachFrom<'w> {
     /// The height of the torso (m) nearest to the present one at which the arm reaches all
     /// stations, if collisions did not matter.
-    pub fn height(&self, side: Side, stations: &[Station]) -> Result<f64, GraspObstacle> {
+    pub(crate) fn height(&self, side: Side, stations: &[Station]) -> Result<f64, GraspObstacle> {
         self.height_from(side, stations, 0)
             .map(|(height, _)| height)
     }
@@ -255,7 +255,7 @@ impl<'w> GraspReachFrom<'w> {
 
     /// Whether the arm reaches the pose at that height of the torso (m), if collisions did not
     /// matter.
-    pub fn reaches(&self, side: Side, tool: &Pose, height: f64) -> bool {
+    pub(crate) fn reaches(&self, side: Side, tool: &Pose, height: f64) -> bool {
         let arm = self.reach.world.models().description.arm(side);
         arm.kinematics.reaches(&self.wrist(side, tool, height))
     }
@@ -277,7 +277,7 @@ impl<'w> GraspReachFrom<'w> {
 
     /// Whether the hand, opened as far as given (m), can be at all stations, with the torso at one of
     /// its heights, without touching anything else. The value is the height (m).
-    pub fn check(
+    pub(crate) fn check(
         &mut self,
         side: Side,
         opening: f64,

@@ -21,7 +21,7 @@ const PINNED: f64 = 0.25;
 
 /// Fingers that close around an object: the named one, or any.
 #[derive(Clone, Debug)]
-pub struct Grip {
+pub(crate) struct Grip {
     side: Side,
     object: Option<String>,
     /// The force (N) of each finger; as much as possible if none is given.

@@ -20,7 +20,7 @@ use crate::world::{AllowedPairs, CollisionHit, Part, RobotConfiguration, World};
 use spatial::{Pose, trig};
 
 /// How far (m) the fingers are apart when the hand comes to a handle.
-pub const OPENING: f64 = 0.06;
+pub(crate) const OPENING: f64 = 0.06;
 /// How far (m) the hand is from the bar before it approaches, and after it has withdrawn.
 pub(crate) const AWAY: f64 = 0.1;
 /// Clearance (m) of the robot while the hand approaches and withdraws: a little more than what

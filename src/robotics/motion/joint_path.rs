@@ -443,7 +443,7 @@ impl Tree {
 }
 
 /// The point at `fraction` of the edge.
-pub fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
+pub(crate) fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
     from.iter()
         .zip(to)
         .map(|(a, b)| a + (b - a) * fraction)

@@ -11,7 +11,7 @@ pub(crate) struct Together {
 
 impl Together {
     /// Runs the motions, all of that module, together.
-    pub fn new(module: ProcessModule, motions: Vec<Box<dyn Motion>>) -> Self {
+    pub(super) fn new(module: ProcessModule, motions: Vec<Box<dyn Motion>>) -> Self {
         Self {
             module,
             running: motions,

@@ -15,7 +15,7 @@ pub(crate) struct Window {
 
 impl Window {
     /// All pixels of a camera.
-    pub fn whole(camera: &Camera) -> Self {
+    pub(crate) fn whole(camera: &Camera) -> Self {
         Self {
             first: [0, 0],
             end: [camera.width, camera.height],
@@ -23,7 +23,7 @@ impl Window {
     }
 
     /// One pixel; none if the camera does not have it.
-    pub fn pixel(camera: &Camera, [column, row]: [f64; 2]) -> Option<Self> {
+    pub(crate) fn pixel(camera: &Camera, [column, row]: [f64; 2]) -> Option<Self> {
         let is_inside = (0.0..camera.width as f64).contains(&column)
             && (0.0..camera.height as f64).contains(&row);
         // Both are within the picture, so that the casts are exact.
@@ -33,7 +33,7 @@ impl Window {
     }
 
     /// The pixels in which the points (m, map frame), and what is between them, may be seen.
-    pub fn around(camera: &Camera, points: impl Iterator<Item = Point3<f64>>) -> Self {
+    pub(crate) fn around(camera: &Camera, points: impl Iterator<Item = Point3<f64>>) -> Self {
         let whole = Self::whole(camera);
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in points {

@@ -89,12 +89,16 @@ pub(super) struct ArmChain {
 
 impl ArmChain {
     /// Greatest distance (m) of the wrist from the shoulder's pan axis, where that begins.
-    pub fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.shoulder_offset + self.upper_arm + self.forearm
     }
 
     /// Reads the chain from `base` to `tip`.
-    pub fn read(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, ArmChainError> {
+    pub(super) fn read(
+        tree: &KinematicTree,
+        base: LinkId,
+        tip: LinkId,
+    ) -> Result<Self, ArmChainError> {
         let name = |link: LinkId| tree.link(link).name.clone();
         if !tree.carries(base, tip) {
             return Err(ArmChainError::NotConnected {
@@ -149,7 +153,7 @@ impl ArmChain {
     }
 
     /// Limits of a joint; unbounded for a continuous one.
-    pub fn limits(&self, joint: usize) -> Limits {
+    pub(super) fn limits(&self, joint: usize) -> Limits {
         self.limits[joint].unwrap_or(Limits {
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,

@@ -67,7 +67,7 @@ pub(super) struct ElbowCurve<'a> {
 
 impl<'a> ElbowCurve<'a> {
     /// The curve for a pose of the wrist in the frame of the arm's base.
-    pub fn new(chain: &'a ArmChain, wrist: &Pose) -> Self {
+    pub(super) fn new(chain: &'a ArmChain, wrist: &Pose) -> Self {
         let w: Vector3<f64> = wrist.translation.vector - chain.shoulder;
         let (d, l1, l2) = (chain.shoulder_offset, chain.upper_arm, chain.forearm);
         // On the pan axis itself the direction is arbitrary; a reach of half a nanometre
@@ -90,7 +90,7 @@ impl<'a> ElbowCurve<'a> {
     }
 
     /// The stretches on which every joint is within its limits.
-    pub fn stretches(&self) -> Vec<Stretch> {
+    pub(super) fn stretches(&self) -> Vec<Stretch> {
         let lift = self.chain.limits(LIFT);
         let mut cuts = vec![lift.lower, lift.upper];
         for along in [self.reach, -self.reach] {
@@ -129,7 +129,7 @@ impl<'a> ElbowCurve<'a> {
 
     /// The joint positions at a lift angle (rad), or `None` where the curve has no point.
     /// Limits are ignored; continuous joints are within -π..π.
-    pub fn positions(&self, lift: f64, bend: f64) -> Option<ArmPositions> {
+    pub(super) fn positions(&self, lift: f64, bend: f64) -> Option<ArmPositions> {
         self.point(lift, bend).map(|point| self.with_wrist(&point))
     }
 
@@ -150,7 +150,7 @@ impl<'a> ElbowCurve<'a> {
     }
 
     /// How far (m) the forearm is too short or too long at the lift angle (rad).
-    pub fn miss(&self, lift: f64) -> f64 {
+    pub(super) fn miss(&self, lift: f64) -> f64 {
         let (s, c) = trig::sin_cos(lift);
         let around = self.chain.shoulder_offset + self.chain.upper_arm * c;
         let below = self.height + self.chain.upper_arm * s;

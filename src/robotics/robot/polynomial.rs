@@ -8,7 +8,7 @@ pub(super) struct Roots {
 }
 
 impl Roots {
-    pub fn as_slice(&self) -> &[f64] {
+    pub(super) fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]
     }
 

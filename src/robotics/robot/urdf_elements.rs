@@ -5,7 +5,6 @@
 //! need to be sorted into its structures. Texts that need more, such as references like
 //! `&amp;` or the rules of later versions of the format, are left to `urdf_rs`.
 
-use descriptions::{KITCHEN_URDF, PR2_URDF};
 use urdf_rs::{
     Axis, Calibration, Collision, Color, Dynamics, Geometry, Inertia, Inertial, Joint, JointLimit,
     JointType, Link, LinkName, Mass, Material, Mimic, Pose, Robot, SafetyController, Texture, Vec3,
@@ -246,6 +245,8 @@ fn joint(node: Node<'_>) -> Joint {
 
 #[cfg(test)]
 mod tests {
+    use descriptions::{KITCHEN_URDF, PR2_URDF};
+
     use super::*;
     use crate::robot::xml_elements::elements;
 

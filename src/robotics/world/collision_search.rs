@@ -544,7 +544,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 }
 
 /// The pair as lists of pairs have it.
-pub fn in_order(a: PartKey, b: PartKey) -> (PartKey, PartKey) {
+pub(super) fn in_order(a: PartKey, b: PartKey) -> (PartKey, PartKey) {
     (a.min(b), a.max(b))
 }
 

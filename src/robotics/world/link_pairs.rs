@@ -8,7 +8,7 @@ use std::ops::Range;
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 
 /// Number of links of a block.
-pub const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 
 /// Pairs of indices of solid links, the smaller one first, in order.
 #[derive(Clone, Debug, Default)]
@@ -20,7 +20,7 @@ pub(crate) struct LinkPairs {
 
 impl LinkPairs {
     /// The pairs, which are in order.
-    pub fn new(pairs: Vec<(usize, usize)>) -> Self {
+    pub(crate) fn new(pairs: Vec<(usize, usize)>) -> Self {
         let mut runs: Vec<(usize, usize, Range<usize>)> = Vec::new();
         for (place, (a, b)) in pairs.iter().enumerate() {
             match runs.last_mut() {
@@ -38,13 +38,19 @@ impl LinkPairs {
     }
 
     /// Whether the pair, the smaller index first, is one of them.
-    pub fn contains(&self, pair: (usize, usize)) -> bool {
+    pub(crate) fn contains(&self, pair: (usize, usize)) -> bool {
         self.pairs.binary_search(&pair).is_ok()
     }
 
     /// Appends the pairs whose bounds (m) are no farther apart than the gap (m), in order, given
     /// the bounds of all links and of each of their blocks ([`blocks_of`]).
-    pub fn near(&self, bounds: &[Aabb], blocks: &[Aabb], gap: f64, near: &mut Vec<(usize, usize)>) {
+    pub(crate) fn near(
+        &self,
+        bounds: &[Aabb],
+        blocks: &[Aabb],
+        gap: f64,
+        near: &mut Vec<(usize, usize)>,
+    ) {
         for (a, block, run) in &self.runs {
             let (Some(one), Some(all)) = (bounds.get(*a), blocks.get(*block)) else {
                 continue;

@@ -51,7 +51,7 @@ pub(crate) struct NoiseSetting {
 
 impl NoiseSetting {
     /// All of them.
-    pub const ALL: &[NoiseSetting] = &[
+    pub(crate) const ALL: &[NoiseSetting] = &[
         Self::new("position", 0.5, 0.005, |l| &mut l.position),
         Self::new("yaw", 3.0, 0.05, |l| &mut l.yaw),
         Self::new("misses", 1.0, 0.02, |l| &mut l.misses),

@@ -41,7 +41,7 @@ impl PartKey {
 }
 
 /// The link's index in its tree, as used in keys.
-pub fn index(link: LinkId) -> u32 {
+pub(super) fn index(link: LinkId) -> u32 {
     // A tree of four billion links does not fit into memory.
     u32::try_from(link.index()).unwrap_or(u32::MAX)
 }

@@ -168,7 +168,7 @@ impl Clone for Physics {
 
 impl Physics {
     /// Empty space with gravity along -z.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let parameters = IntegrationParameters {
             dt: STEP_SECONDS,
             num_solver_iterations: SOLVER_ITERATIONS,
@@ -256,7 +256,7 @@ impl Physics {
     /// Sets what an object collides with, besides furniture and objects. What a hand holds cannot
     /// move against the hand, and contacts that nothing can change cost a quarter of a plan's
     /// time.
-    pub fn collide(&mut self, object: BodyHandle, with: Robot) {
+    pub(crate) fn collide(&mut self, object: BodyHandle, with: Robot) {
         let s = self.edit();
         let Some(body) = s.bodies.get(object.0) else {
             return;
@@ -316,7 +316,7 @@ impl Physics {
     }
 
     /// Pose of the body; identity for a removed one.
-    pub fn pose(&self, body: BodyHandle) -> Pose {
+    pub(crate) fn pose(&self, body: BodyHandle) -> Pose {
         self.sets
             .bodies
             .get(body.0)
@@ -324,7 +324,7 @@ impl Physics {
     }
 
     /// Linear (m/s) and angular (rad/s) velocity of the body.
-    pub fn velocity(&self, body: BodyHandle) -> (Vector3<f64>, Vector3<f64>) {
+    pub(crate) fn velocity(&self, body: BodyHandle) -> (Vector3<f64>, Vector3<f64>) {
         self.sets
             .bodies
             .get(body.0)
@@ -334,7 +334,7 @@ impl Physics {
     }
 
     /// Puts the body at the pose, at rest. An edit of the world, not a motion.
-    pub fn place(&mut self, body: BodyHandle, pose: &Pose) {
+    pub(crate) fn place(&mut self, body: BodyHandle, pose: &Pose) {
         if let Some(b) = self.edit().bodies.get_mut(body.0) {
             b.set_position(to_parry(pose), true);
             if b.is_dynamic() {
@@ -371,7 +371,7 @@ impl Physics {
 
     /// Number of bodies that are awake.
     #[cfg(test)]
-    pub fn awake(&self) -> usize {
+    pub(crate) fn awake(&self) -> usize {
         self.sets.islands.num_active_bodies()
     }
 
@@ -391,7 +391,7 @@ impl Physics {
     }
 
     /// Puts a kinematic body that touches nothing to sleep where it is.
-    pub fn sleep(&mut self, body: BodyHandle) {
+    pub(crate) fn sleep(&mut self, body: BodyHandle) {
         if self.is_awake(body)
             && let Some(b) = self.edit().bodies.get_mut(body.0)
         {
@@ -400,7 +400,7 @@ impl Physics {
     }
 
     /// Wakes the body.
-    pub fn wake(&mut self, body: BodyHandle) {
+    pub(crate) fn wake(&mut self, body: BodyHandle) {
         let s = self.edit();
         s.islands.wake_up(&mut s.bodies, body.0, true);
     }
@@ -464,7 +464,7 @@ impl Physics {
     }
 
     /// Advances by [`STEP_SECONDS`].
-    pub fn step(&mut self) {
+    pub(crate) fn step(&mut self) {
         let s = &mut self.sets;
         // With everything asleep and nothing changed, the engine would find nothing to do.
         if !std::mem::take(&mut s.is_edited) && s.islands.num_active_bodies() == 0 {
@@ -491,13 +491,13 @@ impl Physics {
     }
 
     /// A copy of the state.
-    pub fn save(&self) -> Sets {
+    pub(crate) fn save(&self) -> Sets {
         self.sets.clone()
     }
 
     /// Restores the state. What the pipeline remembers of its last step belongs to the state
     /// being left.
-    pub fn load(&mut self, sets: &Sets) {
+    pub(crate) fn load(&mut self, sets: &Sets) {
         self.sets.clone_from(sets);
         self.pipeline = PhysicsPipeline::new();
     }

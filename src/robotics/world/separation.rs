@@ -42,7 +42,7 @@ pub(crate) fn separation(
 }
 
 /// Whether two solids overlap, as a separation whose numbers are meaningless.
-pub fn overlap(
+pub(super) fn overlap(
     pose1: &ParryPose,
     solid1: &Solid,
     pose2: &ParryPose,

@@ -22,7 +22,7 @@ pub(crate) struct Pace {
 
 impl Pace {
     /// Keeps the pace that the control sets.
-    pub fn new(control: PaceControl) -> Pace {
+    pub(crate) fn new(control: PaceControl) -> Pace {
         Pace {
             control,
             next: Instant::now(),
@@ -30,12 +30,12 @@ impl Pace {
     }
 
     /// The control that sets the speed.
-    pub fn control(&self) -> &PaceControl {
+    pub(crate) fn control(&self) -> &PaceControl {
         &self.control
     }
 
     /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited.
-    pub fn slice(&self) -> Option<f64> {
+    pub(crate) fn slice(&self) -> Option<f64> {
         match self.control.get() {
             (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
             // Waits for the end of the pause, then continues.
@@ -46,7 +46,7 @@ impl Pace {
 
     /// Waits until `seconds` of simulated time may have passed since the last wait, or until
     /// the interrupt flag is set.
-    pub fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
+    pub(crate) fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
         while !interrupt.load(Ordering::Relaxed) {
             let Some(speed) = self.control.wait(SLICE) else {
                 continue;

@@ -122,7 +122,7 @@ impl Level {
 }
 
 impl Console {
-    pub fn level(&self) -> usize {
+    pub(crate) fn level(&self) -> usize {
         self.levels.len()
     }
 
@@ -155,12 +155,12 @@ impl Console {
         })
     }
 
-    pub fn take_draft(&mut self) -> Option<String> {
+    pub(crate) fn take_draft(&mut self) -> Option<String> {
         self.draft.take()
     }
 
     /// The input that a second Ctrl-C stands for.
-    pub fn answer_to_interrupt(&self) -> Option<&'static str> {
+    pub(crate) fn answer_to_interrupt(&self) -> Option<&'static str> {
         match self.levels.last()?.cause {
             Cause::Interrupt => Some("abort"),
             Cause::Condition(_) => None,

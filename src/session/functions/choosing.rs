@@ -21,7 +21,7 @@ use robotics::robot::Side;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "CHOOSE-GRASP",
     "object &key arms grasps base-pose target target-base-pose failed",
     "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",

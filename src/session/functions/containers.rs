@@ -24,7 +24,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const CLOSED: f64 = 0.1;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "LIST-CONTAINERS",
         "",

@@ -9,7 +9,7 @@ use lisp::value::Value;
 use lisp::value::raise::Raise;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "EXPLAIN",
         "",

@@ -22,7 +22,7 @@ use robotics::world::grasp_library::{GraspDefinition, Lift};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-OBJECT-INTERFACES`.
-pub static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
     "types arms grasp &key grasp-translation grasp-rot-matrix pregrasp-offsets 2nd-pregrasp-offsets lift-offsets 2nd-lift-offsets lift-translation lift-rotation 2nd-lift-translation 2nd-lift-rotation location-type",
     "Defines how objects of the types (one or a list) are grasped by the arms (one or a list). Offsets are relative to the translation, along the object's axes (m); LIFT-TRANSLATION and LIFT-ROTATION (a quaternion) move hand and object along the axes of the robot's base. A grasp that exists is replaced.",

@@ -10,7 +10,7 @@ use lisp::value::number;
 use lisp::value::raise::Raise;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "QUIT",
         "&optional status",

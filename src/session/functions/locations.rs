@@ -17,7 +17,7 @@ use robotics::location::surfaces;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-LOCATION-COSTMAP`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "NEXT-LOCATION-SAMPLE",
         "location references",

@@ -15,7 +15,7 @@ use robotics::world::noise::NoiseLevels;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "SET-NOISE",
     "&rest settings",
     "Sets the errors of the robot's sensors and motors, and returns the former settings. Settings are names and numbers: :POSITION (m) and :YAW (rad) are standard deviations of what is detected, :MISSES and :FALSE-TYPES the probabilities that an object is overlooked or taken for another, :ODOMETRY-POSITION (m) and :ODOMETRY-YAW (rad) standard deviations of where a drive ends, :GRASP-POSITION (m) and :GRASP-YAW (rad) of where a hand approaches an object. What is not named is zero; without settings there are no errors. :USUAL stands for the errors of a common robot. The same seed gives the same errors.",

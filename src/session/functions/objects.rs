@@ -29,7 +29,7 @@ const LOWER: f64 = 0.05;
 const FALL: f64 = 0.3;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "SPAWN-OBJECT",
         "name type &key pose color mass",

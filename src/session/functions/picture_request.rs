@@ -37,7 +37,7 @@ pub(super) struct PictureRequest {
 
 impl PictureRequest {
     /// Parses the arguments; `keys` are the permitted keys.
-    pub fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
+    pub(super) fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
         let mut request = Self {
             file: None,
             view: None,
@@ -78,13 +78,13 @@ impl PictureRequest {
     }
 
     /// The value of a key, if given.
-    pub fn get(&self, key: &str) -> Option<&Value> {
+    pub(super) fn get(&self, key: &str) -> Option<&Value> {
         let found = self.keys.iter().find(|(known, _)| *known == key);
         found.map(|(_, value)| value)
     }
 
     /// A number of pixels.
-    pub fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
+    pub(super) fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
         let Some(value) = self.get(key) else {
             return Ok(otherwise);
         };
@@ -119,7 +119,7 @@ impl PictureRequest {
     }
 
     /// The viewpoint.
-    pub fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
+    pub(super) fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
         let named = self.view.as_ref().or_else(|| self.get("VIEW"));
         let (from, at) = (self.get("FROM"), self.get("AT"));
         match (named, from, at) {

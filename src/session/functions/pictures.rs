@@ -31,7 +31,7 @@ const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "PICTURE",
         "&rest arguments",

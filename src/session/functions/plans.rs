@@ -30,7 +30,7 @@ use spatial::{Pose, pose};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "ARM-POSTURE",
         "arm posture",

@@ -29,7 +29,7 @@ use robotics::world::Models;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "HELP",
         "",

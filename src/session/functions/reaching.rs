@@ -19,7 +19,7 @@ use spatial::pose;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "BASE-POSE-FREE-P",
         "base-pose",

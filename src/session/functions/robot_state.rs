@@ -20,7 +20,7 @@ use robotics::robot::{JointId, KinematicTree};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-ROBOT-INTERFACES`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "JOINT-POSITION",
         "joint",

@@ -22,7 +22,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const TIPPED: f64 = 5.0;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "SCENE-AT-REST",
         "",

@@ -10,7 +10,7 @@ use lisp::value::Value;
 use lisp::value::raise::Raise;
 
 /// Builtins of package `SWANK`.
-pub static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "CREATE-SERVER",
     "&key (port 4005) dont-close style",
     "At the prompt: serves the session to Emacs, which connects by M-x slime-connect, until Ctrl-C; the prompt waits meanwhile. With port 0, any that is free. Returns the port that was asked for.",

@@ -16,7 +16,7 @@ use lisp::value::raise::Raise;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "REWIND",
         "&optional count",

@@ -40,7 +40,7 @@ const TOLERANCE: f64 = 0.002;
 const FLOOR: f64 = 0.02;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "%SURFACE-POINT",
         "surface u v",

@@ -21,7 +21,7 @@ use sweep::{Drawn, Ending, Record, normal_quantile};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "%SWEEP-BEGIN",
         "seed world",

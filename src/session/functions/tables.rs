@@ -70,7 +70,7 @@ static ALIASES: &[(&str, &str, &[&str])] = &[
 ];
 
 /// Installs the builtins that act on the world. The packages must exist.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     for (package, table) in FUNCTIONS {
         if let Some(package) = image.packages.find(package) {
             image.install(package, table);

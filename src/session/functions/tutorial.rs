@@ -28,7 +28,7 @@ const AXES_SIZE: f64 = 0.3;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "INIT-PROJECTION",
         "",

@@ -13,7 +13,7 @@ use lisp::value::raise::Raise;
 use view::watch::live::open_in_browser;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "VIEW",
         "&optional (on t)",

@@ -29,7 +29,7 @@ pub(crate) struct HostCall {
 }
 
 /// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
-pub trait Owner {
+pub(crate) trait Owner {
     /// Whether the tape answers for calls of its functions. Where it does not, a function is called
     /// also while answers are played, and must not look at the physical state by itself.
     const IS_ANSWERED: bool = false;
@@ -102,6 +102,6 @@ macro_rules! host {
 pub(crate) use host;
 
 /// The reply of a completed call.
-pub fn done(value: impl Into<Value>) -> Result<Reply, Box<Raise>> {
+pub(crate) fn done(value: impl Into<Value>) -> Result<Reply, Box<Raise>> {
     Ok(Reply::Now(Ok(value.into())))
 }

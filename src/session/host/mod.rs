@@ -5,7 +5,7 @@
 //! [`Person`] the state of the prompt, [`Audience`] the outputs that show the session. A
 //! builtin asks for the one that it needs; see [`call`].
 
-pub mod call;
+pub(crate) mod call;
 pub(super) mod parts;
 mod request;
 mod taped;
@@ -32,7 +32,7 @@ pub(crate) struct SimulationHost {
 
 impl SimulationHost {
     /// A host for the simulation.
-    pub fn new(simulation: Simulation, audience: Audience) -> Self {
+    pub(crate) fn new(simulation: Simulation, audience: Audience) -> Self {
         Self {
             simulation,
             person: Person::default(),

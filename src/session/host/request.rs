@@ -230,7 +230,7 @@ impl SimulationHost {
     }
 
     /// Starts a motion as soon as its process module is free.
-    pub fn start(
+    pub(crate) fn start(
         &mut self,
         motion: Box<dyn Motion>,
         subject: Value,

@@ -216,7 +216,7 @@ impl Snapshots {
     }
 
     /// Call when something is requested from the world.
-    pub fn touch(&mut self) {
+    pub(crate) fn touch(&mut self) {
         self.is_touched = true;
     }
 
@@ -244,7 +244,7 @@ impl Snapshots {
 
     /// The numbers of the frames that the snapshots of forms and the named ones need; `None` if
     /// one of these is absent.
-    pub fn frames(&self) -> Option<Vec<u64>> {
+    pub(crate) fn frames(&self) -> Option<Vec<u64>> {
         let forms = self.forms.iter().map(|before| &before.snapshot);
         let all = forms.chain(self.named.values());
         all.map(Snapshot::frame).collect()
@@ -270,7 +270,7 @@ impl Snapshots {
 
     /// Restores the world to before the last `count` forms that changed it; returns the first
     /// of them.
-    pub fn rewind(
+    pub(crate) fn rewind(
         &mut self,
         simulation: &mut Simulation,
         image: &mut Image,
@@ -315,7 +315,7 @@ impl Snapshots {
     }
 
     /// Takes a named snapshot of the world.
-    pub fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
+    pub(crate) fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
         let snapshot = Snapshot::take(simulation, image);
         self.named.insert(name.to_owned(), snapshot);
     }

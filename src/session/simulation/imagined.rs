@@ -26,7 +26,7 @@ pub(crate) struct Imagined<'a> {
 impl Imagined<'_> {
     /// A copy of the world with these differences; `None` if something else is where the object
     /// would be.
-    pub fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
+    pub(crate) fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
         let mut world = now.clone();
         let gripper = &now.models().description.arm(self.side).gripper;
         let mut robot = now.robot_configuration().clone();

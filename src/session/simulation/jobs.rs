@@ -97,7 +97,7 @@ impl Job {
 
 impl Jobs {
     /// Adds a motion, which begins as soon as its process module is free.
-    pub fn add(
+    pub(crate) fn add(
         &mut self,
         motion: Box<dyn Motion>,
         subject: Value,
@@ -159,7 +159,7 @@ impl Jobs {
     }
 
     /// Lets a cancelled motion brake in the next steps.
-    pub fn leave(&mut self, job: Job) {
+    pub(crate) fn leave(&mut self, job: Job) {
         if job.is_moving() {
             self.leaving.push(job);
         }
@@ -187,12 +187,12 @@ impl Jobs {
     }
 
     /// Whether no motion is active or waiting.
-    pub fn is_idle(&self) -> bool {
+    pub(crate) fn is_idle(&self) -> bool {
         self.active.is_empty() && self.waiting.is_empty() && self.leaving.is_empty()
     }
 
     /// No motions, after so many.
-    pub fn after(begun: u64) -> Self {
+    pub(crate) fn after(begun: u64) -> Self {
         Jobs {
             begun,
             ..Jobs::default()
@@ -200,7 +200,7 @@ impl Jobs {
     }
 
     /// Forgets all motions.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.active.clear();
         self.leaving.clear();
         self.partial_step = None;
@@ -208,14 +208,14 @@ impl Jobs {
     }
 
     /// The trajectories that motions follow, with the motions' numbers.
-    pub fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
+    pub(crate) fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
         let jobs = self.active.iter();
         jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
             .collect()
     }
 
     /// What each motion is doing, and its progress.
-    pub fn progress(&self) -> impl Iterator<Item = String> {
+    pub(crate) fn progress(&self) -> impl Iterator<Item = String> {
         let jobs = self.active.iter().filter(|job| !job.is_paused);
         jobs.map(|job| {
             let progress = job.motion.progress();

@@ -28,7 +28,7 @@ pub struct Effects {
 }
 
 impl Mark {
-    pub fn of(image: &Image) -> Mark {
+    pub(crate) fn of(image: &Image) -> Mark {
         Mark {
             written: image.output.len(),
             symbols: image.symbols.len(),

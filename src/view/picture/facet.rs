@@ -6,7 +6,7 @@ use super::scene::{Body, Finish, Kind, Scene};
 
 /// A corner of a body.
 #[derive(Clone, Copy, Debug)]
-pub struct Corner {
+pub(crate) struct Corner {
     /// Position (m, map frame).
     pub point: Vector3<f64>,
     /// Unit vector away from the solid, for shading.
@@ -50,7 +50,7 @@ pub(crate) struct Facets {
 }
 
 impl Facets {
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let rank = |body: &Body| match body.finish {
             Finish::Boards => 0,
             _ if is_small(body) => 1,
@@ -76,17 +76,17 @@ impl Facets {
     }
 
     /// All triangles.
-    pub fn all(&self) -> Mesh<'_> {
+    pub(crate) fn all(&self) -> Mesh<'_> {
         self.from(0)
     }
 
     /// The triangles that cast shadows.
-    pub fn solid(&self) -> Mesh<'_> {
+    pub(crate) fn solid(&self) -> Mesh<'_> {
         self.from(1)
     }
 
     /// The triangles that block light from the sky.
-    pub fn large(&self) -> Mesh<'_> {
+    pub(crate) fn large(&self) -> Mesh<'_> {
         self.from(2)
     }
 

@@ -50,7 +50,7 @@ const BEYOND: f64 = 0.04;
 
 impl Lamp {
     /// A light on the triangles, for a picture that shows these points (m, map frame).
-    pub fn new(plan: LampPlan, blocking: Mesh<'_>, seen: &[Vector3<f32>]) -> Self {
+    pub(crate) fn new(plan: LampPlan, blocking: Mesh<'_>, seen: &[Vector3<f32>]) -> Self {
         let towards = plan.towards.normalize();
         let aside = if towards.z.abs() < 0.9 {
             Vector3::z()
@@ -204,7 +204,11 @@ impl Lamp {
     /// Share (0..1) of the light that reaches the neighbourhood of the point (m, map frame) on
     /// a surface with the unit normal, averaged over `COUNT` - 1 cells of the grid and a
     /// fraction of another one.
-    pub fn reaches<const COUNT: usize>(&self, point: &Vector3<f32>, normal: &Vector3<f32>) -> f32 {
+    pub(crate) fn reaches<const COUNT: usize>(
+        &self,
+        point: &Vector3<f32>,
+        normal: &Vector3<f32>,
+    ) -> f32 {
         let width = (COUNT - 1) as f32;
         let lifted = point + normal * self.lift::<COUNT>(self.towards.dot(normal));
         let [x, y, height] = self

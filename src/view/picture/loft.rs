@@ -48,7 +48,7 @@ pub(crate) struct Section {
 }
 
 /// A section centred on the axis.
-pub fn section(along: f64, half: [f64; 2], round: f64) -> Section {
+pub(super) fn section(along: f64, half: [f64; 2], round: f64) -> Section {
     let middle = [0.0; 2];
     Section {
         along,
@@ -60,7 +60,7 @@ pub fn section(along: f64, half: [f64; 2], round: f64) -> Section {
 
 impl Section {
     /// The section with another centre.
-    pub fn at(self, middle: [f64; 2]) -> Self {
+    pub(super) fn at(self, middle: [f64; 2]) -> Self {
         Self { middle, ..self }
     }
 

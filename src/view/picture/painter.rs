@@ -99,7 +99,7 @@ pub(crate) struct Painter<'a> {
 
 impl<'a> Painter<'a> {
     /// A painter of pictures in which the samples show the triangles.
-    pub fn new(
+    pub(super) fn new(
         scene: &'a Scene,
         lights: &'a Lights,
         projector: &'a Projector,
@@ -118,7 +118,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Colours all pixels of a band.
-    pub fn paint(&self, mut band: Band<'_>) {
+    pub(super) fn paint(&self, mut band: Band<'_>) {
         let whole = Tile {
             rows: 0..band.pixels.len() / self.width,
             columns: 0..self.width,

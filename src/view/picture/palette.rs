@@ -25,7 +25,7 @@ struct Cell {
 
 impl Palette {
     /// At most `most` (1 to 256) colours for the pictures.
-    pub fn of<'a>(pictures: impl Iterator<Item = &'a Image>, most: usize) -> Self {
+    pub(super) fn of<'a>(pictures: impl Iterator<Item = &'a Image>, most: usize) -> Self {
         let mut cells = vec![Cell::default(); CELLS];
         for picture in pictures {
             for pixel in picture.bytes().as_chunks().0 {
@@ -78,12 +78,12 @@ impl Palette {
     }
 
     /// The colours.
-    pub fn colors(&self) -> &[Rgb] {
+    pub(super) fn colors(&self) -> &[Rgb] {
         &self.colors
     }
 
     /// The index of each pixel's colour, row by row.
-    pub fn places(&self, picture: &Image) -> Vec<u8> {
+    pub(super) fn places(&self, picture: &Image) -> Vec<u8> {
         let pixels = picture.bytes().as_chunks().0.iter();
         pixels.map(|pixel| self.nearest[cell_of(*pixel)]).collect()
     }

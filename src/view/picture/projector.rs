@@ -10,7 +10,7 @@ use robotics::perception::camera::Camera;
 pub(crate) const SAMPLES: usize = 2;
 
 /// A triangle, or the part of it in front of the camera, in the grid of samples.
-pub struct Seen {
+pub(super) struct Seen {
     pub(crate) patch: Patch,
     /// What gives the weight of each corner at a column and row of the grid: factors of these,
     /// and what is added.
@@ -34,7 +34,7 @@ const GENTLE: f32 = 0.97;
 
 impl Seen {
     /// Whether the other triangle belongs to the same, hardly bent part of a body.
-    pub fn continues(&self, other: &Self) -> bool {
+    pub(super) fn continues(&self, other: &Self) -> bool {
         self.body == other.body && self.outward.dot(&other.outward) > GENTLE
     }
 
@@ -50,7 +50,7 @@ impl Seen {
 
     /// Position (m, map frame) and normal of what is seen at the column and row of the grid; on a
     /// flat triangle, also outside it.
-    pub fn at(&self, x: f64, y: f64) -> (Vector3<f32>, Vector3<f32>) {
+    pub(super) fn at(&self, x: f64, y: f64) -> (Vector3<f32>, Vector3<f32>) {
         let mix = |v: &[Vector3<f32>; 3], weights: [f32; 3]| {
             v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
         };
@@ -101,7 +101,7 @@ pub(crate) struct Plane {
 impl Plane {
     /// The position (m, map frame) at the column and row of the grid; `None` at the horizon and
     /// beyond it.
-    pub fn at(&self, x: f64, y: f64) -> Option<Vector3<f32>> {
+    pub(super) fn at(&self, x: f64, y: f64) -> Option<Vector3<f32>> {
         let [across, down, start] = &self.factors;
         let nearness = across.1 * x + down.1 * y + start.1;
         let point = across.0 * x + down.0 * y + start.0;
@@ -129,7 +129,7 @@ pub(crate) struct Projector {
 }
 
 impl Projector {
-    pub fn new(camera: &Camera) -> Self {
+    pub(super) fn new(camera: &Camera) -> Self {
         let rotation = camera.pose.rotation.inverse();
         Self {
             eye: camera.pose.translation.vector,

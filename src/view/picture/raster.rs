@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 /// Column, row, and a nearness that increases towards the eye and is linear in the picture.
-pub type Corner = [f64; 3];
+pub(super) type Corner = [f64; 3];
 
 /// An edge as the column where it crosses a row: `slope * row + base`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub(crate) struct Patch {
 
 impl Patch {
     /// The part of the triangle in a grid of this size; `None` if it covers no place.
-    pub fn new(corners: [Corner; 3], width: usize, height: usize) -> Option<Self> {
+    pub(super) fn new(corners: [Corner; 3], width: usize, height: usize) -> Option<Self> {
         let [a, mut b, mut c] = corners;
         let range = |axis: usize, end: usize| {
             let low = a[axis].min(b[axis]).min(c[axis]);
@@ -93,12 +93,12 @@ impl Patch {
     }
 
     /// The rows that it may cover.
-    pub fn rows(&self) -> &Range<usize> {
+    pub(super) fn rows(&self) -> &Range<usize> {
         &self.rows
     }
 
     /// The columns below `width` that it covers in the row.
-    pub fn columns(&self, row: usize, width: usize) -> Range<usize> {
+    pub(super) fn columns(&self, row: usize, width: usize) -> Range<usize> {
         let y = row as f64 + 0.5;
         let left = self.left[0].at(y).max(self.left[1].at(y));
         let right = self.right[0].at(y).min(self.right[1].at(y));
@@ -114,7 +114,7 @@ impl Patch {
 }
 
 /// The first place whose centre, at a half, is not below `value`.
-pub fn first_place(value: f64) -> usize {
+pub(super) fn first_place(value: f64) -> usize {
     let value = value - 0.5;
     // The cast saturates; grids are far smaller.
     let below = value as i32;

@@ -69,7 +69,7 @@ pub(crate) struct Foreknown {
 
 impl Foreknown {
     /// Whether the light is the same everywhere.
-    pub fn is_all(&self) -> bool {
+    pub(crate) fn is_all(&self) -> bool {
         self.unsure == 0 && self.key.is_some()
     }
 }
@@ -86,7 +86,7 @@ pub(crate) struct Shading {
 impl Shading {
     /// The light that a point (m, map frame) of the body sends to the eye; `grain` is the size (m) of
     /// a pixel there.
-    pub fn color(
+    pub(crate) fn color(
         &self,
         body: &Body,
         point: &Vector3<f32>,
@@ -113,7 +113,7 @@ pub(crate) struct Lights {
 
 impl Lights {
     /// The plans of all lamps for a picture with this number of rows, the key lamp first.
-    pub fn plans(rows: usize) -> Vec<LampPlan> {
+    pub(crate) fn plans(rows: usize) -> Vec<LampPlan> {
         let mut plans = vec![LampPlan {
             towards: Vector3::from(LAMP),
             most: (KEY_CELLS_PER_ROW * rows.max(1) as f64).min(KEY_CELLS),
@@ -146,7 +146,7 @@ impl Lights {
     }
 
     /// The lights, from the lamps of the plans in their order.
-    pub fn new(lamps: Vec<Lamp>) -> Option<Self> {
+    pub(crate) fn new(lamps: Vec<Lamp>) -> Option<Self> {
         let mut lamps = lamps.into_iter();
         let key = lamps.next()?;
         let sky: Vec<_> = lamps.collect();
@@ -193,7 +193,7 @@ impl Lights {
     }
 
     /// The light that reaches the point with this normal and its neighbourhood of `grain` (m).
-    pub fn reach(
+    pub(crate) fn reach(
         &self,
         foreknown: &Foreknown,
         [point, normal]: [&Vector3<f32>; 2],
@@ -227,7 +227,7 @@ impl Lights {
 
     /// The light that the point of the body sends to the eye; `reach` is the light that reaches
     /// the point, `grain` the size (m) of a pixel there.
-    pub fn shade(
+    pub(crate) fn shade(
         &self,
         body: &Body,
         place: [&Vector3<f32>; 2],

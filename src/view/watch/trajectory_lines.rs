@@ -23,7 +23,12 @@ pub(crate) struct TrajectoryLines {
 
 impl TrajectoryLines {
     /// The lines of the trajectory; `base` is the node of the robot's base.
-    pub fn new(world: &World, base: u32, number: u64, planned: &PlannedTrajectory<'_>) -> Self {
+    pub(super) fn new(
+        world: &World,
+        base: u32,
+        number: u64,
+        planned: &PlannedTrajectory<'_>,
+    ) -> Self {
         let lines = match planned.axes {
             TrajectoryAxes::Base => vec![Path {
                 what: Path::WHAT[0],
@@ -68,7 +73,7 @@ impl TrajectoryLines {
     }
 
     /// Whether these lines belong to this trajectory.
-    pub fn is(&self, number: u64, planned: &PlannedTrajectory<'_>) -> bool {
+    pub(super) fn is(&self, number: u64, planned: &PlannedTrajectory<'_>) -> bool {
         self.number == number
             && self.duration == planned.trajectory.duration()
             && self.end == planned.trajectory.last()

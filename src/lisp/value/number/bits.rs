@@ -26,7 +26,7 @@ fn big(value: &Value) -> Result<BigInt, Box<Raise>> {
 macro_rules! bitwise {
     ($($(#[$doc:meta])* $name:ident = $operator:tt;)*) => {
         $($(#[$doc])*
-        pub fn $name(a: &Value, b: &Value) -> NumberResult {
+        pub(crate) fn $name(a: &Value, b: &Value) -> NumberResult {
             match (a, b) {
                 (Value::Int(x), Value::Int(y)) => Ok(Value::Int(x $operator y)),
                 _ => Ok(from_big(big(a)? $operator big(b)?)),

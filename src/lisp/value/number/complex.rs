@@ -102,7 +102,7 @@ fn parts(value: &Value) -> Result<(Value, Value), Box<Raise>> {
 }
 
 /// Applies an operation of two complex numbers if one of the operands is one.
-pub fn operate(operation: Sym, a: &Value, b: &Value) -> Option<NumberResult> {
+pub(crate) fn operate(operation: Sym, a: &Value, b: &Value) -> Option<NumberResult> {
     if !is_complex(a) && !is_complex(b) {
         return None;
     }
@@ -146,7 +146,7 @@ pub(crate) fn conjugate(value: &Value) -> NumberResult {
 }
 
 /// Are two numbers equal, at least one of which is complex?
-pub fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     let ((a_re, a_im), (b_re, b_im)) = (parts(a)?, parts(b)?);
     Ok(number_equal(&a_re, &b_re)? && number_equal(&a_im, &b_im)?)
 }

@@ -195,7 +195,7 @@ pub(crate) fn rational(value: &Value) -> NumberResult {
 }
 
 /// A finite float as an exact number.
-pub fn exact(x: f64) -> Option<Value> {
+pub(crate) fn exact(x: f64) -> Option<Value> {
     let (numerator, denominator) = exact_fraction(x)?;
     ratio(numerator, denominator)
 }

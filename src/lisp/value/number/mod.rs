@@ -24,10 +24,11 @@ mod transcendental;
 
 pub use arithmetic::{abs, add, div, sub};
 pub(crate) use arithmetic::{decrement, increment, mul, negate, signum};
+pub use bits::not;
 pub(crate) use bits::{
     ByteSpecifier, ash, bit_count, bit_length, deposit, extract, is_bit_set, xor,
 };
-pub use bits::{and, not, or};
+pub(crate) use bits::{and, or};
 pub use compare::{
     compare, greater, greater_equal, is_zero, less, less_equal, maximum, number_equal,
 };
@@ -46,11 +47,12 @@ pub(crate) use float_parts::{integer_decode, precision, sign_of};
 pub(crate) use power::lcm;
 pub use power::{expt, gcd, isqrt, sqrt};
 #[cfg(test)]
-pub use random::random;
+pub(crate) use random::random;
 pub(crate) use random::{RandomState, make_random_state, random_from};
 pub use ratio::Ratio;
-pub use transcendental::{acos, asin, atan2, cos, log, sin};
+pub use transcendental::{acos, asin, atan2, log};
 pub(crate) use transcendental::{acosh, asinh, atan, atanh, cosh, exp, log_base, sinh, tan, tanh};
+pub(crate) use transcendental::{cos, sin};
 
 /// The largest fixnum: `most-positive-fixnum`.
 pub(crate) const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;

@@ -69,7 +69,7 @@ fn float(x: f64, is_double: bool) -> Value {
 }
 
 /// A float result, unless it is out of range.
-pub fn finite(
+pub(crate) fn finite(
     x: f64,
     is_double: bool,
     operation: crate::value::symbol::Sym,

@@ -71,7 +71,7 @@ pub(crate) fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> 
 }
 
 /// `(random limit)`: an integer or float from zero up to, but not including, the limit.
-pub fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
+pub(crate) fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
     match limit {
         Value::Int(n) if *n > 0 => {
             // The high word of the product: no modulo, and no bias that could be seen.

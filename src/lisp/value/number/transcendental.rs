@@ -39,7 +39,7 @@ fn apply(
 macro_rules! functions {
     ($($(#[$doc:meta])* $name:ident = $sym:ident;)*) => {
         $($(#[$doc])*
-        pub fn $name(value: &Value) -> NumberResult {
+        pub(crate) fn $name(value: &Value) -> NumberResult {
             apply(value, known::$sym, libm::$name, complex_trigonometry::$name)
         })*
     };

@@ -48,7 +48,7 @@ impl Appearances {
     }
 
     /// Reads a file; `file_name` is used only in errors.
-    pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
+    pub(super) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let mut looks = Self::default();
         for node in DataFile::read(text, file_name)?.nodes() {
             let record = node.record("record", RECORDS)?;

@@ -60,7 +60,7 @@ impl Look {
 
     /// The body shown by a thing at the pose (map frame); `color` is the thing's own, which is
     /// shown as a [`pigment`].
-    pub fn body(&self, owner: &Owner, pose: &Pose, color: Color) -> Body {
+    pub(super) fn body(&self, owner: &Owner, pose: &Pose, color: Color) -> Body {
         Body {
             owner: owner.clone(),
             surface: self.surface.clone(),

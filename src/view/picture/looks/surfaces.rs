@@ -13,7 +13,7 @@ use spatial::Pose;
 
 /// A surface as the data says it.
 #[derive(Clone, Debug)]
-pub enum Drawn {
+pub(super) enum Drawn {
     /// A surface with a shape of its own.
     Surface {
         surface: Arc<Surface>,
@@ -37,7 +37,10 @@ const SURFACES: &[(&str, &[&str])] = &[
 ];
 
 /// The surface that a record describes; `colors` are those with names.
-pub fn surface(node: Node<'_>, colors: &IndexMap<String, Color>) -> Result<Drawn, DataError> {
+pub(super) fn surface(
+    node: Node<'_>,
+    colors: &IndexMap<String, Color>,
+) -> Result<Drawn, DataError> {
     let record = node.record("surface", SURFACES)?;
     let (surface, at) = match record.head() {
         "turned" => {

@@ -14,7 +14,7 @@ const RING_TOLERANCE: f64 = 1e-6;
 const AXIS_TOLERANCE: f64 = 2e-3;
 
 /// A part of an object to be drawn.
-pub enum Part<'a> {
+pub(super) enum Part<'a> {
     /// The shape itself.
     Shape(&'a PlacedShape),
     /// Something round and hollow.

@@ -23,7 +23,7 @@ const TEXT: &str = "text/plain; charset=utf-8";
 const LOCAL_NAMES: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
 
 /// Answers one request, or drops it.
-pub fn serve(shared: &Arc<Shared>, stranger: Stranger, mut to: TcpStream) {
+pub(super) fn serve(shared: &Arc<Shared>, stranger: Stranger, mut to: TcpStream) {
     // Send frames, which are small, at once.
     let prepared = to.set_nodelay(true);
     // A client that sent something malformed, is too slow or has left gets no answer.

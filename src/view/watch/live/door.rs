@@ -74,7 +74,7 @@ pub(crate) struct Stranger {
 
 impl Stranger {
     /// The connection has shown the word. `None` if there are too many that have.
-    pub fn welcome(&self) -> Option<Guest> {
+    pub(super) fn welcome(&self) -> Option<Guest> {
         self.forget();
         let guest = Guest(Arc::clone(&self.door));
         let others = self.door.guests.fetch_add(1, Ordering::Relaxed);

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::watch::{Halt, Node, TaskId, WatchEvent};
 
 /// An event with its simulated time (s).
-pub fn news((time, event): &(f64, WatchEvent)) -> Value {
+pub(super) fn news((time, event): &(f64, WatchEvent)) -> Value {
     match event {
         WatchEvent::Output(text) => json!({"t": time, "text": text}),
         WatchEvent::Halted(halt) => json!({"t": time, "halted": halt.report}),
@@ -36,7 +36,7 @@ pub fn news((time, event): &(f64, WatchEvent)) -> Value {
 }
 
 /// Why the session does not go on.
-pub fn halt(halt: &Halt) -> Value {
+pub(super) fn halt(halt: &Halt) -> Value {
     json!({
         "kind": halt.kind.name(),
         "class": halt.class,
@@ -48,7 +48,7 @@ pub fn halt(halt: &Halt) -> Value {
 }
 
 /// What the page needs to know of a node besides its mesh.
-pub fn node(node: &Node) -> Value {
+pub(super) fn node(node: &Node) -> Value {
     json!({
         "id": node.id,
         "name": node.name,

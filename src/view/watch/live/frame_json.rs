@@ -135,7 +135,7 @@ fn list<T>(
 }
 
 /// Origin and quaternion in the page's units.
-pub fn numbers(placed: &Placed) -> [i32; 7] {
+pub(super) fn numbers(placed: &Placed) -> [i32; 7] {
     let [x, y, z] = units(placed.at, METRE);
     let [i, j, k, w] = units(placed.turn, UNIT);
     [x, y, z, i, j, k, w]
@@ -157,7 +157,7 @@ fn rounded(value: f32, unit: f32) -> i32 {
 }
 
 /// The text as a JSON string.
-pub fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 

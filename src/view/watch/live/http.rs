@@ -30,7 +30,7 @@ pub(crate) enum HttpError {
 
 /// A client's request.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub struct Request {
+pub(super) struct Request {
     pub method: String,
     /// The path without the query.
     pub path: String,
@@ -46,7 +46,7 @@ pub struct Request {
 
 impl Request {
     /// The number that a parameter of the query has.
-    pub fn number(&self, name: &str) -> Option<f64> {
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
         let mut pairs = self
             .query
             .split('&')
@@ -149,7 +149,7 @@ const ALWAYS: &str = "Connection: close\r\n\
      Cross-Origin-Opener-Policy: same-origin\r\n";
 
 /// Sends an answer with this content and additional header lines.
-pub fn answer(
+pub(super) fn answer(
     stream: &mut TcpStream,
     status: &str,
     kind: &str,

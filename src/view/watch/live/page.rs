@@ -42,7 +42,7 @@ const FRAME: &str = include_str!("page/page.html");
 
 /// The page; `word` is the nonce that tells the browser that style and script are the page's
 /// own.
-pub fn page(word: &str) -> String {
+pub(super) fn page(word: &str) -> String {
     filled(word, "", "")
 }
 

@@ -32,7 +32,7 @@ pub struct Server {
 }
 
 /// What the threads of the server share.
-pub struct Shared {
+pub(super) struct Shared {
     pub history: History,
     /// `None` where time does not pass, as in a recording.
     pub pace: Option<PaceControl>,
@@ -110,7 +110,7 @@ impl Drop for Server {
 }
 
 impl Shared {
-    pub fn is_stopped(&self) -> bool {
+    pub(super) fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
 

@@ -28,7 +28,7 @@ const MOST_NEWS: usize = 500;
 
 /// Sends what is new until the viewer or the session is gone. Sends only the newest frame, so a
 /// slow viewer misses some.
-pub fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
+pub(super) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
     begin_events(to)?;
     let mut mark = ReadPosition::default();
     let mut shown: Option<Arc<Frame>> = None;

@@ -25,7 +25,7 @@ impl Default for Timeline {
 
 impl Timeline {
     /// An empty past that takes at most about `most_bytes`.
-    pub fn new(most_bytes: usize) -> Self {
+    pub(super) fn new(most_bytes: usize) -> Self {
         Self {
             frames: VecDeque::new(),
             bytes: 0,
@@ -34,7 +34,7 @@ impl Timeline {
     }
 
     /// Adds a frame that is not before the last one; it replaces one at the same time.
-    pub fn push(&mut self, frame: Arc<Frame>) {
+    pub(super) fn push(&mut self, frame: Arc<Frame>) {
         while let Some(last) = self.frames.back()
             && last.time >= frame.time
         {
@@ -60,12 +60,12 @@ impl Timeline {
     }
 
     /// Time (s) of the first and the last frame.
-    pub fn span(&self) -> Option<[f64; 2]> {
+    pub(super) fn span(&self) -> Option<[f64; 2]> {
         Some([self.frames.front()?.time, self.frames.back()?.time])
     }
 
     /// The frames from the last one at or before `from` up to `to` (s), at most `most`.
-    pub fn between(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Frame>> {
+    pub(super) fn between(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Frame>> {
         let after = self.frames.partition_point(|m| m.time <= from);
         let frames = self.frames.range(after.saturating_sub(1)..);
         let within = frames.take_while(|m| m.time <= to).take(most);

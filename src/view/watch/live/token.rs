@@ -19,7 +19,7 @@ pub(crate) fn random_word() -> String {
 }
 
 /// Whether the two are equal, in a time that does not depend on where they differ.
-pub fn is_same(a: &[u8], b: &[u8]) -> bool {
+pub(super) fn is_same(a: &[u8], b: &[u8]) -> bool {
     let differences = a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y));
     a.len() == b.len() && differences == 0
 }

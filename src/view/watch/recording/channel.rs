@@ -35,7 +35,7 @@ pub(crate) enum Channel {
 
 impl Channel {
     /// All channels.
-    pub const ALL: [Self; 13] = [
+    pub(super) const ALL: [Self; 13] = [
         Self::Transforms,
         Self::Still,
         Self::Furnishing,
@@ -52,7 +52,7 @@ impl Channel {
     ];
 
     /// Its topic.
-    pub fn topic(self) -> &'static str {
+    pub(super) fn topic(self) -> &'static str {
         match self {
             Self::Transforms => "/tf",
             Self::Still => "/tf_static",
@@ -71,7 +71,7 @@ impl Channel {
     }
 
     /// The type of the channel's messages.
-    pub fn schema(self) -> &'static MessageType {
+    pub(super) fn schema(self) -> &'static MessageType {
         match self {
             Self::Transforms | Self::Still => &schema::FRAME_TRANSFORMS,
             Self::Furnishing | Self::Objects | Self::Overlay | Self::Contacts | Self::Markers => {

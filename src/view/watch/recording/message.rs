@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A simulated time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Time {
+pub(super) struct Time {
     pub sec: u32,
     pub nsec: u32,
 }
@@ -18,7 +18,7 @@ impl Time {
     }
 
     /// The time this many seconds after the session began.
-    pub fn new(seconds: f64) -> Self {
+    pub(super) fn new(seconds: f64) -> Self {
         let nanoseconds = Self::nanoseconds(seconds);
         Self {
             sec: u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX),
@@ -131,7 +131,7 @@ pub(crate) struct SceneEntity {
 
 impl SceneEntity {
     /// The value of a metadata key.
-    pub fn metadata(&self, key: &str) -> Option<&str> {
+    pub(super) fn metadata(&self, key: &str) -> Option<&str> {
         let pair = self.metadata.iter().find(|pair| pair.key == key)?;
         Some(&pair.value)
     }
@@ -264,7 +264,7 @@ pub(crate) struct Log {
 
 /// A task, an action or a motion began, or its state changed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Task {
+pub(super) struct Task {
     pub timestamp: Time,
     /// `t` for a task, `a` for an action or `m` for a motion, and its number.
     pub id: String,
@@ -289,7 +289,7 @@ pub struct Task {
 
 /// What is shown besides bodies and their poses, until the next message.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Shown {
+pub(super) struct Shown {
     pub timestamp: Time,
     pub held: Vec<Held>,
     pub touching: Vec<Touching>,
@@ -353,7 +353,7 @@ impl From<TouchingForm> for Touching {
 
 /// An object in one of the robot's hands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Held {
+pub(super) struct Held {
     /// Frame of the object.
     pub object: String,
     /// Name of the link.
@@ -365,14 +365,14 @@ pub struct Held {
 
 /// What stopped a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stop {
+pub(super) struct Stop {
     pub frames: Vec<String>,
     pub position: Vector3,
 }
 
 /// Coordinate axes that the user wanted to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Axes {
+pub(super) struct Axes {
     pub pose: PoseMessage,
     /// m.
     pub length: f32,

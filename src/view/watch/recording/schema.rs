@@ -14,7 +14,7 @@ pub(crate) struct MessageType {
 }
 
 /// An enumeration inside a message.
-pub struct Names {
+pub(super) struct Names {
     pub name: &'static str,
     /// The names of the values from zero on.
     pub values: &'static [&'static str],
@@ -32,7 +32,7 @@ pub(crate) struct Field {
 
 /// The type of a field.
 #[derive(Clone, Copy)]
-pub enum Kind {
+pub(super) enum Kind {
     Double,
     Int64,
     Int32,
@@ -56,7 +56,7 @@ pub(crate) enum Count {
 
 impl MessageType {
     /// Package and simple name.
-    pub fn parts(&self) -> (&'static str, &'static str) {
+    pub(super) fn parts(&self) -> (&'static str, &'static str) {
         self.name.rsplit_once('.').unwrap_or(("", self.name))
     }
 }
@@ -382,7 +382,7 @@ static LOG_LEVEL: Names = Names {
 };
 
 /// A log line.
-pub static LOG: MessageType = MessageType {
+pub(super) static LOG: MessageType = MessageType {
     names: Some(&LOG_LEVEL),
     ..message(
         "foxglove.Log",
@@ -460,7 +460,7 @@ static PATH: MessageType = message(
 );
 
 /// What is shown besides bodies.
-pub static SHOWN: MessageType = message(
+pub(super) static SHOWN: MessageType = message(
     "planwright.Shown",
     &[
         one(1, "timestamp", TIME),

@@ -9,7 +9,7 @@ use super::message::{
 use crate::watch::{Frame, Kind, Node, Path, Placed, Vertex, VisualMesh};
 
 /// The frame in which everything is placed.
-pub const MAP: &str = "map";
+pub(super) const MAP: &str = "map";
 
 /// Thickness of lines (pixels).
 const LINE: f32 = 3.0;
@@ -18,7 +18,7 @@ const LINE: f32 = 3.0;
 const CROSS: f32 = 0.06;
 
 /// The frame of a node.
-pub fn frame_of(node: &Node) -> String {
+pub(super) fn frame_of(node: &Node) -> String {
     match node.kind {
         Kind::Robot => node.name.clone(),
         Kind::Furniture => format!("kitchen/{}", node.name),
@@ -27,7 +27,7 @@ pub fn frame_of(node: &Node) -> String {
 }
 
 /// The node as an entity.
-pub fn entity(node: &Node, time: f64) -> SceneEntity {
+pub(super) fn entity(node: &Node, time: f64) -> SceneEntity {
     let pair = |key: &str, value: &str| KeyValuePair {
         key: key.to_owned(),
         value: value.to_owned(),
@@ -73,12 +73,12 @@ fn triangle_lists(mesh: &VisualMesh) -> Vec<TriangleListPrimitive> {
 }
 
 /// Rounds to hundredths of a millimetre, to keep the text short.
-pub fn tidy(value: f32) -> f32 {
+pub(super) fn tidy(value: f32) -> f32 {
     (value * 1e5).round() / 1e5
 }
 
 /// The entity as a node with this number, if the entity is one of ours.
-pub fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Option<Node> {
+pub(super) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Option<Node> {
     let kind = entity.metadata("kind")?;
     let kind = Kind::ALL.into_iter().find(|k| k.name() == kind)?;
     let mut mesh = VisualMesh::default();
@@ -134,7 +134,7 @@ fn smooth(mesh: &mut VisualMesh) {
 }
 
 /// What is shown besides bodies, as lines.
-pub fn lines(frame: &Frame, frame_id: impl Fn(u32) -> Option<String>) -> Vec<SceneEntity> {
+pub(super) fn lines(frame: &Frame, frame_id: impl Fn(u32) -> Option<String>) -> Vec<SceneEntity> {
     let plain = |rgb: [f32; 3]| Color {
         r: rgb[0],
         g: rgb[1],

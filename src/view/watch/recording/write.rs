@@ -59,7 +59,7 @@ pub(crate) struct RecordingWriter<W: Write> {
 
 impl<W: Write> RecordingWriter<W> {
     /// Starts a recording. `joints` are the names of the joints in every frame.
-    pub fn new(to: W, joints: Vec<String>) -> Result<Self, RecordingError> {
+    pub(super) fn new(to: W, joints: Vec<String>) -> Result<Self, RecordingError> {
         let mut file = McapFile::begin(to, LIBRARY)?;
         let mut ids = Vec::new();
         let mut schemas: IndexMap<&str, u16> = IndexMap::new();
@@ -91,7 +91,11 @@ impl<W: Write> RecordingWriter<W> {
     }
 
     /// Writes a frame; `nodes` are the new nodes.
-    pub fn frame(&mut self, nodes: Vec<Arc<Node>>, frame: &Frame) -> Result<(), RecordingError> {
+    pub(super) fn frame(
+        &mut self,
+        nodes: Vec<Arc<Node>>,
+        frame: &Frame,
+    ) -> Result<(), RecordingError> {
         self.nodes.extend(nodes);
         let time = frame.time;
         if !self.has_begun {
@@ -301,7 +305,7 @@ impl<W: Write> RecordingWriter<W> {
     }
 
     /// Writes what the robot's camera sees in the world.
-    pub fn picture(&mut self, time: f64, world: &World) -> Result<(), RecordingError> {
+    pub(super) fn picture(&mut self, time: f64, world: &World) -> Result<(), RecordingError> {
         let description = world.models().description.camera();
         let pose: Pose = world.link_pose(description.frame);
         let camera = Camera::new(description, pose);
@@ -339,7 +343,7 @@ impl<W: Write> RecordingWriter<W> {
     }
 
     /// Writes an event.
-    pub fn event(&mut self, time: f64, what: &WatchEvent) -> Result<(), RecordingError> {
+    pub(super) fn event(&mut self, time: f64, what: &WatchEvent) -> Result<(), RecordingError> {
         match what {
             WatchEvent::Output(text) => {
                 self.line.push_str(text);
@@ -438,7 +442,7 @@ impl<W: Write> RecordingWriter<W> {
     }
 
     /// Ends the file.
-    pub fn finish(mut self) -> Result<(), RecordingError> {
+    pub(super) fn finish(mut self) -> Result<(), RecordingError> {
         let line = std::mem::take(&mut self.line);
         if !line.is_empty() {
             let time = self.shown.timestamp;
