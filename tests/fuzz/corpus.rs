@@ -64,7 +64,7 @@ pub(super) fn programs() -> Vec<Vec<u8>> {
         inputs("tests/conformance", ".transcript"),
         inputs("docs", ".md"),
         forms("src/lisp/library", ".lisp"),
-        forms("src/plan/library", ".lisp"),
+        forms("src/cram/library", ".lisp"),
         forms("plans/lib", ".plan"),
     ]
     .concat()

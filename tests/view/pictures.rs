@@ -356,6 +356,6 @@ fn a_gif_tells_every_frame_and_always_the_same() {
 }
 
 /// The pose of an upright thing at a position (m).
-fn at(x: f64, y: f64, z: f64) -> spatial::Pose {
+fn at(x: f64, y: f64, z: f64) -> Pose {
     from_xyz_rpy([x, y, z], [0.0; 3])
 }

@@ -8,31 +8,31 @@ use lisp::library::{Library, library_file};
 
 /// Files that need no designators; installed with the plan language.
 static LANGUAGE_FILES: &[File] = &[
-    library_file!("src/plan/library", "fluents.lisp"),
-    library_file!("src/plan/library", "combinators.lisp"),
-    library_file!("src/plan/library", "failure-handling.lisp"),
-    library_file!("src/plan/library", "plans.lisp"),
-    library_file!("src/plan/library", "goals.lisp"),
-    library_file!("src/plan/library", "policies.lisp"),
-    library_file!("src/plan/library", "suspension.lisp"),
+    library_file!("src/cram/library", "fluents.lisp"),
+    library_file!("src/cram/library", "combinators.lisp"),
+    library_file!("src/cram/library", "failure-handling.lisp"),
+    library_file!("src/cram/library", "plans.lisp"),
+    library_file!("src/cram/library", "goals.lisp"),
+    library_file!("src/cram/library", "policies.lisp"),
+    library_file!("src/cram/library", "suspension.lisp"),
 ];
 
 /// Lazy lists, patterns, bindings and proofs, which are CRAM's utilities, and the registration of what
 /// resolves locations; the loader of systems. They need nothing from the plan language.
 static UTILITY_FILES: &[File] = &[
-    library_file!("src/plan/library", "lazy-lists.lisp"),
-    library_file!("src/plan/library", "patterns.lisp"),
-    library_file!("src/plan/library", "proofs.lisp"),
-    library_file!("src/plan/library", "locations.lisp"),
-    library_file!("src/plan/library", "systems.lisp"),
-    library_file!("src/plan/library", "system-files.lisp"),
-    library_file!("src/plan/library", "system-tests.lisp"),
+    library_file!("src/cram/library", "lazy-lists.lisp"),
+    library_file!("src/cram/library", "patterns.lisp"),
+    library_file!("src/cram/library", "proofs.lisp"),
+    library_file!("src/cram/library", "locations.lisp"),
+    library_file!("src/cram/library", "systems.lisp"),
+    library_file!("src/cram/library", "system-files.lisp"),
+    library_file!("src/cram/library", "system-tests.lisp"),
 ];
 
 /// Files that need designators; installed after those.
 static DESIGNATOR_FILES: &[File] = &[
-    library_file!("src/plan/library", "process-modules.lisp"),
-    library_file!("src/plan/library", "tracing.lisp"),
+    library_file!("src/cram/library", "process-modules.lisp"),
+    library_file!("src/cram/library", "tracing.lisp"),
 ];
 
 /// The library of the plan language.
