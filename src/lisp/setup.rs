@@ -4,9 +4,8 @@ use std::rc::Rc;
 
 use super::builtins::{implementation, number_theory, numbers, reading, registry};
 use super::condition;
-use super::image::Image;
+use super::image::{Image, precompiled};
 use super::library;
-use super::precompiled;
 use super::stream;
 use super::value::Value;
 use super::value::hash_table::{HashTable, HashTest};
@@ -16,7 +15,7 @@ use super::value::symbol::Sym;
 
 impl Image {
     /// The image that sessions start with, in `COMMON-LISP-USER`.
-    pub(crate) fn new() -> Image {
+    pub fn new() -> Image {
         let mut image = Image::bare();
         image.library.precompiled = precompiled::provided();
         image.set_up();
@@ -24,7 +23,7 @@ impl Image {
     }
 
     /// The same, made of the texts of the library; it keeps what they are compiled to.
-    pub(crate) fn precompiling() -> Image {
+    pub fn precompiling() -> Image {
         let mut image = Image::bare();
         image.library.precompiler = Some(Box::default());
         image.set_up();

@@ -1,36 +1,48 @@
 //! Source texts and places in them.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 /// Handle of a span of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-pub(crate) struct Place(pub(crate) u32);
+pub struct Place(pub u32);
 
 impl Place {
     /// No source text.
-    pub(crate) const NONE: Place = Place(0);
+    pub const NONE: Place = Place(0);
 
     /// Is there a source text?
-    pub(crate) fn is_some(self) -> bool {
+    pub fn is_some(self) -> bool {
         self != Place::NONE
     }
 }
 
 /// Handle of a source text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct SourceId(pub(crate) u32);
+pub struct SourceId(pub u32);
 
 /// One text that forms were read from: a file, or an input at the prompt.
 #[derive(Clone)]
-pub(crate) struct Source {
+pub struct Source {
     /// File name, or a name such as `prompt[3]`.
-    pub(crate) name: Rc<str>,
+    pub name: Rc<str>,
     /// The whole text.
-    pub(crate) text: Rc<str>,
+    pub text: Rc<str>,
     /// Is it a part of the language that is written in Lisp?
     is_library: bool,
+    /// Byte offset of the start of each line, once that was asked for.
+    line_starts: OnceCell<Rc<[u32]>>,
+}
+
+impl Source {
     /// Byte offset of the start of each line.
-    line_starts: Rc<[u32]>,
+    fn line_starts(&self) -> &[u32] {
+        self.line_starts.get_or_init(|| {
+            let ends = self.text.match_indices('\n');
+            let starts = ends.map(|(i, _)| offset(i + 1));
+            std::iter::once(0).chain(starts).collect()
+        })
+    }
 }
 
 /// A source location for display: lines and columns count from one, columns in characters.
@@ -75,14 +87,14 @@ struct Span {
 
 /// All source texts of an image, and the places in them.
 #[derive(Clone, Default)]
-pub(crate) struct Sources {
+pub struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
 }
 
 impl Sources {
     /// Adds a text.
-    pub(crate) fn add(&mut self, name: &str, text: &str) -> SourceId {
+    pub fn add(&mut self, name: &str, text: &str) -> SourceId {
         self.add_text(name, text, false)
     }
 
@@ -92,26 +104,23 @@ impl Sources {
     }
 
     fn add_text(&mut self, name: &str, text: &str, is_library: bool) -> SourceId {
-        let line_starts = std::iter::once(0)
-            .chain(text.match_indices('\n').map(|(i, _)| offset(i + 1)))
-            .collect();
         let id = SourceId(offset(self.sources.len()));
         self.sources.push(Source {
             name: name.into(),
             text: text.into(),
             is_library,
-            line_starts,
+            line_starts: OnceCell::new(),
         });
         id
     }
 
     /// Number of texts.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.sources.len()
     }
 
     /// Names and texts of programs, those of the language itself left out, from a number on.
-    pub(crate) fn programs_from(&self, first: usize) -> impl Iterator<Item = (&str, &str)> {
+    pub fn programs_from(&self, first: usize) -> impl Iterator<Item = (&str, &str)> {
         let sources = self.sources.iter().skip(first);
         sources
             .filter(|source| !source.is_library)
@@ -128,12 +137,12 @@ impl Sources {
     }
 
     /// The source text.
-    pub(crate) fn get(&self, id: SourceId) -> Option<&Source> {
+    pub fn get(&self, id: SourceId) -> Option<&Source> {
         self.sources.get(id.0 as usize)
     }
 
     /// Registers the bytes `start..end` of a source as a place.
-    pub(crate) fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+    pub fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
         self.spans.push(Span {
             source,
             start: offset(start),
@@ -143,20 +152,20 @@ impl Sources {
     }
 
     /// Is this a place in a program, not in the part of the language written in Lisp?
-    pub(crate) fn is_of_program(&self, place: Place) -> bool {
+    pub fn is_of_program(&self, place: Place) -> bool {
         let source = self.span(place).and_then(|span| self.get(span.source));
         source.is_some_and(|source| !source.is_library)
     }
 
     /// The text that a place covers.
-    pub(crate) fn text(&self, place: Place) -> Option<&str> {
+    pub fn text(&self, place: Place) -> Option<&str> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
         source.text.get(span.start as usize..span.end as usize)
     }
 
     /// The place of the bytes `start..end` of the text that a place covers.
-    pub(crate) fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
+    pub fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
         let span = self.span(place)?;
         let (source, first) = (span.source, span.start as usize);
         Some(self.place(source, first + start, first + end))
@@ -173,14 +182,14 @@ impl Sources {
     }
 
     /// Line and column of a place.
-    pub(crate) fn locate(&self, place: Place) -> Option<Location> {
+    pub fn locate(&self, place: Place) -> Option<Location> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
-        let line = source
-            .line_starts
+        let line_starts = source.line_starts();
+        let line = line_starts
             .partition_point(|start| *start <= span.start)
             .checked_sub(1)?;
-        let line_start = *source.line_starts.get(line)? as usize;
+        let line_start = *line_starts.get(line)? as usize;
         let line_text = source.text.get(line_start..)?.lines().next().unwrap_or("");
         let before = source.text.get(line_start..span.start as usize)?;
         let covered = source.text.get(span.start as usize..span.end as usize)?;

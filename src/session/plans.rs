@@ -3,80 +3,34 @@
 
 use std::rc::Rc;
 
+use plan_files::{DEMOS, LIBRARY};
+
 use super::dialogue::Event;
 use super::host::SimulationHost;
 use super::live_host::LiveHost;
 use super::{Session, SessionError};
-use crate::lisp::guard::Stopped;
-use crate::lisp::image::Image;
-use crate::lisp::precompiled::{Precompiler, Recording, Unit, evaluate_each};
-use crate::lisp::reader::Reader;
-use crate::lisp::source::SourceId;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Code;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::plan::{Evaluation, Scheduler};
-
-/// Name and text of files of `plans/lib`.
-macro_rules! library {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../plans/lib/", $name)))),*]
-    };
-}
-
-/// The files, in the order in which they are loaded.
-const LIBRARY: &[(&str, &str)] = library![
-    "log.plan",
-    "robot.plan",
-    "events.plan",
-    "occasions.plan",
-    "retrying.plan",
-    "locations.plan",
-    "noise.plan",
-    "sweep-draws.plan",
-    "sweep-predicates.plan",
-    "sweeps.plan",
-    "going.plan",
-    "perceiving.plan",
-    "gripper.plan",
-    "arms.plan",
-    "picking-up.plan",
-    "placing.plan",
-    "containers.plan",
-    "navigating.plan",
-    "attempts.plan",
-    "household.plan",
-    "accessing.plan",
-    "searching.plan",
-    "fetching.plan",
-    "delivering.plan",
-    "transporting.plan",
-    "tutorial-package.plan",
-];
-
-/// Name and text of the demos' files, of `plans/demos`.
-const DEMOS: &[(&str, &str)] = &[
-    (
-        "plans/demos/pick-place-demo.plan",
-        include_str!("../../plans/demos/pick-place-demo.plan"),
-    ),
-    (
-        "plans/demos/household-demo.plan",
-        include_str!("../../plans/demos/household-demo.plan"),
-    ),
-];
+use cram::{Evaluation, Scheduler};
+use lisp::compile::evaluate_each;
+use lisp::guard::Stopped;
+use lisp::image::Image;
+use lisp::image::precompiled::{Precompiler, Recording, Unit};
+use lisp::reader::Reader;
+use lisp::source::SourceId;
+use lisp::value::Value;
+use lisp::value::code::Code;
+use lisp::value::function::Function;
+use lisp::value::known;
+use lisp::value::package::PackageTable;
+use lisp::value::raise::Raise;
 
 /// CRAM's systems with demos, and the names of the files that they consist of here.
-pub(in crate::session) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
+pub(crate) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
     ("cram_pr2_pick_place_demo", &[DEMOS[0].0, DEMOS[1].0]),
     ("cram_projection_demos", &[DEMOS[0].0, DEMOS[1].0]),
 ];
 
 /// The text of one of the demos' files.
-pub(in crate::session) fn demo_text(name: &str) -> Option<&'static str> {
+pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
     let (_, text) = DEMOS.iter().find(|(file, _)| *file == name)?;
     Some(text)
 }

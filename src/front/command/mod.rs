@@ -33,10 +33,11 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use crate::defect;
+use crate::precompiled;
 use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
+use session::defect;
 
 #[cfg(test)]
 pub(crate) use open::open_default;
@@ -60,6 +61,7 @@ pub fn main(in_use: fn() -> usize) -> ExitCode {
 
 fn run_command_line() -> ExitCode {
     let arguments = Arguments::parse();
+    precompiled::provide();
     let errors = Paint::new(arguments.options.color, &io::stderr());
     match dispatch(arguments) {
         Ok(status) => ExitCode::from(status.code()),

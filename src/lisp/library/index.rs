@@ -7,13 +7,9 @@ use super::definition::{Definition, File, Kind, take_item};
 /// Adds the forms of a file to a library.
 pub(super) fn find(file: &'static File, library: &mut Library) {
     let mut package = String::new();
-    let mut line = 1;
-    let mut counted = 0;
     let mut starts = starts(file.text).peekable();
-    while let Some(start) = starts.next() {
-        let end = starts.peek().copied().unwrap_or(file.text.len());
-        line += file.text[counted..start].matches('\n').count();
-        counted = start;
+    while let Some((start, line)) = starts.next() {
+        let end = starts.peek().map_or(file.text.len(), |(end, _)| *end);
         let mut definition = Definition::new(file, start, end, line);
         let mut rest = &file.text[start + 1..end];
         let operator = take_item(&mut rest);
@@ -46,9 +42,15 @@ pub(super) fn find(file: &'static File, library: &mut Library) {
     }
 }
 
-/// The bytes at which forms begin.
-fn starts(text: &str) -> impl Iterator<Item = usize> {
-    let first = text.starts_with('(').then_some(0);
-    let others = text.match_indices("\n(").map(|(at, _)| at + 1);
-    first.into_iter().chain(others)
+/// The bytes at which forms begin, and their lines, from one.
+fn starts(text: &str) -> impl Iterator<Item = (usize, usize)> {
+    let lines = text.split_inclusive('\n').scan(0, |next, line| {
+        let start = *next;
+        *next += line.len();
+        Some((start, line))
+    });
+    lines
+        .zip(1..)
+        .filter(|((_, line), _)| line.starts_with('('))
+        .map(|((start, _), line)| (start, line))
 }

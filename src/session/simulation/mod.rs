@@ -9,7 +9,8 @@ pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
 pub(super) mod injection;
-pub(crate) mod jobs;
+pub mod jobs;
+mod known_grasps;
 pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;
@@ -33,37 +34,37 @@ use serde::{Deserialize, Serialize};
 
 use super::log_level::LogLevel;
 use super::tape::Tape;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::motion::DetectQuery;
-use crate::picture::{LocationMap, Looks};
-use crate::sexp::DataError;
-use crate::spatial::Pose;
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::noise::{Noise, NoiseLevels};
-use crate::world::object_library::ObjectLibrary;
-use crate::world::{Models, RobotConfiguration, World};
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use robotics::motion::DetectQuery;
+use robotics::world::grasp_library::GraspLibrary;
+use robotics::world::noise::{Noise, NoiseLevels};
+use robotics::world::object_library::ObjectLibrary;
+use robotics::world::{Models, RobotConfiguration, World};
+use spatial::Pose;
+use view::picture::{LocationMap, Looks};
 
 use injection::SharedInjection;
 use jobs::Jobs;
+use known_grasps::KnownGrasps;
 use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Axes {
+pub struct Axes {
     /// Their pose in the map frame.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// Length of the bars (m).
-    pub(crate) size: f64,
+    pub size: f64,
 }
 
 /// The robot in its world.
 ///
 /// Access to the physical state, as to the fields of this structure, is noted on the tape: while
 /// answers are played from a tape, the state is an old one.
-pub(crate) struct Simulation {
+pub struct Simulation {
     pub(super) models: Arc<Models>,
-    pub(super) grasps: Arc<GraspLibrary>,
+    pub(super) grasps: KnownGrasps,
     pub(super) log_level: LogLevel,
     /// The seed of the session.
     seed: u64,
@@ -83,7 +84,7 @@ pub(crate) struct Simulation {
 }
 
 /// The state that time and edits change.
-pub(crate) struct Physical {
+pub struct Physical {
     pub(super) world: World,
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
@@ -127,13 +128,8 @@ impl DerefMut for Simulation {
 
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
-    pub(super) fn new(
-        models: Arc<Models>,
-        log_level: LogLevel,
-        seed: u64,
-    ) -> Result<Simulation, DataError> {
-        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")?;
-        Ok(Simulation {
+    pub(super) fn new(models: Arc<Models>, log_level: LogLevel, seed: u64) -> Simulation {
+        Simulation {
             physical: Physical {
                 world: starting_world(&models),
                 names: IndexMap::new(),
@@ -150,7 +146,7 @@ impl Simulation {
                 put_for_sweep: Vec::new(),
             },
             models,
-            grasps: Arc::new(grasps),
+            grasps: KnownGrasps::default(),
             log_level,
             seed,
             now: 0.0,
@@ -160,7 +156,7 @@ impl Simulation {
             injection: SharedInjection::default(),
             begun_searches: locations::Searches::default(),
             start: Rc::default(),
-        })
+        }
     }
 
     /// The same simulation for a copy of the image. A robot that moves, and what plans have learnt
@@ -180,7 +176,7 @@ impl Simulation {
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Simulation {
             models: Arc::clone(&self.models),
-            grasps: Arc::clone(&self.grasps),
+            grasps: self.grasps.clone(),
             log_level: self.log_level,
             seed: self.seed,
             now: self.now,
@@ -240,12 +236,12 @@ impl Simulation {
     }
 
     /// Simulated time (s).
-    pub(crate) fn now(&self) -> f64 {
+    pub fn now(&self) -> f64 {
         self.now
     }
 
     /// The world.
-    pub(crate) fn world(&self) -> &World {
+    pub fn world(&self) -> &World {
         &self.world
     }
 
@@ -265,17 +261,17 @@ impl Simulation {
     }
 
     /// The types of objects that can be spawned.
-    pub(crate) fn object_types(&self) -> &ObjectLibrary {
+    pub fn object_types(&self) -> &ObjectLibrary {
         &self.models.objects
     }
 
     /// How objects are grasped.
-    pub(crate) fn grasp_library(&self) -> &GraspLibrary {
+    pub fn grasp_library(&self) -> &GraspLibrary {
         &self.grasps
     }
 
     /// The coordinate axes to show, if any.
-    pub(crate) fn axes(&self) -> Option<&Axes> {
+    pub fn axes(&self) -> Option<&Axes> {
         self.axes.as_ref()
     }
 

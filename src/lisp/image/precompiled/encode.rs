@@ -1,0 +1,430 @@
+//! Writing code as bytes.
+//!
+//! Numbers are written seven bits at a time, the lowest first. An object that there are several
+//! references to in a form is written once, and then referred to by number.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use super::record::Symbols;
+use crate::image::Image;
+use crate::source::{Place, SourceId};
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::code::{Capture, Code, Parameters, Signature};
+use crate::value::cons::Cons;
+use crate::value::operation::Op;
+use crate::value::symbol::Sym;
+
+/// The kinds of values, as they are written.
+pub(super) mod tag {
+    pub(crate) const UNBOUND: u8 = 0;
+    pub(crate) const SYMBOL: u8 = 1;
+    pub(crate) const POSITIVE: u8 = 2;
+    pub(crate) const NEGATIVE: u8 = 3;
+    pub(crate) const SINGLE: u8 = 4;
+    pub(crate) const DOUBLE: u8 = 5;
+    pub(crate) const CHARACTER: u8 = 6;
+    pub(crate) const BIG: u8 = 7;
+    pub(crate) const STRING: u8 = 8;
+    pub(crate) const VECTOR: u8 = 9;
+    /// A pair without a place in a source.
+    pub(crate) const CONS: u8 = 10;
+    /// A pair with its place.
+    pub(crate) const PLACED: u8 = 11;
+    /// What comes next is referred to again.
+    pub(crate) const SHARED: u8 = 12;
+    /// What has been written as shared, by number.
+    pub(crate) const AGAIN: u8 = 13;
+}
+
+/// How deeply values may be nested in what is written.
+const DEEPEST: usize = 500;
+
+/// Writes a number.
+pub(super) fn number(bytes: &mut Vec<u8>, n: u32) {
+    wide(bytes, n.into());
+}
+
+/// Writes a number of things.
+pub(super) fn count(bytes: &mut Vec<u8>, n: usize) {
+    wide(bytes, n as u64);
+}
+
+fn wide(bytes: &mut Vec<u8>, mut n: u64) {
+    while n >= 0x80 {
+        bytes.push((n & 0x7f) as u8 | 0x80);
+        n >>= 7;
+    }
+    bytes.push(n as u8);
+}
+
+/// Writes bytes with their number.
+pub(super) fn slice(bytes: &mut Vec<u8>, slice: &[u8]) {
+    count(bytes, slice.len());
+    bytes.extend_from_slice(slice);
+}
+
+/// Writes a text.
+pub(super) fn text(bytes: &mut Vec<u8>, text: &str) {
+    slice(bytes, text.as_bytes());
+}
+
+/// The code of a form as bytes: parts that are run one after the other.
+pub(super) struct Encoding {
+    bytes: Vec<u8>,
+    /// The sources of the places so far; first that of the form.
+    sources: Vec<SourceId>,
+    /// The numbers of the objects that have been written as shared, by address.
+    shared: HashMap<usize, u32>,
+    /// The addresses of what has been written.
+    met: HashSet<usize>,
+    /// What has been written, so that no address is used again.
+    kept: Vec<Rc<Code>>,
+}
+
+impl Encoding {
+    /// Of a form of a source, or of a text that is read without places.
+    pub(super) fn of(source: Option<SourceId>) -> Encoding {
+        Encoding {
+            bytes: Vec::new(),
+            sources: source.into_iter().collect(),
+            shared: HashMap::new(),
+            met: HashSet::new(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// Adds a part; `None` if something of it cannot be written down.
+    pub(super) fn add(
+        &mut self,
+        image: &Image,
+        symbols: &mut Symbols,
+        code: &Rc<Code>,
+    ) -> Option<()> {
+        let mut counting = Counting::default();
+        counting.code(code, 0)?;
+        // What is referred to again only in a later part cannot be told when it is written.
+        if !counting.met.is_disjoint(&self.met) {
+            return None;
+        }
+        self.met.extend(&counting.met);
+        self.kept.push(code.clone());
+        Writer {
+            image,
+            symbols,
+            counting,
+            open: HashSet::new(),
+            encoding: self,
+        }
+        .code(code)
+    }
+
+    pub(super) fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+}
+
+/// Finds the objects that there are several references to.
+#[derive(Default)]
+struct Counting {
+    met: HashSet<usize>,
+    several: HashSet<usize>,
+}
+
+impl Counting {
+    fn code(&mut self, code: &Code, depth: usize) -> Option<()> {
+        for value in &code.constants {
+            self.value(value, depth)?;
+        }
+        for (inner, _) in &code.inner {
+            self.code(inner, depth + 1)?;
+        }
+        Some(())
+    }
+
+    fn value(&mut self, value: &Value, depth: usize) -> Option<()> {
+        let mut value = value.clone();
+        loop {
+            if depth > DEEPEST {
+                return None;
+            }
+            let Some(address) = address(&value) else {
+                return Some(());
+            };
+            if !self.met.insert(address) {
+                self.several.insert(address);
+                return Some(());
+            }
+            match &value {
+                Value::Vector(vector) => {
+                    for item in vector.to_vec() {
+                        self.value(&item, depth + 1)?;
+                    }
+                    return Some(());
+                }
+                Value::Cons(cons) => {
+                    self.value(&cons.car(), depth + 1)?;
+                    let rest = cons.cdr();
+                    value = rest;
+                }
+                _ => return Some(()),
+            }
+        }
+    }
+}
+
+/// The address of an object that may be referred to several times.
+fn address(value: &Value) -> Option<usize> {
+    match value {
+        Value::Cons(cons) => Some(Rc::as_ptr(cons).addr()),
+        Value::Str(string) => Some(Rc::as_ptr(string).addr()),
+        Value::Vector(vector) => Some(Rc::as_ptr(vector).addr()),
+        _ => None,
+    }
+}
+
+struct Writer<'a> {
+    image: &'a Image,
+    symbols: &'a mut Symbols,
+    counting: Counting,
+    /// The addresses of the vectors whose elements are being written.
+    open: HashSet<usize>,
+    encoding: &'a mut Encoding,
+}
+
+impl Writer<'_> {
+    fn bytes(&mut self) -> &mut Vec<u8> {
+        &mut self.encoding.bytes
+    }
+
+    fn number(&mut self, n: u32) {
+        number(self.bytes(), n);
+    }
+
+    fn count(&mut self, n: usize) {
+        count(self.bytes(), n);
+    }
+
+    fn flag(&mut self, flag: bool) {
+        self.bytes().push(flag.into());
+    }
+
+    fn code(&mut self, code: &Code) -> Option<()> {
+        self.signature(&code.name)?;
+        self.signature(&code.lambda_list)?;
+        self.flag(code.doc.is_some());
+        if let Some(doc) = &code.doc {
+            text(self.bytes(), doc);
+        }
+        self.parameters(&code.parameters)?;
+        self.count(code.room);
+        self.count(code.ops.len());
+        for op in code.ops.iter() {
+            self.op(*op)?;
+        }
+        self.count(code.constants.len());
+        for value in &code.constants {
+            self.value(value)?;
+        }
+        self.count(code.inner.len());
+        for (inner, captures) in &code.inner {
+            self.code(inner)?;
+            self.count(captures.len());
+            for capture in captures.iter() {
+                let (is_free, at) = match capture {
+                    Capture::Local(at) => (false, *at),
+                    Capture::Free(at) => (true, *at),
+                };
+                self.flag(is_free);
+                self.number(at);
+            }
+        }
+        self.count(code.tags.len());
+        for tags in code.tags.iter() {
+            self.count(tags.len());
+            tags.iter().for_each(|at| self.number(*at));
+        }
+        self.count(code.places.len());
+        let mut before = 0;
+        for (first, place) in code.places.iter() {
+            self.number(*first - before);
+            before = *first;
+            self.place(*place)?;
+        }
+        self.count(code.locals.len());
+        for local in code.locals.iter() {
+            self.number(local.slot);
+            self.symbol(local.name)?;
+            self.number(local.from);
+            self.number(local.to);
+        }
+        self.all_symbols(&code.free)
+    }
+
+    fn parameters(&mut self, parameters: &Parameters) -> Option<()> {
+        self.number(parameters.required.into());
+        self.number(parameters.optional.into());
+        self.flag(parameters.rest);
+        self.flag(parameters.has_keys);
+        self.flag(parameters.allow_other_keys);
+        self.all_symbols(&parameters.keys)
+    }
+
+    fn all_symbols(&mut self, symbols: &[Sym]) -> Option<()> {
+        self.count(symbols.len());
+        for sym in symbols {
+            self.symbol(*sym)?;
+        }
+        Some(())
+    }
+
+    fn symbol(&mut self, sym: Sym) -> Option<()> {
+        let number = self.symbols.number(self.image, sym)?;
+        self.number(number);
+        Some(())
+    }
+
+    fn signature(&mut self, signature: &Signature) -> Option<()> {
+        self.flag(signature.is_fixed());
+        self.value(signature.shown())
+    }
+
+    fn op(&mut self, mut op: Op) -> Option<()> {
+        if let Some(sym) = op.symbol_mut() {
+            *sym = Sym(self.symbols.number(self.image, *sym)?);
+        }
+        let bytes = postcard::to_allocvec(&op).ok()?;
+        self.bytes().extend(bytes);
+        Some(())
+    }
+
+    /// A place: nothing, or the number of its source, which is named when it is met first, and the
+    /// bytes there.
+    fn place(&mut self, place: Place) -> Option<()> {
+        if place == Place::NONE {
+            self.number(0);
+            return Some(());
+        }
+        let (source, start, end) = self.image.sources.bytes_of(place)?;
+        let mut sources = self.encoding.sources.iter();
+        match sources.position(|known| *known == source) {
+            Some(number) => self.count(number + 1),
+            None => {
+                self.encoding.sources.push(source);
+                self.count(self.encoding.sources.len());
+                let name = &self.image.sources.get(source)?.name;
+                text(self.bytes(), name);
+            }
+        }
+        self.number(start);
+        self.number(end.checked_sub(start)?);
+        Some(())
+    }
+
+    fn value(&mut self, value: &Value) -> Option<()> {
+        let mut value = value.clone();
+        loop {
+            if let Some(address) = address(&value) {
+                if let Some(number) = self.encoding.shared.get(&address).copied() {
+                    self.bytes().push(tag::AGAIN);
+                    self.number(number);
+                    return Some(());
+                }
+                let is_shared = self.counting.several.contains(&address);
+                if is_shared {
+                    self.bytes().push(tag::SHARED);
+                }
+                if let Value::Vector(vector) = &value {
+                    // A vector gets its number after its elements, and so it cannot have itself.
+                    if !self.open.insert(address) {
+                        return None;
+                    }
+                    self.vector(vector)?;
+                    self.open.remove(&address);
+                }
+                if is_shared {
+                    let number = u32::try_from(self.encoding.shared.len()).ok()?;
+                    self.encoding.shared.insert(address, number);
+                }
+            }
+            let cons = match &value {
+                Value::Cons(cons) => cons,
+                Value::Vector(_) => return Some(()),
+                other => return self.no_pair(other),
+            };
+            self.pair(cons)?;
+            let rest = cons.cdr();
+            value = rest;
+        }
+    }
+
+    /// A pair up to its second half.
+    fn pair(&mut self, cons: &Cons) -> Option<()> {
+        match cons.place() {
+            Place::NONE => self.bytes().push(tag::CONS),
+            place => {
+                self.bytes().push(tag::PLACED);
+                self.place(place)?;
+            }
+        }
+        self.value(&cons.car())
+    }
+
+    fn no_pair(&mut self, value: &Value) -> Option<()> {
+        match value {
+            Value::Unbound => self.bytes().push(tag::UNBOUND),
+            Value::Symbol(sym, _) => {
+                self.bytes().push(tag::SYMBOL);
+                self.symbol(*sym)?;
+            }
+            Value::Int(n) => {
+                let is_negative = *n < 0;
+                self.bytes().push(if is_negative {
+                    tag::NEGATIVE
+                } else {
+                    tag::POSITIVE
+                });
+                wide(
+                    self.bytes(),
+                    if is_negative { !n } else { *n }.cast_unsigned(),
+                );
+            }
+            Value::Single(x) => {
+                self.bytes().push(tag::SINGLE);
+                self.bytes().extend(x.to_le_bytes());
+            }
+            Value::Double(x) => {
+                self.bytes().push(tag::DOUBLE);
+                self.bytes().extend(x.to_le_bytes());
+            }
+            Value::Char(c) => {
+                self.bytes().push(tag::CHARACTER);
+                self.number((*c).into());
+            }
+            Value::Big(n) => {
+                self.bytes().push(tag::BIG);
+                slice(self.bytes(), &n.to_signed_bytes_le());
+            }
+            Value::Str(string) if string.is_simple() => {
+                self.bytes().push(tag::STRING);
+                text(self.bytes(), &string.text());
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    fn vector(&mut self, vector: &Vector) -> Option<()> {
+        if !vector.is_general_simple() {
+            return None;
+        }
+        let items = vector.to_vec();
+        self.bytes().push(tag::VECTOR);
+        self.count(items.len());
+        for item in &items {
+            self.value(item)?;
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,315 @@
+//! Reading code from bytes.
+
+use std::rc::Rc;
+
+use num_bigint::BigInt;
+
+use super::encode::tag;
+use super::{Form, Precompiled};
+use crate::image::Image;
+use crate::source::{Place, SourceId};
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::code::{Capture, Code, Local, Parameters, Signature};
+use crate::value::cons::Cons;
+use crate::value::operation::Op;
+use crate::value::raise::Raise;
+use crate::value::string::LispString;
+use crate::value::symbol::Sym;
+
+/// Bytes that have not been read yet.
+#[derive(Clone, Copy)]
+pub(super) struct Bytes(pub(super) &'static [u8]);
+
+impl Bytes {
+    pub(super) fn is_empty(self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn byte(&mut self) -> Option<u8> {
+        let (first, rest) = self.0.split_first()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    fn wide(&mut self) -> Option<u64> {
+        let (mut n, mut shift) = (0, 0);
+        loop {
+            let byte = self.byte()?;
+            n |= u64::from(byte & 0x7f).checked_shl(shift)?;
+            if byte < 0x80 {
+                return Some(n);
+            }
+            shift += 7;
+        }
+    }
+
+    pub(super) fn number(&mut self) -> Option<u32> {
+        u32::try_from(self.wide()?).ok()
+    }
+
+    pub(super) fn count(&mut self) -> Option<usize> {
+        usize::try_from(self.wide()?).ok()
+    }
+
+    fn flag(&mut self) -> Option<bool> {
+        Some(self.byte()? != 0)
+    }
+
+    fn fixed<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (first, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*first)
+    }
+
+    pub(super) fn slice(&mut self) -> Option<&'static [u8]> {
+        let count = self.count()?;
+        let (first, rest) = self.0.split_at_checked(count)?;
+        self.0 = rest;
+        Some(first)
+    }
+
+    pub(super) fn text(&mut self) -> Option<&'static str> {
+        std::str::from_utf8(self.slice()?).ok()
+    }
+}
+
+/// The symbol with a number, which is made if the image does not have it.
+pub(super) fn resolve(image: &mut Image, from: &'static Precompiled, number: u32) -> Option<Sym> {
+    let at = usize::try_from(number).ok()?;
+    let resolved = &mut image.library.resolved;
+    if resolved.is_empty() {
+        resolved.resize(from.symbols.len(), None);
+    }
+    if let Some(sym) = resolved.get(at).copied()? {
+        return Some(sym);
+    }
+    let symbol = from.symbols.get(at)?;
+    let sym = match symbol.package {
+        None => image.make_symbol(symbol.name),
+        Some(package) => {
+            let package = image.packages.find(package)?;
+            image.intern(package, symbol.name)
+        }
+    };
+    *image.library.resolved.get_mut(at)? = Some(sym);
+    Some(sym)
+}
+
+/// The code of a form, read part by part.
+pub struct Unit {
+    from: &'static Precompiled,
+    bytes: Bytes,
+    /// The sources of the places so far; first that of the form.
+    sources: Vec<SourceId>,
+    shared: Vec<Value>,
+}
+
+impl Unit {
+    /// The code of a form of a source, or of a text that is read without places.
+    pub fn of(from: &'static Precompiled, form: &Form, source: Option<SourceId>) -> Option<Unit> {
+        Some(Unit {
+            from,
+            bytes: Bytes(form.code?),
+            sources: source.into_iter().collect(),
+            shared: Vec::new(),
+        })
+    }
+
+    /// The next part, to be run before the one after it is read; `None` at the end.
+    pub fn next(&mut self, image: &mut Image) -> Option<Result<Rc<Code>, Box<Raise>>> {
+        if self.bytes.is_empty() {
+            return None;
+        }
+        let code = self.code(image);
+        let malformed = || Raise::program("Code that has been made ahead cannot be read.");
+        Some(code.ok_or_else(malformed))
+    }
+
+    fn all<T>(
+        &mut self,
+        image: &mut Image,
+        one: impl Fn(&mut Self, &mut Image) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let count = self.bytes.count()?;
+        // Each takes at least a byte.
+        let mut all = Vec::with_capacity(count.min(self.bytes.0.len()));
+        for _ in 0..count {
+            all.push(one(self, image)?);
+        }
+        Some(all)
+    }
+
+    fn numbers(&mut self) -> Option<Vec<u32>> {
+        let count = self.bytes.count()?;
+        (0..count).map(|_| self.bytes.number()).collect()
+    }
+
+    fn code(&mut self, image: &mut Image) -> Option<Rc<Code>> {
+        let name = self.signature(image)?;
+        let lambda_list = self.signature(image)?;
+        let doc = match self.bytes.flag()? {
+            true => Some(self.bytes.text()?.into()),
+            false => None,
+        };
+        let parameters = self.parameters(image)?;
+        let code = Code {
+            name,
+            exact_count: parameters.exact_count(),
+            parameters,
+            room: self.bytes.count()?,
+            ops: self.all(image, Unit::op)?.into(),
+            constants: self.all(image, Unit::value)?,
+            inner: self.all(image, Unit::inner)?,
+            tags: self.all(image, |unit, _| unit.numbers())?.into(),
+            places: self.places(image)?.into(),
+            locals: self.all(image, Unit::local)?.into(),
+            free: self.all(image, Unit::symbol)?.into(),
+            lambda_list,
+            doc,
+            is_fixed: false,
+        };
+        Some(code.finished())
+    }
+
+    fn inner(&mut self, image: &mut Image) -> Option<(Rc<Code>, Rc<[Capture]>)> {
+        let code = self.code(image)?;
+        let captures = self.all(image, |unit, _| {
+            let is_free = unit.bytes.flag()?;
+            let at = unit.bytes.number()?;
+            Some(if is_free {
+                Capture::Free(at)
+            } else {
+                Capture::Local(at)
+            })
+        })?;
+        Some((code, captures.into()))
+    }
+
+    fn parameters(&mut self, image: &mut Image) -> Option<Parameters> {
+        Some(Parameters {
+            required: u16::try_from(self.bytes.number()?).ok()?,
+            optional: u16::try_from(self.bytes.number()?).ok()?,
+            rest: self.bytes.flag()?,
+            has_keys: self.bytes.flag()?,
+            allow_other_keys: self.bytes.flag()?,
+            keys: self.all(image, Unit::symbol)?.into(),
+        })
+    }
+
+    fn places(&mut self, image: &mut Image) -> Option<Vec<(u32, Place)>> {
+        let mut first = 0_u32;
+        let count = self.bytes.count()?;
+        let mut places = Vec::with_capacity(count.min(self.bytes.0.len()));
+        for _ in 0..count {
+            first = first.checked_add(self.bytes.number()?)?;
+            places.push((first, self.place(image)?));
+        }
+        Some(places)
+    }
+
+    fn place(&mut self, image: &mut Image) -> Option<Place> {
+        let Some(number) = self.bytes.count()?.checked_sub(1) else {
+            return Some(Place::NONE);
+        };
+        if number == self.sources.len() {
+            let name = self.bytes.text()?;
+            self.sources.push(image.sources.named(name)?);
+        }
+        let source = *self.sources.get(number)?;
+        let start = self.bytes.count()?;
+        let end = start.checked_add(self.bytes.count()?)?;
+        Some(image.sources.place(source, start, end))
+    }
+
+    fn local(&mut self, image: &mut Image) -> Option<Local> {
+        Some(Local {
+            slot: self.bytes.number()?,
+            name: self.symbol(image)?,
+            from: self.bytes.number()?,
+            to: self.bytes.number()?,
+        })
+    }
+
+    fn symbol(&mut self, image: &mut Image) -> Option<Sym> {
+        let number = self.bytes.number()?;
+        resolve(image, self.from, number)
+    }
+
+    fn signature(&mut self, image: &mut Image) -> Option<Signature> {
+        let is_fixed = self.bytes.flag()?;
+        let value = self.value(image)?;
+        Some(Signature::unchecked(value, is_fixed))
+    }
+
+    fn op(&mut self, image: &mut Image) -> Option<Op> {
+        let (mut op, rest) = postcard::take_from_bytes::<Op>(self.bytes.0).ok()?;
+        self.bytes.0 = rest;
+        if let Some(sym) = op.symbol_mut() {
+            *sym = resolve(image, self.from, sym.0)?;
+        }
+        Some(op)
+    }
+
+    /// A value; a list in a loop.
+    fn value(&mut self, image: &mut Image) -> Option<Value> {
+        let mut whole = None;
+        let mut last: Option<Rc<Cons>> = None;
+        loop {
+            let value = self.single(image)?;
+            let next = match &value {
+                (Value::Cons(cons), true) => Some(cons.clone()),
+                _ => None,
+            };
+            match &last {
+                Some(last) => last.set_cdr(value.0),
+                None => whole = Some(value.0),
+            }
+            let Some(next) = next else {
+                return whole;
+            };
+            last = Some(next);
+        }
+    }
+
+    /// A value, and whether it is a pair whose second half comes next.
+    fn single(&mut self, image: &mut Image) -> Option<(Value, bool)> {
+        let mut tag = self.bytes.byte()?;
+        let is_shared = tag == tag::SHARED;
+        if is_shared {
+            tag = self.bytes.byte()?;
+        }
+        if let tag::CONS | tag::PLACED = tag {
+            let cons = Cons::shared(Value::NIL, Value::NIL);
+            if is_shared {
+                self.shared.push(Value::Cons(cons.clone()));
+            }
+            if tag == tag::PLACED {
+                cons.set_place(self.place(image)?);
+            }
+            cons.set_car(self.value(image)?);
+            return Some((Value::Cons(cons), true));
+        }
+        let value = match tag {
+            tag::UNBOUND => Value::Unbound,
+            tag::SYMBOL => Value::symbol(self.symbol(image)?),
+            tag::POSITIVE => Value::Int(self.bytes.wide()?.cast_signed()),
+            tag::NEGATIVE => Value::Int(!self.bytes.wide()?.cast_signed()),
+            tag::SINGLE => Value::Single(f32::from_le_bytes(self.bytes.fixed()?)),
+            tag::DOUBLE => Value::Double(f64::from_le_bytes(self.bytes.fixed()?)),
+            tag::CHARACTER => Value::Char(char::from_u32(self.bytes.number()?)?),
+            tag::BIG => Value::Big(Rc::new(BigInt::from_signed_bytes_le(self.bytes.slice()?))),
+            tag::STRING => Value::Str(Rc::new(LispString::new(self.bytes.text()?.to_owned()))),
+            tag::VECTOR => Value::Vector(Rc::new(Vector::simple(self.all(image, Unit::value)?))),
+            tag::AGAIN => {
+                let number = self.bytes.count()?;
+                return Some((self.shared.get(number)?.clone(), false));
+            }
+            _ => return None,
+        };
+        if is_shared {
+            self.shared.push(value.clone());
+        }
+        Some((value, false))
+    }
+}
