@@ -27,8 +27,6 @@ mod serving;
 pub(crate) mod simulation;
 pub(crate) mod sweeping;
 mod tabulated;
-pub(crate) mod tape;
-mod taping;
 mod text;
 
 use std::path::Path;
@@ -256,7 +254,7 @@ impl Session {
         self.host
             .person
             .snapshots
-            .begin_form(&mut self.host.simulation, &self.image, form);
+            .begin_form(&self.host.simulation, form);
         let now = self.host.simulation.now();
         self.host.audience.tell_resumed(now);
         let tells_progress = self.console.is_interactive;

@@ -48,7 +48,6 @@ pub(crate) mod solid;
 pub(crate) mod spawn;
 mod standing;
 mod standing_room;
-mod stored;
 
 pub(crate) use allowed_pairs::AllowedPairs;
 pub(crate) use body_name::BodyName;

@@ -17,7 +17,6 @@ pub(crate) mod repeat;
 pub(crate) mod screen;
 mod serve;
 mod shown_ahead;
-mod taping;
 mod uses;
 
 pub(crate) use converse::{Candidate, Completions, Converse};
@@ -33,5 +32,4 @@ pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;
 pub(crate) use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
 pub(crate) use shown_ahead::ShownAhead;
-pub(crate) use taping::Taping;
 pub(crate) use uses::{Relation, Unrecorded, Use};

@@ -20,7 +20,7 @@ use crate::plan::designator::value::Class;
 use crate::plan::{Plan, Reply, tell_overview};
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
-use crate::session::host::parts::View;
+use crate::session::host::parts::{View, in_world};
 use crate::session::person::Person;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, type_text};
@@ -222,7 +222,7 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }
-    if let Some(view) = View::in_world(host, image, &args[0]) {
+    if let Some(view) = in_world(host, image, &args[0]) {
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {

@@ -8,7 +8,6 @@
 pub(crate) mod call;
 pub(super) mod parts;
 mod request;
-mod taped;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::copy::Copier;

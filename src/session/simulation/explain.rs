@@ -5,7 +5,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::rc::Rc;
 
 use nalgebra::{Point3, Vector3};
 
@@ -19,7 +18,6 @@ use crate::motion::{
 };
 use crate::perception::{Sight, Visibility};
 use crate::robot::Side;
-use crate::session::tape::Frame;
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
@@ -36,8 +34,6 @@ pub(in crate::session) struct Remembered {
     /// Simulated time (s).
     pub(crate) time: f64,
     pub(crate) world: World,
-    /// The same on the tape, if that has been written.
-    pub(crate) frame: Option<Rc<Frame>>,
 }
 
 impl Simulation {
@@ -48,7 +44,6 @@ impl Simulation {
             failure: failure.clone(),
             time: self.now,
             world: self.world.clone(),
-            frame: None,
         }));
     }
 

@@ -1,7 +1,5 @@
 //! What the hands hold.
 
-use serde::{Deserialize, Serialize};
-
 use super::Simulation;
 use crate::lisp::image::Image;
 use crate::motion::{HeldGrip, MotionFailure};
@@ -11,7 +9,7 @@ use crate::spatial::Pose;
 use crate::world::WorldError;
 
 /// How an object is held.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::session) struct Held {
     /// The hand.
     pub(crate) side: Side,

@@ -9,27 +9,6 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::{DetectedObject, MotionFailure, MotionOutcome};
 use crate::plan::designator::object;
 use crate::plan::designator::value::as_designator;
-use crate::session::tape::{Data, Done, Name};
-
-/// The outcome of a motion that the tape tells; `None` if that does not fit what is known.
-pub(in crate::session) fn of_done(
-    image: &mut Image,
-    done: &Done,
-    subject: &Value,
-) -> Option<Result<Value, Box<Raise>>> {
-    let given = std::slice::from_ref(subject);
-    Some(match done {
-        Done::Value(data) => Ok(data.value(image, given)?),
-        Done::Raise(raise) => Err(raise.raise(image, given)?),
-        Done::Detected(objects) => {
-            let named = objects
-                .iter()
-                .map(|(name, o)| (name.symbol(image).into(), o));
-            let named: Vec<(Value, &DetectedObject)> = named.collect();
-            Ok(detected(image, &named, subject))
-        }
-    })
-}
 
 /// Designators of detected objects, each with the name by which users know it: the first one, or
 /// a list of all if all were requested.
@@ -75,26 +54,6 @@ impl Simulation {
                 detected(image, &named, subject)
             }
         }
-    }
-
-    /// The result of a motion for the tape; `value` is the same as a value.
-    pub(in crate::session) fn done(
-        &self,
-        image: &Image,
-        outcome: &MotionOutcome,
-        value: &Value,
-    ) -> Option<Done> {
-        let MotionOutcome::Detected(objects) = outcome else {
-            return Some(Done::Value(Data::of(image, value, &[])?));
-        };
-        let named = objects.iter().map(|object| {
-            let name = match self.symbol_of(&object.name) {
-                Value::Symbol(sym, ..) => Name::of(image, sym)?,
-                _ => return None,
-            };
-            Some((name, object.clone()))
-        });
-        Some(Done::Detected(named.collect::<Option<_>>()?))
     }
 
     /// The failure condition for a motion's failure; `subject` is the designator it is about.
