@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::front::prompt::{Beginning, Keeper, Wanted, open, resume};
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Evaluate, Event, Repeat};
-use crate::session::{Session, SessionOptions};
+use crate::prompt::{Beginning, Keeper, Wanted, open, resume};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Converse, Evaluate, Event, Repeat};
+use session::{Session, SessionOptions};
 
 /// A folder that is removed with the value.
 pub(super) struct Folder(PathBuf);

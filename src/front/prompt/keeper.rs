@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::journal::{Earlier, Journal, Recorded, copied};
-use crate::session::dialogue::Converse;
+use session::dialogue::Converse;
 
 /// Keeps inputs in a journal, if there is one.
 #[derive(Debug, Default)]

@@ -1,17 +1,17 @@
 //! What destructuring lambda lists expand into: checks of a list of arguments.
 
-use crate::lisp::builtin::{Builtin, Entry, pure};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, Entry, pure};
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "CHECK-ARGUMENTS",
         "list least most context lambda-list",

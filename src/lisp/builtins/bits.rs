@@ -1,16 +1,16 @@
 //! Bit arrays: the logical operations on all bits.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{bit_array_type, dimensions, element_type};
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Array;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Array;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -86,7 +86,7 @@ macro_rules! operations {
             combine(args, |$a, $b| $result)
         })*
         /// Logical operations on bit arrays.
-        pub(crate) static TABLE: &[Builtin] = &[
+        pub static TABLE: &[Builtin] = &[
             pure("BIT-NOT", "bits &optional result", "The inverse of all bits.", &["(bit-not #*1100) => #*0011"], bit_not),
             $(pure($name, "bits-1 bits-2 &optional result", $doc, &[$example], $function),)*
         ];

@@ -2,19 +2,19 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::compile::{keep_place, setf};
-use crate::lisp::image::Image;
-use crate::lisp::image::setf_expander::SetfExpander;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::builtin::{Builtin, pure};
+use crate::compile::{keep_place, setf};
+use crate::image::Image;
+use crate::image::setf_expander::SetfExpander;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "AT-PLACE-OF",
         "form expansion",
@@ -98,7 +98,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "PROCLAIM",
         "specifier",
@@ -121,7 +121,7 @@ fn symbol(value: &Value) -> Result<Sym> {
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
-fn function(value: &Value) -> Result<Rc<crate::lisp::value::function::Function>> {
+fn function(value: &Value) -> Result<Rc<crate::value::function::Function>> {
     match value {
         Value::Function(f) => Ok(f.clone()),
         other => Err(Raise::type_error(other, known::FUNCTION)),

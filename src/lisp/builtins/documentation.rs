@@ -2,18 +2,18 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Entry, pure};
-use crate::lisp::image::Image;
-use crate::lisp::library::definition_of;
-use crate::lisp::object::method::MethodObject;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::builtin::{Builtin, Entry, pure};
+use crate::image::Image;
+use crate::library::definition_of;
+use crate::object::method::MethodObject;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[pure(
+pub static TABLE: &[Builtin] = &[pure(
     "DOCUMENTATION",
     "object doc-type",
     "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
@@ -25,7 +25,7 @@ pub(crate) static TABLE: &[Builtin] = &[pure(
 )];
 
 /// What `setf` of the functions here calls: the new value comes first.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
+pub static SETTERS: &[Builtin] = &[pure(
     "DOCUMENTATION",
     "text object doc-type",
     "Gives a name a documentation.",

@@ -2,23 +2,23 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::compile;
-use crate::lisp::guard::descend;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, control, pure};
+use crate::compile;
+use crate::guard::descend;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::FunctionCell;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     control(
         "EVAL",
         "form",
@@ -87,14 +87,14 @@ pub(crate) static TABLE: &[Builtin] = &[
         "a b",
         "Have they the same structure and contents?",
         &["(equal '(1 \"a\") '(1 \"a\")) => T"],
-        |_, args| Ok(crate::lisp::value::equality::equal(&args[0], &args[1]).into()),
+        |_, args| Ok(crate::value::equality::equal(&args[0], &args[1]).into()),
     ),
     pure(
         "EQUALP",
         "a b",
         "Like EQUAL; numbers by value, letters without case, arrays by element.",
         &["(equalp \"A\" \"a\") => T"],
-        |_, args| Ok(crate::lisp::value::equality::equalp(&args[0], &args[1]).into()),
+        |_, args| Ok(crate::value::equality::equalp(&args[0], &args[1]).into()),
     ),
     pure(
         "CONSTANTLY",
@@ -179,7 +179,7 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
 }
 
 /// Evaluates a form at top level.
-pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
     descend()?;
     let (form, _) = compile::macroexpand(machine.image, form)?;
     if let Value::Cons(cons) = &form {

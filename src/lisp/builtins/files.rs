@@ -9,15 +9,15 @@ use std::time::UNIX_EPOCH;
 use super::keywords;
 use super::shown::shown;
 use super::strings::string;
-use crate::closest_name::closest_name;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::stream::{Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::Pathname;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::stream::Elements;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::stream::{Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::Pathname;
+use crate::value::raise::Raise;
+use crate::value::stream::Elements;
+use closest_name::closest_name;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -316,7 +316,7 @@ fn closest(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What the library needs to find files, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "FILE-NAMES",
         "folder",

@@ -2,19 +2,19 @@
 
 use super::composing::compose;
 use super::streams::or_method;
-use crate::lisp::builtin::{Builtin, Operator, control};
-use crate::lisp::image::Image;
-use crate::lisp::print::format::Control;
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, Operator, control};
+use crate::image::Image;
+use crate::print::format::Control;
+use crate::stream;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub static TABLE: &[Builtin] = &[control(
     "FORMAT",
     "destination control &rest arguments",
     "Writes the arguments as the control string says: to a string that it returns (NIL), to standard output (T), to a stream, or to the end of a string with a fill pointer.",
@@ -27,7 +27,7 @@ pub(crate) static TABLE: &[Builtin] = &[control(
 )];
 
 /// What the expansion of FORMATTER calls.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
+pub static SYSTEM_TABLE: &[Builtin] = &[control(
     "%FORMAT-REST",
     "stream control &rest arguments",
     "Writes to a stream as FORMAT does; the arguments that are left.",
@@ -36,7 +36,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[Operator] = &[Operator {
+pub static OPERATORS: &[Operator] = &[Operator {
     name: "FORMATTER",
     lambda_list: "control",
     doc: "A function that writes its arguments to a stream as the control string says.",

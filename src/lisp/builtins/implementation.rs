@@ -1,17 +1,17 @@
 //! Questions about the implementation.
 
 use super::array_make::MAX_RANK;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::MOST_ELEMENTS;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::VariableKind;
+use crate::builtin::{Builtin, pure};
+use crate::guard::MOST_ELEMENTS;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::symbol::VariableKind;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "CONSTANTP",
         "form &optional environment",
@@ -24,7 +24,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "",
         "The name of the implementation.",
         &["(lisp-implementation-type) => \"planwright\""],
-        |_, _| Ok(env!("CARGO_PKG_NAME").into()),
+        |_, _| Ok("planwright".into()),
     ),
     pure(
         "LISP-IMPLEMENTATION-VERSION",

@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::{MOST_ELEMENTS, Pace, reserve};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
+use crate::builtin::{Builtin, pure};
+use crate::guard::{MOST_ELEMENTS, Pace, reserve};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cons::Cons;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{self, ListBuilder, ListWalk, last_pair};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -33,7 +33,7 @@ fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// A number of elements that fits in memory.
-pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
+pub fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
     if size > MOST_ELEMENTS {
         return Err(Raise::new(
@@ -184,7 +184,7 @@ fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making, copying and joining lists.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "LIST",
         "&rest elements",

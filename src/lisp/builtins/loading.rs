@@ -3,22 +3,22 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::reader::{Outcome, Reader};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::{Pathname, file_name};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, control};
+use crate::reader::{Outcome, Reader};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::{Pathname, file_name};
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::fiber::Dynamic;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub static TABLE: &[Builtin] = &[control(
     "LOAD",
     "file &key verbose print if-does-not-exist external-format",
     "Evaluates all forms of a file; T. A file that another file loads is looked for beside that one first.",
@@ -27,7 +27,7 @@ pub(crate) static TABLE: &[Builtin] = &[control(
 )];
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
-pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+pub fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
     load_and_tell(machine, name, text, false)
 }
 
@@ -109,9 +109,9 @@ fn restore(machine: &mut Machine<'_>) {
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
         let name = stream.file.as_deref().unwrap_or("stream").to_owned();
-        let (text, from) = crate::lisp::stream::rest(machine.image, &args[0])?;
+        let (text, from) = crate::stream::rest(machine.image, &args[0])?;
         let text = text.get(from..).unwrap_or_default();
-        crate::lisp::stream::advance(machine.image, &args[0], text.len())?;
+        crate::stream::advance(machine.image, &args[0], text.len())?;
         let shows_values = announce(machine, &name, &args[1..])?;
         return load_and_tell(machine, &name, text, shows_values);
     }
@@ -141,7 +141,7 @@ fn announce(machine: &mut Machine<'_>, name: &str, args: &[Value]) -> Result<boo
     let shows_values = is_wanted(wanted(known::K_PRINT, known::V_LOAD_PRINT));
     if shows_name {
         let text = format!("; Loading {name}\n");
-        crate::lisp::stream::write(machine.image, &Value::NIL, &text)?;
+        crate::stream::write(machine.image, &Value::NIL, &text)?;
     }
     Ok(shows_values)
 }

@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::generic_functions::{generic_argument, method_argument};
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::object::method::method_value;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Initform, SlotDefinition};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{Accessor, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::object::method::method_value;
+use crate::value::Value;
+use crate::value::class::{Class, Initform, SlotDefinition};
+use crate::value::function::Function;
+use crate::value::generic::{Accessor, Specializer};
+use crate::value::known;
+use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,17 +1,17 @@
 //! Arithmetic, comparison, and division with rounding.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::number::Rounding;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::number::Rounding;
+use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "+",
         "&rest numbers",
@@ -401,7 +401,7 @@ fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
 
 /// Constants of numbers, and the variable `*random-state*`.
 pub(crate) fn define_constants(image: &mut Image) {
-    use crate::lisp::value::package::PackageTable;
+    use crate::value::package::PackageTable;
     let constants: &[(&str, Value)] = &[
         (
             "MOST-POSITIVE-FIXNUM",

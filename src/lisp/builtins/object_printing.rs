@@ -1,11 +1,11 @@
 //! Builtins for programs that print objects in a form of their own.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::print::{self, Calls, Settings};
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::print::{self, Calls, Settings};
+use crate::stream;
+use crate::value::Value;
+use crate::value::raise::Raise;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[pure(

@@ -2,19 +2,19 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Operator, control, pure};
-use crate::lisp::image::Image;
-use crate::lisp::object::define::{self, no_class};
-use crate::lisp::object::{access, class_of, defclass, instance, update};
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, Operator, control, pure};
+use crate::image::Image;
+use crate::object::define::{self, no_class};
+use crate::object::{access, class_of, defclass, instance, update};
+use crate::value::Value;
+use crate::value::class::Instance;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     control(
         "MAKE-INSTANCE",
         "class &rest initargs",
@@ -168,7 +168,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%SLOT-NAMES",
         "class",
@@ -207,7 +207,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub(crate) static OPERATORS: &[Operator] = &[
+pub static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFCLASS",
         lambda_list: "name (&rest superclasses) (&rest slots) &rest options",
@@ -229,7 +229,7 @@ pub(crate) static OPERATORS: &[Operator] = &[
 ];
 
 /// What `setf` of the functions here calls: the new value comes first.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     control(
         "SLOT-VALUE",
         "value object slot-name",

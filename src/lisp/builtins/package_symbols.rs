@@ -3,12 +3,12 @@
 use super::packages::{names, one_or_more, or_current, package_error};
 use super::property_lists::symbol;
 use super::shown::shown;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageId;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::package::PackageId;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 

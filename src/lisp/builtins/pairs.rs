@@ -2,15 +2,15 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::cons::{self, Cons};
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::{Rounds, Value};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::cons::{self, Cons};
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::{Rounds, Value};
 
-use crate::lisp::value::sequence;
+use crate::value::sequence;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -200,7 +200,7 @@ fn endp(_: &mut Image, args: &[Value]) -> Outcome {
 
 /// Access to pairs and list elements.
 #[rustfmt::skip]
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure("CAR", "list", "The car of a list.", &["(car '(x)) => X"], cxr::<0b10>),
     pure("CDR", "list", "The cdr of a list.", &["(cdr '(1 . x)) => X"], cxr::<0b11>),
     pure("CAAR", "list", "The car of the car of a list.", &["(caar '((x))) => X"], cxr::<0b100>),
@@ -254,7 +254,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 /// The same places for `setf`; the new value is the first argument.
 #[rustfmt::skip]
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure("CAR", "value list", "Replaces the car of a list.", &[], set_cxr::<0b10>),
     pure("CDR", "value list", "Replaces the cdr of a list.", &[], set_cxr::<0b11>),
     pure("CAAR", "value list", "Replaces the car of the car of a list.", &[], set_cxr::<0b100>),

@@ -1,12 +1,12 @@
 //! Pathnames: taking them apart and putting them together. All else is written in Lisp.
 
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::Pathname;
-use crate::lisp::value::raise::Raise;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::Pathname;
+use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

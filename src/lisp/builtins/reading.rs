@@ -4,24 +4,24 @@ use std::rc::Rc;
 
 use super::keywords;
 use super::streams::or_method;
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader::readtable::{LetterCase, Readtable};
-use crate::lisp::reader::{Completeness, ReadError, Reader, is_complete};
-use crate::lisp::stream::{self, Stream};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::vm::computation::{Computation, Progress, compute};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, control, pure};
+use crate::image::Image;
+use crate::print;
+use crate::reader::readtable::{LetterCase, Readtable};
+use crate::reader::{Completeness, ReadError, Reader, is_complete};
+use crate::stream::{self, Stream};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::vm::computation::{Computation, Progress, compute};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     control(
         "READ",
         "&optional stream eof-error-p eof-value recursive-p",
@@ -89,7 +89,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%WHOLE-FORM-P",
         "text",
@@ -165,7 +165,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
+pub static SETTERS: &[Builtin] = &[pure(
     "READTABLE-CASE",
     "case readtable",
     "Sets what the reader does with letters.",
@@ -193,7 +193,7 @@ pub(crate) static SETTERS: &[Builtin] = &[pure(
 )];
 
 /// Gives `*readtable*` its value.
-pub(crate) fn define_variables(image: &mut Image) {
+pub fn define_variables(image: &mut Image) {
     image.define_special(known::V_READTABLE, Value::foreign(Readtable::default()));
 }
 
@@ -292,9 +292,9 @@ impl Reading {
     fn take(
         &mut self,
         image: &mut Image,
-        outcome: Result<crate::lisp::reader::Outcome, ReadError>,
+        outcome: Result<crate::reader::Outcome, ReadError>,
     ) -> Result<Option<Progress<Value>>, Box<Raise>> {
-        use crate::lisp::reader::Outcome;
+        use crate::reader::Outcome;
         let form = match outcome {
             Ok(Outcome::Evaluate(form)) => {
                 return Ok(Some(Progress::Call {

@@ -2,21 +2,21 @@
 
 use std::cell::RefCell;
 
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::evaluator::restart::Restart;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::{Args, Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, control, pure};
+use crate::evaluator::restart::Restart;
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::calls::{Args, Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     control(
         "INVOKE-RESTART",
         "restart &rest arguments",
@@ -57,7 +57,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "MAKE-RESTART",
         "name function report interactive &optional test",

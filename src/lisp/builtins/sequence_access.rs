@@ -6,14 +6,14 @@ use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::reserve;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
+use crate::builtin::{Builtin, pure};
+use crate::guard::reserve;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{self, Bounds, Kind, Sequence, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 

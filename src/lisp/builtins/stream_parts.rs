@@ -5,13 +5,13 @@ use std::rc::Rc;
 use super::keywords;
 use super::streams::stream_of;
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::stream::{self, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Elements, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::character;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::step::Step;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::stream::{self, Elements, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::character;
+use crate::value::symbol::Sym;
+use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -105,7 +105,7 @@ fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// The result of reading at the end: the end-of-file value, or an error.
-pub(crate) fn at_end(
+pub fn at_end(
     image: &Image,
     stream: Option<&Value>,
     error: Option<&Value>,
@@ -184,7 +184,7 @@ fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Streams.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "STREAMP",
         "object",

@@ -6,13 +6,13 @@ use std::rc::Rc;
 use super::characters::upcase;
 use super::keywords;
 use super::strings::designated;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::value::string::LispString;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -6,13 +6,13 @@ use super::array_index;
 use super::characters::{downcase, upcase};
 use super::keywords;
 use super::lists::size;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence, character, index};
-use crate::lisp::value::string::LispString;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence, character, index};
+use crate::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -35,7 +35,7 @@ pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Rai
 }
 
 /// A value as a string.
-pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
+pub fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s),
         _ => Err(Raise::type_error(value, known::STRING)),
@@ -187,7 +187,7 @@ fn string_right_trim(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Strings.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "STRINGP",
         "object",
@@ -296,7 +296,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure(
         "CHAR",
         "value string index",

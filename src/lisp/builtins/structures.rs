@@ -1,9 +1,9 @@
 //! Builtins on structures.
 
-use crate::lisp::builtin::{Builtin, Operator, pure};
-use crate::lisp::structure::define::{copy_structure, define_structure, make_structure};
-use crate::lisp::structure::expand::expand_defstruct;
-use crate::lisp::structure::typed::define_typed_structure;
+use crate::builtin::{Builtin, Operator, pure};
+use crate::structure::define::{copy_structure, define_structure, make_structure};
+use crate::structure::expand::expand_defstruct;
+use crate::structure::typed::define_typed_structure;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[pure(

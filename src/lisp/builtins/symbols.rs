@@ -2,15 +2,15 @@
 
 use super::property_lists::symbol;
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::index;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::vm::callable::callable;
+use crate::builtin::{Builtin, pure};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::index;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::vm::callable::callable;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -240,7 +240,7 @@ fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Symbols.
-pub(crate) static TABLE: &[Builtin] = &[
+pub static TABLE: &[Builtin] = &[
     pure(
         "SYMBOLP",
         "object",
@@ -386,7 +386,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
+pub static SETTERS: &[Builtin] = &[
     pure(
         "SYMBOL-VALUE",
         "value symbol",

@@ -1,7 +1,7 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::value::{Value, number};
+use crate::builtin::{Builtin, pure};
+use crate::value::{Value, number};
 
 /// Builtins of package `COMMON-LISP`.
 pub(crate) static TABLE: &[Builtin] = &[

@@ -3,15 +3,15 @@
 
 use super::choices::Choice;
 use super::stack_frames::Told;
-use crate::lisp::compile;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::plan::designator::perform::Performance;
-use crate::plan::designator::value::{Class, as_class};
-use crate::plan::packages;
-use crate::session::{Session, on_one_line};
+use crate::{Session, on_one_line};
+use cram::designator::perform::Performance;
+use cram::designator::value::{Class, as_class};
+use cram::packages;
+use lisp::compile;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
 
 /// Maximum number of actions for which a repetition is offered.
 const MOST_ACTIONS: usize = 3;
@@ -120,7 +120,7 @@ impl Session {
             properties.push(Value::list([key, value.clone()]));
         }
         let description = Value::list(properties);
-        let copy = crate::plan::designator::value::Designator::new(
+        let copy = cram::designator::value::Designator::new(
             &mut self.image,
             class,
             quantifier,

@@ -1,13 +1,13 @@
 //! Builtins that act on the world: they are requests that the session carries out.
 
 use super::SimulationHost;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::audience::Audience;
-use crate::session::person::Person;
-use crate::session::simulation::Simulation;
+use crate::audience::Audience;
+use crate::person::Person;
+use crate::simulation::Simulation;
+use cram::Reply;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 /// A function that acts on the host.
 pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
@@ -15,9 +15,9 @@ pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result
 /// The request to call a function on the host.
 pub(crate) struct HostCall {
     /// The function.
-    pub(crate) call: HostFn,
+    pub call: HostFn,
     /// Its arguments.
-    pub(crate) args: Vec<Value>,
+    pub args: Vec<Value>,
 }
 
 /// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
@@ -55,10 +55,10 @@ impl Owner for Audience {
 macro_rules! host {
     ($function:path) => {
         |_, args| {
-            Ok($crate::lisp::vm::step::Step::request(
-                $crate::session::host::call::HostCall {
+            Ok(lisp::vm::step::Step::request(
+                $crate::host::call::HostCall {
                     call: |host, image, args| {
-                        $function($crate::session::host::call::Owner::of(host), image, args)
+                        $function($crate::host::call::Owner::of(host), image, args)
                     },
                     args,
                 },

@@ -8,12 +8,12 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::{Copied, Copier};
-use crate::lisp::value::raise::Raise;
-use crate::session::simulation::held::Held;
-use crate::session::simulation::{Axes, Simulation};
-use crate::world;
+use crate::simulation::held::Held;
+use crate::simulation::{Axes, Simulation};
+use lisp::value::Value;
+use lisp::value::copy::{Copied, Copier};
+use lisp::value::raise::Raise;
+use robotics::world;
 
 /// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;

@@ -2,13 +2,13 @@
 
 use super::Simulation;
 use super::names::type_keyword;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::motion::{DetectedObject, MotionFailure, MotionOutcome};
-use crate::plan::designator::object;
-use crate::plan::designator::value::as_designator;
+use cram::designator::object;
+use cram::designator::value::as_designator;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::package::PackageTable;
+use lisp::value::raise::Raise;
+use robotics::motion::{DetectedObject, MotionFailure, MotionOutcome};
 
 /// Designators of detected objects, each with the name by which users know it: the first one, or
 /// a list of all if all were requested.
@@ -35,7 +35,7 @@ fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Val
 
 impl Simulation {
     /// The result of a motion as a value.
-    pub(in crate::session) fn outcome(
+    pub(crate) fn outcome(
         &mut self,
         image: &mut Image,
         outcome: &MotionOutcome,
@@ -57,7 +57,7 @@ impl Simulation {
     }
 
     /// The failure condition for a motion's failure; `subject` is the designator it is about.
-    pub(in crate::session) fn failure(
+    pub(crate) fn failure(
         &mut self,
         image: &mut Image,
         failure: &MotionFailure,
