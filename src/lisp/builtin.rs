@@ -1,15 +1,28 @@
 //! The table entry of a builtin: everything that is known about it, in one place. Calls, help,
 //! completion, the reference manual and the tests of the examples read the same tables.
+//!
+//! `#[builtin]` makes the entry of a Rust function; its code names what this module has.
+
+mod from_value;
+mod returned;
 
 use std::rc::Rc;
 
-use super::image::Image;
 use super::image::definition::{Definition, Kind};
-use super::native::{BuiltinCall, ControlFn, PureFn};
-use super::value::Value;
+use super::native::{ControlFn, PureFn};
 use super::value::function::Function;
-use super::value::raise::Raise;
 use super::value::symbol::Sym;
+
+pub(crate) use from_value::{FromValue, all, keys, keyword, optional, wrong_count};
+pub(crate) use returned::Returned;
+
+pub(crate) use super::image::Image;
+pub(crate) use super::native::BuiltinCall;
+pub(crate) use super::value::Value;
+pub(crate) use super::value::raise::Raise;
+pub(crate) use super::vm::calls::run;
+pub(crate) use super::vm::machine::Machine;
+pub(crate) use super::vm::step::Step;
 
 /// One builtin function.
 pub(crate) struct Builtin {

@@ -24,5 +24,6 @@ pub(crate) mod vm;
 
 #[cfg(test)]
 pub(crate) use image::Image;
+pub(crate) use planwright_lisp_macros::{builtin, builtins};
 pub(crate) use value::raise::Raise;
 pub(crate) use value::symbol::Sym;

@@ -1,40 +1,20 @@
 //! What destructuring lambda lists expand into: checks of a list of arguments.
 
-use crate::lisp::builtin::{Builtin, Entry, pure};
+use crate::lisp::builtin::{Builtin, Entry};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "CHECK-ARGUMENTS",
-        "list least most context lambda-list",
-        "The list, if it has as many elements as a lambda list asks for.",
-        &["(system:check-arguments '(1) 1 1 'f '(x)) => (1)"],
-        check_arguments,
-    ),
-    pure(
-        "CHECK-KEYS",
-        "list keys",
-        "An error unless the list is a property list of these keys.",
-        &["(system:check-keys '(:a 1) '(:a)) => NIL"],
-        check_keys,
-    ),
-    pure(
-        "KEY-TAIL",
-        "list key",
-        "The rest of a property list after a key; NIL if it is not there.",
-        &["(system:key-tail '(:a 1 :b 2) :b) => (2)"],
-        key_tail,
-    ),
-];
-
+/// The list, if it has as many elements as a lambda list asks for.
+///
+/// `(system:check-arguments '(1) 1 1 'f '(x))` => `(1)`
+#[builtin(_, "list least most context lambda-list")]
 fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
     let list = &args[0];
     let mut elements = list.iter_list();
@@ -88,6 +68,10 @@ fn lambda_list_text(image: &mut Image, context: &Value, lambda_list: &Value) -> 
     text
 }
 
+/// An error unless the list is a property list of these keys.
+///
+/// `(system:check-keys '(:a 1) '(:a))` => `NIL`
+#[builtin(_, "list keys")]
 fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
     let items: Vec<Value> = args[0].iter_list().collect();
     if !items.len().is_multiple_of(2) {
@@ -117,6 +101,10 @@ fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
+/// The rest of a property list after a key; NIL if it is not there.
+///
+/// `(system:key-tail '(:a 1 :b 2) :b)` => `(2)`
+#[builtin(_, "list key")]
 fn key_tail(_: &mut Image, args: &[Value]) -> Result<Value> {
     let mut rest = args[0].clone();
     while let Value::Cons(cons) = &rest {
@@ -128,3 +116,6 @@ fn key_tail(_: &mut Image, args: &[Value]) -> Result<Value> {
     }
     Ok(Value::NIL)
 }
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![check_arguments, check_keys, key_tail,];

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{dimensions, element_type, is_adjustable, row_major};
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Array;
@@ -13,9 +13,17 @@ use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::elements::{Displacement, Elements};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{checked_element, text_of};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// An array of another size with the same elements; an adjustable vector is changed itself.
+///
+/// `(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0)` => `#(1 1 0)`
+#[builtin(
+    _,
+    "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset"
+)]
 fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = array_make::shape(&args[1])?;
     let options = array_make::Options::parse(image, &args[2..])?;
@@ -153,10 +161,4 @@ fn kept_items(array: &Value, old: &[usize], new: &[usize], filler: Value) -> Vec
 }
 
 /// Adjustment of arrays.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "ADJUST-ARRAY",
-    "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset",
-    "An array of another size with the same elements; an adjustable vector is changed itself.",
-    &["(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0) => #(1 1 0)"],
-    adjust_array,
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![adjust_array,];

@@ -8,7 +8,7 @@ use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
 use super::settled_types;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -18,6 +18,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Sequence, checked_element, index, list_items, text_of};
 use crate::lisp::value::string::LispString;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -265,6 +266,16 @@ fn no_fill_pointer(options: &Options) -> Result<(), Box<Raise>> {
     Ok(())
 }
 
+/// An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has
+/// the elements of another one, from an index in row-major order on.
+///
+/// `(make-array 3 :initial-element 'x)` => `#(X X X)`
+/// `(make-array '(2 2) :initial-contents '((1 2) (3 4)))` => `#2A((1 2) (3 4))`
+/// `(make-array 2 :displaced-to #2A((1 2) (3 4)) :displaced-index-offset 1)` => `#(2 3)`
+#[builtin(
+    _,
+    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset"
+)]
 fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = shape(&args[0])?;
     let options = Options::parse(image, &args[1..])?;
@@ -300,14 +311,4 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making arrays.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "MAKE-ARRAY",
-    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset",
-    "An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has the elements of another one, from an index in row-major order on.",
-    &[
-        "(make-array 3 :initial-element 'x) => #(X X X)",
-        "(make-array '(2 2) :initial-contents '((1 2) (3 4))) => #2A((1 2) (3 4))",
-        "(make-array 2 :displaced-to #2A((1 2) (3 4)) :displaced-index-offset 1) => #(2 3)",
-    ],
-    make_array,
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![make_array,];

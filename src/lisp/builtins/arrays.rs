@@ -1,7 +1,7 @@
 //! Arrays of any rank: access, shape, kinds.
 
 use super::array_index;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::cycles;
@@ -10,6 +10,7 @@ use crate::lisp::value::elements::displacement;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{checked_element, index};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -100,6 +101,11 @@ pub(super) fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
     Ok(dimensions(array)?.iter().product())
 }
 
+/// The element of an array at subscripts from 0.
+///
+/// `(aref #(1 2 3) 2)` => `3`
+/// `(aref #2A((1 2) (3 4)) 1 0)` => `3`
+#[builtin(_, "array &rest subscripts")]
 fn aref(_: &mut Image, args: &[Value]) -> Outcome {
     let at = row_major_index(&args[0], &args[1..])?;
     match row_major(&args[0], at) {
@@ -112,11 +118,17 @@ fn aref(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces an element.
+#[builtin("AREF", "value array &rest subscripts")]
 fn set_aref(_: &mut Image, args: &[Value]) -> Outcome {
     let at = row_major_index(&args[1], &args[2..])?;
     set_row_major(&args[1], at, &args[0])
 }
 
+/// The element of a simple vector.
+///
+/// `(svref #(1 2 3) 1)` => `2`
+#[builtin(_, "vector index")]
 fn svref(image: &mut Image, args: &[Value]) -> Outcome {
     if is_simple_vector(&args[0]) {
         aref(image, args)
@@ -125,6 +137,8 @@ fn svref(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces an element.
+#[builtin("SVREF", "value vector index")]
 fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
     if is_simple_vector(&args[1]) {
         set_aref(image, args)
@@ -133,6 +147,10 @@ fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The element of a bit array.
+///
+/// `(bit #*1010 0)` => `1`
+#[builtin(_, "array &rest subscripts")]
 fn bit(image: &mut Image, args: &[Value]) -> Outcome {
     if element_type(&args[0])? == ElementType::Bit {
         aref(image, args)
@@ -141,6 +159,8 @@ fn bit(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces an element.
+#[builtin("BIT", "value array &rest subscripts")]
 fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
     if element_type(&args[1])? == ElementType::Bit {
         set_aref(image, args)
@@ -154,6 +174,10 @@ pub(crate) fn bit_array_type() -> Value {
     Value::list([known::ARRAY.into(), known::BIT.into()])
 }
 
+/// The element of an array seen as a vector.
+///
+/// `(row-major-aref #2A((1 2) (3 4)) 2)` => `3`
+#[builtin(_, "array index")]
 fn row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
     match row_major(&args[0], index(&args[1])?) {
         Some(value) => Ok(value),
@@ -165,24 +189,42 @@ fn row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces an element.
+#[builtin("ROW-MAJOR-AREF", "value array index")]
 fn set_row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
     set_row_major(&args[1], index(&args[2])?, &args[0])
 }
 
+/// The index of an element of an array seen as a vector.
+///
+/// `(array-row-major-index #2A((1 2) (3 4)) 1 0)` => `2`
+#[builtin(_, "array &rest subscripts")]
 fn array_row_major_index(_: &mut Image, args: &[Value]) -> Outcome {
     row_major_index(&args[0], &args[1..]).map(Value::from)
 }
 
+/// The number of dimensions.
+///
+/// `(array-rank #2A((1)))` => `2`
+#[builtin(_, "array")]
 fn array_rank(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(dimensions(&args[0])?.len().into())
 }
 
+/// The sizes of all dimensions.
+///
+/// `(array-dimensions #2A((1 2 3)))` => `(1 3)`
+#[builtin(_, "array")]
 fn array_dimensions(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(
         dimensions(&args[0])?.into_iter().map(Value::from),
     ))
 }
 
+/// The size of a dimension.
+///
+/// `(array-dimension #(1 2) 0)` => `2`
+#[builtin(_, "array axis")]
 fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
     let dimensions = dimensions(&args[0])?;
     match dimensions.get(index(&args[1])?) {
@@ -195,10 +237,18 @@ fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The number of elements.
+///
+/// `(array-total-size #2A((1 2) (3 4)))` => `4`
+#[builtin(_, "array")]
 fn array_total_size(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(total_size(&args[0])?.into())
 }
 
+/// Is there an element at these subscripts?
+///
+/// `(array-in-bounds-p #(1 2 3) 3)` => `NIL`
+#[builtin(_, "array &rest subscripts")]
 fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
     let dimensions = dimensions(&args[0])?;
     if dimensions.len() != args.len() - 1 {
@@ -212,6 +262,10 @@ fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(inside))
 }
 
+/// The type of the elements.
+///
+/// `(array-element-type "a")` => `CHARACTER`
+#[builtin(_, "array")]
 fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
     element_type(&args[0]).map(ElementType::specifier)
 }
@@ -226,11 +280,20 @@ pub(super) fn is_adjustable(array: &Value) -> bool {
     }
 }
 
+/// Can the array be adjusted in place?
+///
+/// `(adjustable-array-p #(1))` => `NIL`
+#[builtin(_, "array")]
 fn adjustable_array_p(_: &mut Image, args: &[Value]) -> Outcome {
     element_type(&args[0])?;
     Ok(Value::bool(is_adjustable(&args[0])))
 }
 
+/// The array that an array shares its elements with, or `NIL`, and the index of the first of them.
+///
+/// `(array-displacement #(1))` => `NIL ; 0`
+/// `(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1))` => `#(1 2 3) ; 1`
+#[builtin(_, "array")]
 fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
     element_type(&args[0])?;
     let (target, offset) = match displacement(&args[0]) {
@@ -240,10 +303,18 @@ fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(vec![target, offset.into()]))
 }
 
+/// Is the object an array?
+///
+/// `(arrayp "a")` => `T`
+#[builtin(_, "object")]
 fn arrayp(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(dimensions(&args[0]).is_ok()))
 }
 
+/// Is the object a vector?
+///
+/// `(vectorp #2A((1)))` => `NIL`
+#[builtin(_, "object")]
 fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(matches!(
         args[0],
@@ -256,6 +327,10 @@ fn is_simple_vector(value: &Value) -> bool {
     matches!(value, Value::Vector(v) if v.element_type == ElementType::T && v.is_simple())
 }
 
+/// Is the object a simple vector?
+///
+/// `(simple-vector-p #(1))` => `T`
+#[builtin(_, "object")]
 fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(is_simple_vector(&args[0])))
 }
@@ -264,191 +339,61 @@ fn is_bit_vector(value: &Value) -> bool {
     matches!(value, Value::Vector(v) if v.element_type == ElementType::Bit)
 }
 
+/// Is the object a bit vector?
+///
+/// `(bit-vector-p #*1)` => `T`
+#[builtin(_, "object")]
 fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(is_bit_vector(&args[0])))
 }
 
+/// Is the object a simple bit vector?
+///
+/// `(simple-bit-vector-p #*1)` => `T`
+#[builtin(_, "object")]
 fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
     let simple =
         matches!(&args[0], Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple());
     Ok(Value::bool(simple))
 }
 
+/// The element of a bit array.
+///
+/// `(sbit #*1010 1)` => `0`
+#[builtin(_, "array &rest subscripts")]
+fn sbit(image: &mut Image, args: &[Value]) -> Outcome {
+    bit(image, args)
+}
+
+/// Replaces an element.
+#[builtin("SBIT", "value array &rest subscripts")]
+fn set_sbit(image: &mut Image, args: &[Value]) -> Outcome {
+    set_bit(image, args)
+}
+
 /// Arrays.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "AREF",
-        "array &rest subscripts",
-        "The element of an array at subscripts from 0.",
-        &["(aref #(1 2 3) 2) => 3", "(aref #2A((1 2) (3 4)) 1 0) => 3"],
-        aref,
-    ),
-    pure(
-        "SVREF",
-        "vector index",
-        "The element of a simple vector.",
-        &["(svref #(1 2 3) 1) => 2"],
-        svref,
-    ),
-    pure(
-        "BIT",
-        "array &rest subscripts",
-        "The element of a bit array.",
-        &["(bit #*1010 0) => 1"],
-        bit,
-    ),
-    pure(
-        "SBIT",
-        "array &rest subscripts",
-        "The element of a bit array.",
-        &["(sbit #*1010 1) => 0"],
-        bit,
-    ),
-    pure(
-        "ROW-MAJOR-AREF",
-        "array index",
-        "The element of an array seen as a vector.",
-        &["(row-major-aref #2A((1 2) (3 4)) 2) => 3"],
-        row_major_aref,
-    ),
-    pure(
-        "ARRAY-ROW-MAJOR-INDEX",
-        "array &rest subscripts",
-        "The index of an element of an array seen as a vector.",
-        &["(array-row-major-index #2A((1 2) (3 4)) 1 0) => 2"],
-        array_row_major_index,
-    ),
-    pure(
-        "ARRAY-RANK",
-        "array",
-        "The number of dimensions.",
-        &["(array-rank #2A((1))) => 2"],
-        array_rank,
-    ),
-    pure(
-        "ARRAY-DIMENSIONS",
-        "array",
-        "The sizes of all dimensions.",
-        &["(array-dimensions #2A((1 2 3))) => (1 3)"],
-        array_dimensions,
-    ),
-    pure(
-        "ARRAY-DIMENSION",
-        "array axis",
-        "The size of a dimension.",
-        &["(array-dimension #(1 2) 0) => 2"],
-        array_dimension,
-    ),
-    pure(
-        "ARRAY-TOTAL-SIZE",
-        "array",
-        "The number of elements.",
-        &["(array-total-size #2A((1 2) (3 4))) => 4"],
-        array_total_size,
-    ),
-    pure(
-        "ARRAY-IN-BOUNDS-P",
-        "array &rest subscripts",
-        "Is there an element at these subscripts?",
-        &["(array-in-bounds-p #(1 2 3) 3) => NIL"],
-        array_in_bounds_p,
-    ),
-    pure(
-        "ARRAY-ELEMENT-TYPE",
-        "array",
-        "The type of the elements.",
-        &["(array-element-type \"a\") => CHARACTER"],
-        array_element_type,
-    ),
-    pure(
-        "ADJUSTABLE-ARRAY-P",
-        "array",
-        "Can the array be adjusted in place?",
-        &["(adjustable-array-p #(1)) => NIL"],
-        adjustable_array_p,
-    ),
-    pure(
-        "ARRAY-DISPLACEMENT",
-        "array",
-        "The array that an array shares its elements with, or `NIL`, and the index of the first of them.",
-        &[
-            "(array-displacement #(1)) => NIL ; 0",
-            "(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1)) => #(1 2 3) ; 1",
-        ],
-        array_displacement,
-    ),
-    pure(
-        "ARRAYP",
-        "object",
-        "Is the object an array?",
-        &["(arrayp \"a\") => T"],
-        arrayp,
-    ),
-    pure(
-        "VECTORP",
-        "object",
-        "Is the object a vector?",
-        &["(vectorp #2A((1))) => NIL"],
-        vectorp,
-    ),
-    pure(
-        "SIMPLE-VECTOR-P",
-        "object",
-        "Is the object a simple vector?",
-        &["(simple-vector-p #(1)) => T"],
-        simple_vector_p,
-    ),
-    pure(
-        "BIT-VECTOR-P",
-        "object",
-        "Is the object a bit vector?",
-        &["(bit-vector-p #*1) => T"],
-        bit_vector_p,
-    ),
-    pure(
-        "SIMPLE-BIT-VECTOR-P",
-        "object",
-        "Is the object a simple bit vector?",
-        &["(simple-bit-vector-p #*1) => T"],
-        simple_bit_vector_p,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    aref,
+    svref,
+    bit,
+    sbit,
+    row_major_aref,
+    array_row_major_index,
+    array_rank,
+    array_dimensions,
+    array_dimension,
+    array_total_size,
+    array_in_bounds_p,
+    array_element_type,
+    adjustable_array_p,
+    array_displacement,
+    arrayp,
+    vectorp,
+    simple_vector_p,
+    bit_vector_p,
+    simple_bit_vector_p,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "AREF",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_aref,
-    ),
-    pure(
-        "SVREF",
-        "value vector index",
-        "Replaces an element.",
-        &[],
-        set_svref,
-    ),
-    pure(
-        "BIT",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_bit,
-    ),
-    pure(
-        "SBIT",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_bit,
-    ),
-    pure(
-        "ROW-MAJOR-AREF",
-        "value array index",
-        "Replaces an element.",
-        &[],
-        set_row_major_aref,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] =
+    builtins![set_aref, set_svref, set_bit, set_sbit, set_row_major_aref,];

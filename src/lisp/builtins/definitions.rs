@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::compile::{keep_place, setf};
 use crate::lisp::image::Image;
 use crate::lisp::image::setf_expander::SetfExpander;
@@ -10,110 +10,16 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "AT-PLACE-OF",
-        "form expansion",
-        "The expansion, which counts as standing where the form stands in its file.",
-        &[],
-        |_, args| {
-            keep_place(&args[0], &args[1]);
-            Ok(args[1].clone())
-        },
-    ),
-    pure(
-        "DEFINE-FUNCTION",
-        "name function",
-        "Makes a function the global one of its name.",
-        &["(system:define-function 'one (lambda () 1)) => ONE"],
-        define_function,
-    ),
-    pure(
-        "DEFINE-MACRO",
-        "name function lambda-list documentation",
-        "Makes a function the expander of a macro.",
-        &[],
-        define_macro,
-    ),
-    pure(
-        "DEFINE-PARAMETER",
-        "name value documentation",
-        "Makes a variable special and assigns it.",
-        &["(system:define-parameter '*p* 1 nil) => *P*"],
-        define_parameter,
-    ),
-    pure(
-        "DEFINE-VARIABLE",
-        "name &optional documentation",
-        "Makes a variable special.",
-        &["(system:define-variable '*v*) => *V*"],
-        define_variable,
-    ),
-    pure(
-        "DEFINE-CONSTANT",
-        "name value",
-        "Makes a variable constant.",
-        &["(system:define-constant '+c+ 1) => +C+"],
-        define_constant,
-    ),
-    pure(
-        "SET-SYMBOL-MACRO",
-        "name expansion",
-        "Lets a symbol stand for a form.",
-        &[],
-        set_symbol_macro,
-    ),
-    pure(
-        "DEFINE-SETF-UPDATE",
-        "name update",
-        "Short DEFSETF.",
-        &[],
-        define_setf_update,
-    ),
-    pure(
-        "DEFINE-SETF-LONG",
-        "name function stores",
-        "Long DEFSETF.",
-        &[],
-        define_setf_long,
-    ),
-    pure(
-        "SET-SETF-EXPANDER",
-        "name function",
-        "DEFINE-SETF-EXPANDER.",
-        &[],
-        set_setf_expander,
-    ),
-    pure(
-        "MODIFY-PLACE",
-        "place function arguments environment",
-        "The form that sets a place to a function of it and of forms.",
-        &[],
-        modify_place,
-    ),
-];
-
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "PROCLAIM",
-        "specifier",
-        "A global declaration.",
-        &["(proclaim '(special *proclaimed*)) => ; No value"],
-        proclaim,
-    ),
-    pure(
-        "GET-SETF-EXPANSION",
-        "place &optional environment",
-        "How to read and set a place: temporary variables, their forms, variables for the new values, the form that stores, the form that reads.",
-        &["(fifth (multiple-value-list (get-setf-expansion 'x))) => X"],
-        get_setf_expansion,
-    ),
-];
+/// The expansion, which counts as standing where the form stands in its file.
+#[builtin(_, "form expansion")]
+fn at_place_of(args: &[Value]) -> Result<Value> {
+    keep_place(&args[0], &args[1]);
+    Ok(args[1].clone())
+}
 
 fn symbol(value: &Value) -> Result<Sym> {
     value
@@ -128,6 +34,10 @@ fn function(value: &Value) -> Result<Rc<crate::lisp::value::function::Function>>
     }
 }
 
+/// Makes a function the global one of its name.
+///
+/// `(system:define-function 'one (lambda () 1))` => `ONE`
+#[builtin(_, "name function")]
 fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     let new = function(&args[1])?;
     match args[0].as_symbol() {
@@ -154,6 +64,8 @@ fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(args[0].clone())
 }
 
+/// Makes a function the expander of a macro.
+#[builtin(_, "name function lambda-list documentation")]
 fn define_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
     let name = symbol(&args[0])?;
     let expander = function(&args[1])?;
@@ -163,6 +75,10 @@ fn define_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(args[0].clone())
 }
 
+/// Makes a variable special and assigns it.
+///
+/// `(system:define-parameter '*p* 1 nil)` => `*P*`
+#[builtin(_, "name value documentation")]
 fn define_parameter(image: &mut Image, args: &[Value]) -> Result<Value> {
     let name = symbol(&args[0])?;
     check_not_constant(image, name)?;
@@ -181,6 +97,10 @@ fn check_not_constant(image: &Image, name: Sym) -> Result<()> {
     Ok(())
 }
 
+/// Makes a variable special.
+///
+/// `(system:define-variable '*v*)` => `*V*`
+#[builtin(_, "name &optional documentation")]
 fn define_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
     let name = symbol(&args[0])?;
     check_not_constant(image, name)?;
@@ -192,22 +112,32 @@ fn define_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(args[0].clone())
 }
 
+/// Makes a variable constant.
+///
+/// `(system:define-constant '+c+ 1)` => `+C+`
+#[builtin(_, "name value")]
 fn define_constant(image: &mut Image, args: &[Value]) -> Result<Value> {
     image.define_constant(symbol(&args[0])?, args[1].clone());
     Ok(args[0].clone())
 }
 
+/// Lets a symbol stand for a form.
+#[builtin(_, "name expansion")]
 fn set_symbol_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
     image.symbols.get_mut(symbol(&args[0])?).symbol_macro = Some(args[1].clone());
     Ok(args[0].clone())
 }
 
+/// Short DEFSETF.
+#[builtin(_, "name update")]
 fn define_setf_update(image: &mut Image, args: &[Value]) -> Result<Value> {
     let expander = SetfExpander::Update(symbol(&args[1])?);
     image.setf_expanders.insert(symbol(&args[0])?, expander);
     Ok(args[0].clone())
 }
 
+/// Long DEFSETF.
+#[builtin(_, "name function stores")]
 fn define_setf_long(image: &mut Image, args: &[Value]) -> Result<Value> {
     let count = match args[2] {
         Value::Int(n) => usize::try_from(n).unwrap_or(0),
@@ -218,12 +148,19 @@ fn define_setf_long(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(args[0].clone())
 }
 
+/// DEFINE-SETF-EXPANDER.
+#[builtin(_, "name function")]
 fn set_setf_expander(image: &mut Image, args: &[Value]) -> Result<Value> {
     let expander = SetfExpander::Expander(args[1].clone());
     image.setf_expanders.insert(symbol(&args[0])?, expander);
     Ok(args[0].clone())
 }
 
+/// How to read and set a place: temporary variables, their forms, variables for the new values, the
+/// form that stores, the form that reads.
+///
+/// `(fifth (multiple-value-list (get-setf-expansion 'x)))` => `X`
+#[builtin(_, "place &optional environment")]
 fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
     let environment = args.get(1).cloned().unwrap_or(Value::NIL);
     let outside = std::mem::replace(&mut image.environment, environment);
@@ -239,6 +176,8 @@ fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
     ]))
 }
 
+/// The form that sets a place to a function of it and of forms.
+#[builtin(_, "place function arguments environment")]
 fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
     let function = args[1].clone();
     let (mut operands, mut arguments) = (Vec::new(), Vec::new());
@@ -258,6 +197,10 @@ fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
     form
 }
 
+/// A global declaration.
+///
+/// `(proclaim '(special *proclaimed*))` => `; No value`
+#[builtin(_, "specifier")]
 fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
     if args[0].list_to_vec().is_none() {
         return Err(Raise::type_error(&args[0], known::LIST));
@@ -271,3 +214,21 @@ fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
     }
     Ok(Value::values(Vec::new()))
 }
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    at_place_of,
+    define_function,
+    define_macro,
+    define_parameter,
+    define_variable,
+    define_constant,
+    set_symbol_macro,
+    define_setf_update,
+    define_setf_long,
+    set_setf_expander,
+    modify_place,
+];
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![proclaim, get_setf_expansion,];

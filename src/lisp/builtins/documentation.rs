@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Entry, pure};
+use crate::lisp::builtin::{Builtin, Entry};
 use crate::lisp::image::Image;
 use crate::lisp::library::definition_of;
 use crate::lisp::object::method::MethodObject;
@@ -11,28 +11,14 @@ use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::{builtin, builtins};
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "DOCUMENTATION",
-    "object doc-type",
-    "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
-    &[
-        "(progn (defun twice (x) \"Doubles.\" (* 2 x)) (documentation 'twice 'function)) => \"Doubles.\"",
-        "(progn (defparameter *speed* 1 \"In m/s.\") (documentation '*speed* 'variable)) => \"In m/s.\"",
-    ],
-    documentation,
-)];
-
-/// What `setf` of the functions here calls: the new value comes first.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
-    "DOCUMENTATION",
-    "text object doc-type",
-    "Gives a name a documentation.",
-    &[],
-    set_documentation,
-)];
-
+/// The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a
+/// function, class or method.
+///
+/// `(progn (defun twice (x) "Doubles." (* 2 x)) (documentation 'twice 'function))` => `"Doubles."`
+/// `(progn (defparameter *speed* 1 "In m/s.") (documentation '*speed* 'variable))` => `"In m/s."`
+#[builtin(_, "object doc-type")]
 fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let kind = args[1].as_symbol();
     let text = match (&args[0], kind) {
@@ -109,6 +95,8 @@ fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
     }
 }
 
+/// Gives a name a documentation.
+#[builtin("DOCUMENTATION", "text object doc-type")]
 fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let text: Option<Rc<str>> = args[0].as_text().map(Into::into);
     match (&args[1], args[2].as_symbol()) {
@@ -133,3 +121,9 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
     }
     Ok(args[0].clone())
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![documentation,];
+
+/// What `setf` of the functions here calls: the new value comes first.
+pub(crate) static SETTERS: &[Builtin] = builtins![set_documentation,];

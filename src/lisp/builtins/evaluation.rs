@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::compile;
 use crate::lisp::guard::descend;
 use crate::lisp::image::Image;
@@ -14,152 +14,65 @@ use crate::lisp::value::symbol::FunctionCell;
 use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "EVAL",
-        "form",
-        "Evaluates a form.",
-        &["(eval '(+ 1 2)) => 3"],
-        eval,
-    ),
-    control(
-        "FUNCALL",
-        "function &rest arguments",
-        "Calls a function.",
-        &["(funcall #'+ 1 2) => 3"],
-        funcall,
-    ),
-    control(
-        "APPLY",
-        "function argument &rest arguments",
-        "Calls a function; the last argument is a list of further arguments.",
-        &["(apply #'+ 1 '(2 3)) => 6"],
-        apply,
-    ),
-    pure(
-        "VALUES",
-        "&rest values",
-        "Returns the values.",
-        &["(values 1 2) => 1 ; 2"],
-        values,
-    ),
-    pure(
-        "VALUES-LIST",
-        "list",
-        "Returns the elements of a list as values.",
-        &["(values-list '(1 2)) => 1 ; 2"],
-        values_list,
-    ),
-    pure(
-        "IDENTITY",
-        "object",
-        "The object.",
-        &["(identity 1) => 1"],
-        |_, args| Ok(args[0].clone()),
-    ),
-    pure(
-        "NOT",
-        "object",
-        "T if the object is NIL.",
-        &["(not nil) => T"],
-        |_, args| Ok(args[0].is_nil().into()),
-    ),
-    pure(
-        "EQ",
-        "a b",
-        "Are they the same object?",
-        &["(eq 'a 'a) => T"],
-        |_, args| Ok(args[0].is_eq(&args[1]).into()),
-    ),
-    pure(
-        "EQL",
-        "a b",
-        "Are they the same object, or equal numbers of one type?",
-        &["(eql 1 1.0) => NIL"],
-        |_, args| Ok(args[0].is_eql(&args[1]).into()),
-    ),
-    pure(
-        "EQUAL",
-        "a b",
-        "Have they the same structure and contents?",
-        &["(equal '(1 \"a\") '(1 \"a\")) => T"],
-        |_, args| Ok(crate::lisp::value::equality::equal(&args[0], &args[1]).into()),
-    ),
-    pure(
-        "EQUALP",
-        "a b",
-        "Like EQUAL; numbers by value, letters without case, arrays by element.",
-        &["(equalp \"A\" \"a\") => T"],
-        |_, args| Ok(crate::lisp::value::equality::equalp(&args[0], &args[1]).into()),
-    ),
-    pure(
-        "CONSTANTLY",
-        "value",
-        "A function that always returns the value.",
-        &["(funcall (constantly 1) 2 3) => 1"],
-        constantly,
-    ),
-    pure(
-        "COMPLEMENT",
-        "function",
-        "The function that is true when the function is false.",
-        &["(funcall (complement #'oddp) 2) => T"],
-        complement,
-    ),
-    pure(
-        "FUNCTIONP",
-        "object",
-        "Is it a function?",
-        &["(functionp #'car) => T"],
-        |_, args| Ok(matches!(args[0], Value::Function(_)).into()),
-    ),
-    pure(
-        "MACROEXPAND",
-        "form &optional environment",
-        "Expands a macro call until it is none; was it one?",
-        &["(macroexpand '(when a b)) => (IF A B) ; T"],
-        macroexpand,
-    ),
-    pure(
-        "MACROEXPAND-1",
-        "form &optional environment",
-        "Expands a macro call once; was it one?",
-        &["(macroexpand-1 '(when a b)) => (IF A B) ; T"],
-        macroexpand_1,
-    ),
-    pure(
-        "COMPILE",
-        "name &optional definition",
-        "The function: everything is compiled.",
-        &["(funcall (compile nil '(lambda (x) (* x x))) 3) => 9"],
-        compile_function,
-    ),
-    pure(
-        "SPECIAL-OPERATOR-P",
-        "symbol",
-        "Does the symbol name a special operator?",
-        &["(special-operator-p 'if) => T"],
-        special_operator_p,
-    ),
-    pure(
-        "MACRO-FUNCTION",
-        "symbol &optional environment",
-        "The expander of a macro, or NIL.",
-        &["(macro-function 'car) => NIL"],
-        macro_function,
-    ),
-    pure(
-        "FUNCTION-LAMBDA-EXPRESSION",
-        "function",
-        "NIL, T and the function's name.",
-        &["(function-lambda-expression #'car) => NIL ; T ; CAR"],
-        function_lambda_expression,
-    ),
-];
+/// The object.
+///
+/// `(identity 1)` => `1`
+#[builtin(_, "object")]
+fn identity(args: &[Value]) -> Result<Value> {
+    Ok(args[0].clone())
+}
+
+/// T if the object is NIL.
+///
+/// `(not nil)` => `T`
+#[builtin(_, "object")]
+fn not(args: &[Value]) -> Result<Value> {
+    Ok(args[0].is_nil().into())
+}
+
+/// Are they the same object?
+///
+/// `(eq 'a 'a)` => `T`
+#[builtin(_, "a b")]
+fn eq(args: &[Value]) -> Result<Value> {
+    Ok(args[0].is_eq(&args[1]).into())
+}
+
+/// Are they the same object, or equal numbers of one type?
+///
+/// `(eql 1 1.0)` => `NIL`
+#[builtin(_, "a b")]
+fn eql(args: &[Value]) -> Result<Value> {
+    Ok(args[0].is_eql(&args[1]).into())
+}
+
+/// Have they the same structure and contents?
+///
+/// `(equal '(1 "a") '(1 "a"))` => `T`
+#[builtin(_, "a b")]
+fn equal(args: &[Value]) -> Result<Value> {
+    Ok(crate::lisp::value::equality::equal(&args[0], &args[1]).into())
+}
+
+/// Like EQUAL; numbers by value, letters without case, arrays by element.
+///
+/// `(equalp "A" "a")` => `T`
+#[builtin(_, "a b")]
+fn equalp(args: &[Value]) -> Result<Value> {
+    Ok(crate::lisp::value::equality::equalp(&args[0], &args[1]).into())
+}
+
+/// Is it a function?
+///
+/// `(functionp #'car)` => `T`
+#[builtin(_, "object")]
+fn functionp(args: &[Value]) -> Result<Value> {
+    Ok(matches!(args[0], Value::Function(_)).into())
+}
 
 /// Evaluates forms one after the other, so that each sees what the ones before defined.
 fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
@@ -207,10 +120,18 @@ pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> 
     })
 }
 
+/// Evaluates a form.
+///
+/// `(eval '(+ 1 2))` => `3`
+#[builtin(_, "form")]
 fn eval(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     evaluate(machine, &args[0])
 }
 
+/// Calls a function.
+///
+/// `(funcall #'+ 1 2)` => `3`
+#[builtin(_, "function &rest arguments")]
 fn funcall(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let mut args = args.into_iter();
     let function = args.next().unwrap_or(Value::NIL);
@@ -220,6 +141,10 @@ fn funcall(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     })
 }
 
+/// Calls a function; the last argument is a list of further arguments.
+///
+/// `(apply #'+ 1 '(2 3))` => `6`
+#[builtin(_, "function argument &rest arguments")]
 fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let mut args = args.into_iter();
     let function = args.next().unwrap_or(Value::NIL);
@@ -232,10 +157,18 @@ fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     Ok(Step::TailCall { function, args })
 }
 
+/// Returns the values.
+///
+/// `(values 1 2)` => `1 ; 2`
+#[builtin(_, "&rest values")]
 fn values(_: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::values(args.to_vec()))
 }
 
+/// Returns the elements of a list as values.
+///
+/// `(values-list '(1 2))` => `1 ; 2`
+#[builtin(_, "list")]
 fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
     match args[0].list_to_vec() {
         Some(items) => Ok(Value::values(items)),
@@ -247,6 +180,10 @@ fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
     }
 }
 
+/// A function that always returns the value.
+///
+/// `(funcall (constantly 1) 2 3)` => `1`
+#[builtin(_, "value")]
 fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
     let constant = Function::pure_of(
         known::CONSTANTLY,
@@ -257,6 +194,10 @@ fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::Function(constant))
 }
 
+/// The function that is true when the function is false.
+///
+/// `(funcall (complement #'oddp) 2)` => `T`
+#[builtin(_, "function")]
 fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
     let complement = Function::control_of(
         known::COMPLEMENT,
@@ -273,12 +214,20 @@ fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::Function(complement))
 }
 
+/// Expands a macro call until it is none; was it one?
+///
+/// `(macroexpand '(when a b))` => `(IF A B) ; T`
+#[builtin(_, "form &optional environment")]
 fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
     let (form, expanded) =
         compile::macroexpand_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
+/// Expands a macro call once; was it one?
+///
+/// `(macroexpand-1 '(when a b))` => `(IF A B) ; T`
+#[builtin(_, "form &optional environment")]
 fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
     let expansion = compile::macroexpand_1_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
     let expanded = expansion.is_some();
@@ -286,6 +235,10 @@ fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
+/// The function: everything is compiled.
+///
+/// `(funcall (compile nil '(lambda (x) (* x x))) 3)` => `9`
+#[builtin("COMPILE", "name &optional definition")]
 fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     match args.get(1) {
         Some(definition @ Value::Cons(_)) => {
@@ -302,6 +255,10 @@ fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     }
 }
 
+/// Does the symbol name a special operator?
+///
+/// `(special-operator-p 'if)` => `T`
+#[builtin(_, "symbol")]
 fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
@@ -312,6 +269,10 @@ fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(is_special.into())
 }
 
+/// The expander of a macro, or NIL.
+///
+/// `(macro-function 'car)` => `NIL`
+#[builtin(_, "symbol &optional environment")]
 fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
@@ -338,6 +299,10 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     })
 }
 
+/// NIL, T and the function's name.
+///
+/// `(function-lambda-expression #'car)` => `NIL ; T ; CAR`
+#[builtin(_, "function")]
 fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
     let Value::Function(function) = &args[0] else {
         return Err(Raise::type_error(&args[0], known::FUNCTION));
@@ -350,3 +315,27 @@ fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
     };
     Ok(Value::values(vec![Value::NIL, Value::T, name]))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    eval,
+    funcall,
+    apply,
+    values,
+    values_list,
+    identity,
+    not,
+    eq,
+    eql,
+    equal,
+    equalp,
+    constantly,
+    complement,
+    functionp,
+    macroexpand,
+    macroexpand_1,
+    compile_function,
+    special_operator_p,
+    macro_function,
+    function_lambda_expression,
+];

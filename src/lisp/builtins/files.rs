@@ -10,7 +10,7 @@ use super::keywords;
 use super::shown::shown;
 use super::strings::string;
 use crate::closest_name::closest_name;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::value::Value;
@@ -18,6 +18,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::pathname::Pathname;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::stream::Elements;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -65,6 +66,14 @@ fn elements(size: &Value) -> Elements {
     }
 }
 
+/// Opens a file. The size is that of its elements in bits, negative if they have a sign; `NIL` for
+/// characters.
+///
+/// `(system::%open-file "no-such-file.txt" nil :if-does-not-exist nil)` => `NIL`
+#[builtin(
+    "%OPEN-FILE",
+    "name size &key direction if-exists if-does-not-exist element-type external-format"
+)]
 fn open(image: &mut Image, args: &[Value]) -> Outcome {
     let [direction, if_exists, if_does_not_exist, _, _] = keywords::parse(
         image,
@@ -237,7 +246,11 @@ fn open_output(
     }))
 }
 
-/// The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
+/// The name of a file without links, or `NIL`.
+///
+/// `(system::%true-name "no-such-file.txt")` => `NIL`
+// The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
+#[builtin("%TRUE-NAME", "name")]
 fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
     let path = path(&args[0])?;
     let here = if path.is_empty() { "." } else { path.as_str() };
@@ -252,12 +265,16 @@ fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::string(if needs_slash { found + "/" } else { found }))
 }
 
+/// Deletes a file.
+#[builtin("%DELETE-FILE", "name")]
 fn delete_file(_: &mut Image, args: &[Value]) -> Outcome {
     let path = path(&args[0])?;
     fs::remove_file(&path).map_err(|error| file_error("deleting", &path, &error))?;
     Ok(Value::T)
 }
 
+/// Renames a file.
+#[builtin("%RENAME-FILE", "name new-name")]
 fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
     let (old, new) = (path(&args[0])?, path(&args[1])?);
     fs::rename(&old, &new).map_err(|error| file_error("renaming", &old, &error))?;
@@ -267,6 +284,8 @@ fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
 /// Seconds from the beginning of universal time, 1900, to that of the machine's, 1970.
 const UNIVERSAL_TO_UNIX: u64 = 2_208_988_800;
 
+/// The universal time at which a file was written last.
+#[builtin("%FILE-DATE", "name")]
 fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
     let path = path(&args[0])?;
     let written = fs::metadata(&path)
@@ -278,6 +297,10 @@ fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a folder and those around it; was it missing?
+///
+/// `(system::%make-directories "")` => `NIL`
+// Makes a folder and those around it; was it missing?
+#[builtin("%MAKE-DIRECTORIES", "name")]
 fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
     let path = path(&args[0])?;
     if path.is_empty() || fs::metadata(&path).is_ok_and(|data| data.is_dir()) {
@@ -287,6 +310,11 @@ fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
+/// The names in a folder, sorted; those of folders end with a slash. `NIL` if there is no such
+/// folder.
+///
+/// `(system:file-names "no-such-folder")` => `NIL`
+#[builtin(_, "folder")]
 fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
     let folder = string(&args[0])?.text();
     let Ok(entries) = fs::read_dir(&folder) else {
@@ -305,6 +333,10 @@ fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(names.into_iter().map(Value::string)))
 }
 
+/// The name that was probably meant, or `NIL`.
+///
+/// `(system:closest-name "iterat" '("fiveam" "iterate"))` => `"iterate"`
+#[builtin("CLOSEST-NAME", "name names")]
 fn closest(_: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
     let names: Vec<String> = args[1]
@@ -316,55 +348,13 @@ fn closest(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What the library needs to find files, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "FILE-NAMES",
-        "folder",
-        "The names in a folder, sorted; those of folders end with a slash. `NIL` if there is no such folder.",
-        &["(system:file-names \"no-such-folder\") => NIL"],
-        file_names,
-    ),
-    pure(
-        "CLOSEST-NAME",
-        "name names",
-        "The name that was probably meant, or `NIL`.",
-        &["(system:closest-name \"iterat\" '(\"fiveam\" \"iterate\")) => \"iterate\""],
-        closest,
-    ),
-    pure(
-        "%OPEN-FILE",
-        "name size &key direction if-exists if-does-not-exist element-type external-format",
-        "Opens a file. The size is that of its elements in bits, negative if they have a sign; `NIL` for characters.",
-        &["(system::%open-file \"no-such-file.txt\" nil :if-does-not-exist nil) => NIL"],
-        open,
-    ),
-    pure(
-        "%TRUE-NAME",
-        "name",
-        "The name of a file without links, or `NIL`.",
-        &["(system::%true-name \"no-such-file.txt\") => NIL"],
-        true_name,
-    ),
-    pure("%DELETE-FILE", "name", "Deletes a file.", &[], delete_file),
-    pure(
-        "%RENAME-FILE",
-        "name new-name",
-        "Renames a file.",
-        &[],
-        rename_file,
-    ),
-    pure(
-        "%FILE-DATE",
-        "name",
-        "The universal time at which a file was written last.",
-        &[],
-        file_date,
-    ),
-    pure(
-        "%MAKE-DIRECTORIES",
-        "name",
-        "Makes a folder and those around it; was it missing?",
-        &["(system::%make-directories \"\") => NIL"],
-        make_directories,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    file_names,
+    closest,
+    open,
+    true_name,
+    delete_file,
+    rename_file,
+    file_date,
+    make_directories,
 ];

@@ -1,12 +1,13 @@
 //! Vectors with fill pointers: pushing and popping.
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{character, element, index};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -26,6 +27,10 @@ fn pointer_of(vector: &Value) -> Result<usize, Box<Raise>> {
     })
 }
 
+/// Has the array a fill pointer?
+///
+/// `(array-has-fill-pointer-p #(1))` => `NIL`
+#[builtin("ARRAY-HAS-FILL-POINTER-P", "array")]
 fn has_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         Value::Array(_) => Ok(Value::NIL),
@@ -34,10 +39,16 @@ fn has_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The number of active elements.
+///
+/// `(fill-pointer (make-array 3 :fill-pointer 2))` => `2`
+#[builtin(_, "vector")]
 fn fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     pointer_of(&args[0]).map(Value::from)
 }
 
+/// Sets the number of active elements.
+#[builtin("FILL-POINTER", "value vector")]
 fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     let vector = &args[1];
     pointer_of(vector)?;
@@ -68,10 +79,18 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Adds an element behind the active ones; its index, or `NIL` if the vector is full.
+///
+/// `(vector-push 'a (make-array 2 :fill-pointer 0))` => `0`
+#[builtin(_, "element vector")]
 fn vector_push(_: &mut Image, args: &[Value]) -> Outcome {
     push(&args[0], &args[1], None)
 }
 
+/// Adds an element behind the active ones, making room if need be; its index.
+///
+/// `(vector-push-extend 'a (make-array 0 :fill-pointer 0 :adjustable t))` => `0`
+#[builtin(_, "element vector &optional extension")]
 fn vector_push_extend(_: &mut Image, args: &[Value]) -> Outcome {
     let extension = args.get(2).map_or(Ok(1), index)?;
     push(&args[0], &args[1], Some(extension.max(1)))
@@ -107,6 +126,10 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
     Ok(pointer.into())
 }
 
+/// Takes the last active element.
+///
+/// `(vector-pop (make-array 1 :fill-pointer 1 :initial-element 'x))` => `X`
+#[builtin(_, "vector")]
 fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
     let Some(last) = pointer_of(&args[0])?.checked_sub(1) else {
         return Err(Raise::simple("There is nothing left to pop."));
@@ -122,49 +145,13 @@ fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Vectors with fill pointers.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "ARRAY-HAS-FILL-POINTER-P",
-        "array",
-        "Has the array a fill pointer?",
-        &["(array-has-fill-pointer-p #(1)) => NIL"],
-        has_fill_pointer,
-    ),
-    pure(
-        "FILL-POINTER",
-        "vector",
-        "The number of active elements.",
-        &["(fill-pointer (make-array 3 :fill-pointer 2)) => 2"],
-        fill_pointer,
-    ),
-    pure(
-        "VECTOR-PUSH",
-        "element vector",
-        "Adds an element behind the active ones; its index, or `NIL` if the vector is full.",
-        &["(vector-push 'a (make-array 2 :fill-pointer 0)) => 0"],
-        vector_push,
-    ),
-    pure(
-        "VECTOR-PUSH-EXTEND",
-        "element vector &optional extension",
-        "Adds an element behind the active ones, making room if need be; its index.",
-        &["(vector-push-extend 'a (make-array 0 :fill-pointer 0 :adjustable t)) => 0"],
-        vector_push_extend,
-    ),
-    pure(
-        "VECTOR-POP",
-        "vector",
-        "Takes the last active element.",
-        &["(vector-pop (make-array 1 :fill-pointer 1 :initial-element 'x)) => X"],
-        vector_pop,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    has_fill_pointer,
+    fill_pointer,
+    vector_push,
+    vector_push_extend,
+    vector_pop,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
-    "FILL-POINTER",
-    "value vector",
-    "Sets the number of active elements.",
-    &[],
-    set_fill_pointer,
-)];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_fill_pointer,];

@@ -2,7 +2,7 @@
 
 use super::composing::compose;
 use super::streams::or_method;
-use crate::lisp::builtin::{Builtin, Operator, control};
+use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::image::Image;
 use crate::lisp::print::format::Control;
 use crate::lisp::stream;
@@ -12,28 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
-
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "FORMAT",
-    "destination control &rest arguments",
-    "Writes the arguments as the control string says: to a string that it returns (NIL), to standard output (T), to a stream, or to the end of a string with a fill pointer.",
-    &[
-        "(format nil \"~a and ~s\" \"x\" \"x\") => \"x and \\\"x\\\"\"",
-        "(format nil \"~{~a~^, ~}\" '(1 2 3)) => \"1, 2, 3\"",
-        "(format nil \"~,2f ~5d ~r\" 3.14159 42 42) => \"3.14    42 forty-two\"",
-    ],
-    format,
-)];
-
-/// What the expansion of FORMATTER calls.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
-    "%FORMAT-REST",
-    "stream control &rest arguments",
-    "Writes to a stream as FORMAT does; the arguments that are left.",
-    &[],
-    format_rest,
-)];
+use crate::lisp::{builtin, builtins};
 
 /// Macros of package `COMMON-LISP`.
 pub(crate) static OPERATORS: &[Operator] = &[Operator {
@@ -100,6 +79,13 @@ impl Destination {
     }
 }
 
+/// Writes the arguments as the control string says: to a string that it returns (NIL), to standard
+/// output (T), to a stream, or to the end of a string with a fill pointer.
+///
+/// `(format nil "~a and ~s" "x" "x")` => `"x and \"x\""`
+/// `(format nil "~{~a~^, ~}" '(1 2 3))` => `"1, 2, 3"`
+/// `(format nil "~,2f ~5d ~r" 3.14159 42 42)` => `"3.14    42 forty-two"`
+#[builtin(_, "destination control &rest arguments")]
 fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let destination = destination(&args[0])?;
     match &args[1] {
@@ -169,7 +155,9 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
     }
 }
 
-/// Writes to a stream as FORMAT does; returns the arguments that are left.
+/// Writes to a stream as FORMAT does; the arguments that are left.
+// Writes to a stream as FORMAT does; returns the arguments that are left.
+#[builtin("%FORMAT-REST", "stream control &rest arguments")]
 fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let Value::Str(control) = &args[1] else {
         return Err(Raise::type_error(&args[1], known::STRING));
@@ -230,3 +218,9 @@ fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>
     ];
     Ok(Value::list([known::FUNCTION.into(), Value::list(lambda)]))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![format,];
+
+/// What the expansion of FORMATTER calls.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![format_rest,];

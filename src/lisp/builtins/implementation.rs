@@ -1,7 +1,7 @@
 //! Questions about the implementation.
 
 use super::array_make::MAX_RANK;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::guard::MOST_ELEMENTS;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -9,31 +9,23 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
+use crate::lisp::{builtin, builtins};
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "CONSTANTP",
-        "form &optional environment",
-        "Does the form always have the same value?",
-        &["(constantp 5) => T", "(constantp '(+ 1 2)) => NIL"],
-        constantp,
-    ),
-    pure(
-        "LISP-IMPLEMENTATION-TYPE",
-        "",
-        "The name of the implementation.",
-        &["(lisp-implementation-type) => \"planwright\""],
-        |_, _| Ok(env!("CARGO_PKG_NAME").into()),
-    ),
-    pure(
-        "LISP-IMPLEMENTATION-VERSION",
-        "",
-        "The version of the implementation.",
-        &["(stringp (lisp-implementation-version)) => T"],
-        |_, _| Ok(env!("CARGO_PKG_VERSION").into()),
-    ),
-];
+/// The name of the implementation.
+///
+/// `(lisp-implementation-type)` => `"planwright"`
+#[builtin(_, "")]
+fn lisp_implementation_type() -> Result<Value, Box<Raise>> {
+    Ok(env!("CARGO_PKG_NAME").into())
+}
+
+/// The version of the implementation.
+///
+/// `(stringp (lisp-implementation-version))` => `T`
+#[builtin(_, "")]
+fn lisp_implementation_version() -> Result<Value, Box<Raise>> {
+    Ok(env!("CARGO_PKG_VERSION").into())
+}
 
 /// Defines the constants that tell limits, and what lambda lists may contain.
 pub(crate) fn define_constants(image: &mut Image) {
@@ -73,6 +65,11 @@ pub(crate) fn define_constants(image: &mut Image) {
     image.define_special(sym, Value::list([Value::string("ALEXANDRIA")]));
 }
 
+/// Does the form always have the same value?
+///
+/// `(constantp 5)` => `T`
+/// `(constantp '(+ 1 2))` => `NIL`
+#[builtin(_, "form &optional environment")]
 fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let is_constant = match &args[0] {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
@@ -81,3 +78,10 @@ fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     };
     Ok(is_constant.into())
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    constantp,
+    lisp_implementation_type,
+    lisp_implementation_version,
+];

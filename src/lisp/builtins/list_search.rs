@@ -2,7 +2,7 @@
 
 use super::criterion::{Compare, Criterion, Key, Test};
 use super::keywords;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -11,6 +11,7 @@ use crate::lisp::value::sequence::ListWalk;
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -49,6 +50,11 @@ async fn find_tail(calls: Calls, criterion: Criterion, list: Value) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// The list from the first element that matches an item, or `NIL`.
+///
+/// `(member 2 '(1 2 3))` => `(2 3)`
+/// `(member "b" '("a" "b") :test #'equal)` => `("b")`
+#[builtin(_, "item list &key key test test-not")]
 fn member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let criterion = criterion(machine.image, &args)?;
     let list = args[1].clone();
@@ -91,6 +97,10 @@ async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome
     Ok(Value::NIL)
 }
 
+/// The first entry of an association list whose car matches an item.
+///
+/// `(assoc 'b '((a . 1) (b . 2)))` => `(B . 2)`
+#[builtin(_, "item alist &key key test test-not")]
 fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let criterion = criterion(machine.image, &args)?;
     let alist = args[1].clone();
@@ -103,22 +113,4 @@ fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Searching in lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MEMBER",
-        "item list &key key test test-not",
-        "The list from the first element that matches an item, or `NIL`.",
-        &[
-            "(member 2 '(1 2 3)) => (2 3)",
-            "(member \"b\" '(\"a\" \"b\") :test #'equal) => (\"b\")",
-        ],
-        member,
-    ),
-    control(
-        "ASSOC",
-        "item alist &key key test test-not",
-        "The first entry of an association list whose car matches an item.",
-        &["(assoc 'b '((a . 1) (b . 2))) => (B . 2)"],
-        assoc,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![member, assoc,];

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::guard::{MOST_ELEMENTS, Pace, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -12,13 +12,24 @@ use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// A fresh list of the arguments.
+///
+/// `(list 1 2 3)` => `(1 2 3)`
+/// `(list)` => `NIL`
+#[builtin(_, "&rest elements")]
 fn list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(args.iter().cloned()))
 }
 
+/// A fresh list of all arguments but the last, which becomes its tail.
+///
+/// `(list* 1 2 '(3 4))` => `(1 2 3 4)`
+/// `(list* 1 2)` => `(1 . 2)`
+#[builtin("LIST*", "element &rest more")]
 fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(match args.split_last() {
         Some((tail, items)) => Value::list_with_tail(items.iter().cloned(), tail.clone()),
@@ -26,6 +37,10 @@ fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
     })
 }
 
+/// A fresh list of `size` equal elements.
+///
+/// `(make-list 2 :initial-element 'x)` => `(X X)`
+#[builtin(_, "size &key initial-element")]
 fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
     let [element] = keywords::parse(image, &args[1..], [known::K_INITIAL_ELEMENT])?;
     let count = size(&args[0])?;
@@ -45,6 +60,11 @@ pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     Ok(size)
 }
 
+/// The elements of all lists in one list; the last list is shared, not copied.
+///
+/// `(append '(1) '(2 3) '(4))` => `(1 2 3 4)`
+/// `(append '(1) 2)` => `(1 . 2)`
+#[builtin(_, "&rest lists")]
 fn append(_: &mut Image, args: &[Value]) -> Outcome {
     let Some((last, lists)) = args.split_last() else {
         return Ok(Value::NIL);
@@ -59,6 +79,10 @@ fn append(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(builder.finish_with(last.clone()))
 }
 
+/// Joins lists by changing their last pairs.
+///
+/// `(nconc (list 1) nil (list 2))` => `(1 2)`
+#[builtin(_, "&rest lists")]
 fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
     nconc_all(args)
 }
@@ -96,6 +120,10 @@ pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     Ok(sequence::relink(&conses, tail))
 }
 
+/// Number of elements of a list; `NIL` if it is circular.
+///
+/// `(list-length '(1 2 3))` => `3`
+#[builtin(_, "list")]
 fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
     let mut slow = args[0].clone();
     let mut fast = args[0].clone();
@@ -116,6 +144,10 @@ fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// A copy of a list; the elements are the same.
+///
+/// `(copy-list '(1 2 . 3))` => `(1 2 . 3)`
+#[builtin(_, "list")]
 fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
     if !args[0].is_list() {
         return Err(Raise::type_error(&args[0], known::LIST));
@@ -146,6 +178,10 @@ impl PairCount {
     }
 }
 
+/// A copy of a tree of pairs.
+///
+/// `(copy-tree '(1 (2 3)))` => `(1 (2 3))`
+#[builtin(_, "tree")]
 fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     let copy_of = |value: &Value, pending: &mut Vec<Rc<Cons>>| match value {
         Value::Cons(cons) => {
@@ -167,109 +203,50 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(result)
 }
 
+/// Is the object a pair?
+///
+/// `(consp nil)` => `NIL`
+#[builtin("CONSP", "object")]
 fn is_cons(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(matches!(args[0], Value::Cons(_))))
 }
 
+/// Is the object a list?
+///
+/// `(listp nil)` => `T`
+#[builtin("LISTP", "object")]
 fn is_list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(args[0].is_list()))
 }
 
+/// Is the object anything but a pair?
+///
+/// `(atom nil)` => `T`
+#[builtin("ATOM", "object")]
 fn is_atom(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(!matches!(args[0], Value::Cons(_))))
 }
 
+/// Is the object `NIL`?
+///
+/// `(null '())` => `T`
+#[builtin("NULL", "object")]
 fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(args[0].is_nil()))
 }
 
 /// Making, copying and joining lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "LIST",
-        "&rest elements",
-        "A fresh list of the arguments.",
-        &["(list 1 2 3) => (1 2 3)", "(list) => NIL"],
-        list,
-    ),
-    pure(
-        "LIST*",
-        "element &rest more",
-        "A fresh list of all arguments but the last, which becomes its tail.",
-        &["(list* 1 2 '(3 4)) => (1 2 3 4)", "(list* 1 2) => (1 . 2)"],
-        list_star,
-    ),
-    pure(
-        "MAKE-LIST",
-        "size &key initial-element",
-        "A fresh list of `size` equal elements.",
-        &["(make-list 2 :initial-element 'x) => (X X)"],
-        make_list,
-    ),
-    pure(
-        "APPEND",
-        "&rest lists",
-        "The elements of all lists in one list; the last list is shared, not copied.",
-        &[
-            "(append '(1) '(2 3) '(4)) => (1 2 3 4)",
-            "(append '(1) 2) => (1 . 2)",
-        ],
-        append,
-    ),
-    pure(
-        "NCONC",
-        "&rest lists",
-        "Joins lists by changing their last pairs.",
-        &["(nconc (list 1) nil (list 2)) => (1 2)"],
-        nconc,
-    ),
-    pure(
-        "LIST-LENGTH",
-        "list",
-        "Number of elements of a list; `NIL` if it is circular.",
-        &["(list-length '(1 2 3)) => 3"],
-        list_length,
-    ),
-    pure(
-        "COPY-LIST",
-        "list",
-        "A copy of a list; the elements are the same.",
-        &["(copy-list '(1 2 . 3)) => (1 2 . 3)"],
-        copy_list,
-    ),
-    pure(
-        "COPY-TREE",
-        "tree",
-        "A copy of a tree of pairs.",
-        &["(copy-tree '(1 (2 3))) => (1 (2 3))"],
-        copy_tree,
-    ),
-    pure(
-        "CONSP",
-        "object",
-        "Is the object a pair?",
-        &["(consp nil) => NIL"],
-        is_cons,
-    ),
-    pure(
-        "LISTP",
-        "object",
-        "Is the object a list?",
-        &["(listp nil) => T"],
-        is_list,
-    ),
-    pure(
-        "ATOM",
-        "object",
-        "Is the object anything but a pair?",
-        &["(atom nil) => T"],
-        is_atom,
-    ),
-    pure(
-        "NULL",
-        "object",
-        "Is the object `NIL`?",
-        &["(null '()) => T"],
-        is_null,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    list,
+    list_star,
+    make_list,
+    append,
+    nconc,
+    list_length,
+    copy_list,
+    copy_tree,
+    is_cons,
+    is_list,
+    is_atom,
+    is_null,
 ];

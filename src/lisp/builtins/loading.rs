@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::reader::{Outcome, Reader};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -14,17 +14,9 @@ use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
-
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "LOAD",
-    "file &key verbose print if-does-not-exist external-format",
-    "Evaluates all forms of a file; T. A file that another file loads is looked for beside that one first.",
-    &[],
-    load,
-)];
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
 pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
@@ -106,6 +98,9 @@ fn restore(machine: &mut Machine<'_>) {
     }
 }
 
+/// Evaluates all forms of a file; T. A file that another file loads is looked for beside that one
+/// first.
+#[builtin(_, "file &key verbose print if-does-not-exist external-format")]
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
         let name = stream.file.as_deref().unwrap_or("stream").to_owned();
@@ -190,3 +185,6 @@ fn read_file(path: &str) -> Result<String> {
         .with(known::K_PATHNAME, Value::foreign(Pathname::parse(path)))
     })
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![load,];

@@ -2,7 +2,7 @@
 //! `mapcon`.
 
 use super::lists::nconc_all;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -11,6 +11,7 @@ use crate::lisp::vm::callable::callable;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -98,75 +99,54 @@ fn mapping(
     run(machine, name, |calls| map(calls, function, lists, mode))
 }
 
+/// The results of a function for the elements of one or more lists, up to the end of the shortest.
+///
+/// `(mapcar #'1+ '(1 2 3))` => `(2 3 4)`
+/// `(mapcar #'+ '(1 2 3) '(10 20))` => `(11 22)`
+#[builtin(_, "function list &rest lists")]
 fn mapcar(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPCAR", false, Collect::List)
 }
 
+/// Calls a function for the elements of lists; returns the first list.
+///
+/// `(mapc #'identity '(1 2))` => `(1 2)`
+#[builtin(_, "function list &rest lists")]
 fn mapc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPC", false, Collect::Nothing)
 }
 
+/// Like `mapcar`, but joins the results, which must be fresh lists.
+///
+/// `(mapcan #'list '(1 2) '(a b))` => `(1 A 2 B)`
+#[builtin(_, "function list &rest lists")]
 fn mapcan(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPCAN", false, Collect::Joined)
 }
 
+/// Like `mapcar`, but hands out the list, its rest, and so on.
+///
+/// `(maplist #'length '(a b c))` => `(3 2 1)`
+#[builtin(_, "function list &rest lists")]
 fn maplist(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPLIST", true, Collect::List)
 }
 
+/// Calls a function for a list, its rest, and so on; returns the list.
+///
+/// `(mapl #'identity '(1 2))` => `(1 2)`
+#[builtin(_, "function list &rest lists")]
 fn mapl(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPL", true, Collect::Nothing)
 }
 
+/// Like `maplist`, but joins the results, which must be fresh lists.
+///
+/// `(mapcon #'list '(1 2))` => `((1 2) (2))`
+#[builtin(_, "function list &rest lists")]
 fn mapcon(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     mapping(machine, &args, "MAPCON", true, Collect::Joined)
 }
 
 /// Mapping over lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MAPCAR",
-        "function list &rest lists",
-        "The results of a function for the elements of one or more lists, up to the end of the shortest.",
-        &[
-            "(mapcar #'1+ '(1 2 3)) => (2 3 4)",
-            "(mapcar #'+ '(1 2 3) '(10 20)) => (11 22)",
-        ],
-        mapcar,
-    ),
-    control(
-        "MAPC",
-        "function list &rest lists",
-        "Calls a function for the elements of lists; returns the first list.",
-        &["(mapc #'identity '(1 2)) => (1 2)"],
-        mapc,
-    ),
-    control(
-        "MAPCAN",
-        "function list &rest lists",
-        "Like `mapcar`, but joins the results, which must be fresh lists.",
-        &["(mapcan #'list '(1 2) '(a b)) => (1 A 2 B)"],
-        mapcan,
-    ),
-    control(
-        "MAPLIST",
-        "function list &rest lists",
-        "Like `mapcar`, but hands out the list, its rest, and so on.",
-        &["(maplist #'length '(a b c)) => (3 2 1)"],
-        maplist,
-    ),
-    control(
-        "MAPL",
-        "function list &rest lists",
-        "Calls a function for a list, its rest, and so on; returns the list.",
-        &["(mapl #'identity '(1 2)) => (1 2)"],
-        mapl,
-    ),
-    control(
-        "MAPCON",
-        "function list &rest lists",
-        "Like `maplist`, but joins the results, which must be fresh lists.",
-        &["(mapcon #'list '(1 2)) => ((1 2) (2))"],
-        mapcon,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![mapcar, mapc, mapcan, maplist, mapl, mapcon,];

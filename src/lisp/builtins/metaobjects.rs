@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::generic_functions::{generic_argument, method_argument};
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::object::method::method_value;
 use crate::lisp::value::Value;
@@ -12,76 +12,42 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Accessor, Specializer};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%RELATED-CLASSES",
-        "class relation",
-        "The `:superclasses`, `:subclasses` or the `:precedence` list of a class.",
-        &["(length (system::%related-classes (find-class 'integer) :superclasses)) => 1"],
-        related_classes,
-    ),
-    pure(
-        "%SLOTS",
-        "class directp",
-        "Initargs for the descriptions of the slots of a class, or of those that it defines itself.",
-        &["(system::%slots (find-class 'integer) t) => NIL"],
-        slots,
-    ),
-    pure(
-        "%DEFAULT-INITARGS",
-        "class directp",
-        "Lists of key, NIL and function for the default initargs of a class.",
-        &["(system::%default-initargs (find-class 'integer) t) => NIL"],
-        default_initargs,
-    ),
-    pure(
-        "%GENERIC-FUNCTION-NAME",
-        "generic-function",
-        "The name of a generic function.",
-        &[],
-        |_, args| {
-            let generic = generic_argument(&args[0])?.as_generic();
-            Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
+/// The name of a generic function.
+#[builtin("%GENERIC-FUNCTION-NAME", "generic-function")]
+fn generic_function_name(args: &[Value]) -> Outcome {
+    let generic = generic_argument(&args[0])?.as_generic();
+    Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
+}
+
+/// The methods of a generic function, in order of definition.
+#[builtin("%GENERIC-FUNCTION-METHODS", "generic-function")]
+fn generic_function_methods(args: &[Value]) -> Outcome {
+    let generic = generic_argument(&args[0])?.as_generic();
+    let methods = generic.map(|generic| generic.methods.borrow().clone());
+    Ok(Value::list(methods.iter().flatten().map(method_value)))
+}
+
+/// The name of the generic function of a method.
+#[builtin("%METHOD-NAME", "method")]
+fn method_name(args: &[Value]) -> Outcome {
+    Ok(method_argument(&args[0])?.name.clone())
+}
+
+/// The specializers of a method: classes and lists (EQL value).
+#[builtin("%METHOD-SPECIALIZERS", "method")]
+fn method_specializers(args: &[Value]) -> Outcome {
+    let specializers = method_argument(&args[0])?.specializers.iter();
+    Ok(Value::list(specializers.map(
+        |specializer| match specializer {
+            Specializer::Class(class) => Value::Class(class.clone()),
+            Specializer::Eql(value) => Value::list([known::EQL.into(), value.clone()]),
         },
-    ),
-    pure(
-        "%GENERIC-FUNCTION-METHODS",
-        "generic-function",
-        "The methods of a generic function, in order of definition.",
-        &[],
-        |_, args| {
-            let generic = generic_argument(&args[0])?.as_generic();
-            let methods = generic.map(|generic| generic.methods.borrow().clone());
-            Ok(Value::list(methods.iter().flatten().map(method_value)))
-        },
-    ),
-    pure(
-        "%METHOD-NAME",
-        "method",
-        "The name of the generic function of a method.",
-        &[],
-        |_, args| Ok(method_argument(&args[0])?.name.clone()),
-    ),
-    pure(
-        "%METHOD-SPECIALIZERS",
-        "method",
-        "The specializers of a method: classes and lists (EQL value).",
-        &[],
-        |_, args| {
-            let specializers = method_argument(&args[0])?.specializers.iter();
-            Ok(Value::list(specializers.map(
-                |specializer| match specializer {
-                    Specializer::Class(class) => Value::Class(class.clone()),
-                    Specializer::Eql(value) => Value::list([known::EQL.into(), value.clone()]),
-                },
-            )))
-        },
-    ),
-];
+    )))
+}
 
 fn class_argument(value: &Value) -> Result<&Rc<Class>, Box<Raise>> {
     match value {
@@ -90,6 +56,10 @@ fn class_argument(value: &Value) -> Result<&Rc<Class>, Box<Raise>> {
     }
 }
 
+/// The `:superclasses`, `:subclasses` or the `:precedence` list of a class.
+///
+/// `(length (system::%related-classes (find-class 'integer) :superclasses))` => `1`
+#[builtin("%RELATED-CLASSES", "class relation")]
 fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
     let class = class_argument(&args[0])?;
     let relation = args[1].as_symbol().map(|sym| image.name(sym));
@@ -102,6 +72,10 @@ fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(classes.iter().cloned().map(Value::Class)))
 }
 
+/// Initargs for the descriptions of the slots of a class, or of those that it defines itself.
+///
+/// `(system::%slots (find-class 'integer) t)` => `NIL`
+#[builtin("%SLOTS", "class directp")]
 fn slots(image: &mut Image, args: &[Value]) -> Outcome {
     let class = class_argument(&args[0])?;
     let is_direct = args[1].is_true();
@@ -168,6 +142,10 @@ fn function(initform: Option<&Initform>) -> Value {
     }
 }
 
+/// Lists of key, NIL and function for the default initargs of a class.
+///
+/// `(system::%default-initargs (find-class 'integer) t)` => `NIL`
+#[builtin("%DEFAULT-INITARGS", "class directp")]
 fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
     let class = class_argument(&args[0])?;
     let initargs = if args[1].is_true() {
@@ -180,3 +158,14 @@ fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
         .map(|(key, form)| Value::list([(*key).into(), Value::NIL, function(Some(form))]));
     Ok(Value::list(initargs.collect::<Vec<_>>()))
 }
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    related_classes,
+    slots,
+    default_initargs,
+    generic_function_name,
+    generic_function_methods,
+    method_name,
+    method_specializers,
+];

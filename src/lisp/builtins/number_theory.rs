@@ -1,7 +1,7 @@
 //! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::reader::numeric::parse_integer as read_integer;
 use crate::lisp::value::Value;
@@ -10,328 +10,340 @@ use crate::lisp::value::number;
 use crate::lisp::value::number::ByteSpecifier;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "GCD",
-        "&rest integers",
-        "The greatest common divisor; 0 of none.",
-        &["(gcd 12 18 27) => 3", "(gcd) => 0"],
-        |_, args| fold(args, 0, number::gcd),
-    ),
-    pure(
-        "LCM",
-        "&rest integers",
-        "The least common multiple; 1 of none.",
-        &["(lcm 4 6) => 12"],
-        |_, args| fold(args, 1, number::lcm),
-    ),
-    pure(
-        "ISQRT",
-        "integer",
-        "The largest integer whose square is not above the integer.",
-        &["(isqrt 17) => 4"],
-        |_, args| number::isqrt(&args[0]),
-    ),
-    pure(
-        "NUMERATOR",
-        "rational",
-        "The numerator in lowest terms.",
-        &["(numerator 6/4) => 3"],
-        |_, args| number::numerator(&args[0]),
-    ),
-    pure(
-        "DENOMINATOR",
-        "rational",
-        "The denominator in lowest terms.",
-        &["(denominator 6/4) => 2"],
-        |_, args| number::denominator(&args[0]),
-    ),
-    pure(
-        "RATIONAL",
-        "number",
-        "The exact value of the number.",
-        &["(rational 0.5) => 1/2"],
-        |_, args| number::rational(&args[0]),
-    ),
-    pure(
-        "RATIONALIZE",
-        "number",
-        "The simplest exact number that is the same float.",
-        &["(rationalize 0.1) => 1/10"],
-        |_, args| number::rationalize(&args[0]),
-    ),
-    pure(
-        "FLOAT",
-        "number &optional prototype",
-        "The number as a float; as a float of the prototype's type.",
-        &[
-            "(float 5) => 5.0",
-            "(float 1/3 1d0) => 0.3333333333333333d0",
-        ],
-        float,
-    ),
-    pure(
-        "LOGAND",
-        "&rest integers",
-        "The bits that all integers have.",
-        &["(logand 12 10) => 8", "(logand) => -1"],
-        |_, args| fold(args, -1, number::and),
-    ),
-    pure(
-        "LOGIOR",
-        "&rest integers",
-        "The bits that some of the integers have.",
-        &["(logior 12 10) => 14"],
-        |_, args| fold(args, 0, number::or),
-    ),
-    pure(
-        "LOGXOR",
-        "&rest integers",
-        "The bits that an odd number of the integers have.",
-        &["(logxor 12 10) => 6"],
-        |_, args| fold(args, 0, number::xor),
-    ),
-    pure(
-        "LOGEQV",
-        "&rest integers",
-        "The bits in which an even number of the integers differ.",
-        &["(logeqv 12 10) => -7"],
-        |_, args| fold(args, -1, |a, b| number::not(&number::xor(a, b)?)),
-    ),
-    pure(
-        "LOGNOT",
-        "integer",
-        "The bits that the integer does not have.",
-        &["(lognot 5) => -6"],
-        |_, args| number::not(&args[0]),
-    ),
-    pure(
-        "LOGNAND",
-        "integer1 integer2",
-        "The bits that not both have.",
-        &["(lognand 12 10) => -9"],
-        |_, args| boole_op(6, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGNOR",
-        "integer1 integer2",
-        "The bits that neither has.",
-        &["(lognor 12 10) => -15"],
-        |_, args| boole_op(11, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGANDC1",
-        "integer1 integer2",
-        "The bits of the second that the first does not have.",
-        &["(logandc1 12 10) => 2"],
-        |_, args| boole_op(12, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGANDC2",
-        "integer1 integer2",
-        "The bits of the first that the second does not have.",
-        &["(logandc2 15 5) => 10"],
-        |_, args| boole_op(13, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGORC1",
-        "integer1 integer2",
-        "The bits of the second and those that the first does not have.",
-        &["(logorc1 12 10) => -5"],
-        |_, args| boole_op(14, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGORC2",
-        "integer1 integer2",
-        "The bits of the first and those that the second does not have.",
-        &["(logorc2 12 10) => -3"],
-        |_, args| boole_op(15, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGTEST",
-        "integer1 integer2",
-        "Have both integers a bit in common?",
-        &["(logtest 12 4) => T"],
-        |_, args| {
-            let common = number::and(&args[0], &args[1])?;
-            Ok(Value::bool(!number::is_zero(&common)?))
-        },
-    ),
-    pure(
-        "LOGBITP",
-        "index integer",
-        "Has the integer the bit of that index?",
-        &["(logbitp 0 5) => T", "(logbitp 1 5) => NIL"],
-        |_, args| number::is_bit_set(&args[0], &args[1]).map(Value::bool),
-    ),
-    pure(
-        "LOGCOUNT",
-        "integer",
-        "The number of bits that differ from the sign.",
-        &["(logcount 255) => 8"],
-        |_, args| number::bit_count(&args[0]),
-    ),
-    pure(
-        "INTEGER-LENGTH",
-        "integer",
-        "The number of bits without the sign.",
-        &["(integer-length 255) => 8", "(integer-length 0) => 0"],
-        |_, args| number::bit_length(&args[0]),
-    ),
-    pure(
-        "ASH",
-        "integer count",
-        "The integer shifted to the left; to the right if the count is negative.",
-        &["(ash 1 10) => 1024", "(ash -8 -1) => -4"],
-        |_, args| number::ash(&args[0], &args[1]),
-    ),
-    pure(
-        "BOOLE",
-        "operation integer1 integer2",
-        "Combines the bits of two integers by an operation such as BOOLE-AND.",
-        &["(boole boole-and 12 10) => 8"],
-        |_, args| match &args[0] {
-            Value::Int(operation @ 0..=15) => boole_op(*operation, &args[1], &args[2]),
-            other => Err(Raise::type_error(
-                other,
-                Value::list([known::MOD.into(), Value::Int(16)]),
-            )),
-        },
-    ),
-    pure(
-        "BYTE",
-        "size position",
-        "Describes so many bits above so many others.",
-        &["(byte 8 0) => (8 . 0)"],
-        |_, args| {
-            byte_of(&Value::cons(args[0].clone(), args[1].clone()))?;
-            Ok(Value::cons(args[0].clone(), args[1].clone()))
-        },
-    ),
-    pure(
-        "BYTE-SIZE",
-        "byte",
-        "How many bits a byte has.",
-        &["(byte-size (byte 8 2)) => 8"],
-        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.size.into())),
-    ),
-    pure(
-        "BYTE-POSITION",
-        "byte",
-        "How many bits are below a byte.",
-        &["(byte-position (byte 8 2)) => 2"],
-        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.position.into())),
-    ),
-    pure(
-        "LDB",
-        "byte integer",
-        "The bits of a byte, as an integer.",
-        &["(ldb (byte 8 0) 511) => 255"],
-        |_, args| number::extract(byte_of(&args[0])?, &args[1]),
-    ),
-    pure(
-        "LDB-TEST",
-        "byte integer",
-        "Is any bit of a byte set?",
-        &["(ldb-test (byte 2 0) 4) => NIL"],
-        |_, args| {
-            let bits = number::extract(byte_of(&args[0])?, &args[1])?;
-            Ok(Value::bool(!number::is_zero(&bits)?))
-        },
-    ),
-    pure(
-        "MASK-FIELD",
-        "byte integer",
-        "The bits of a byte where they are in the integer.",
-        &["(mask-field (byte 4 4) 255) => 240"],
-        |_, args| {
-            let byte = byte_of(&args[0])?;
-            let bits = number::extract(byte, &args[1])?;
-            number::ash(&bits, &Value::Int(byte.position.into()))
-        },
-    ),
-    pure(
-        "DPB",
-        "new byte integer",
-        "The integer with new bits in a byte.",
-        &["(dpb 15 (byte 4 0) 0) => 15"],
-        |_, args| number::deposit(&args[0], byte_of(&args[1])?, &args[2]),
-    ),
-    pure(
-        "DEPOSIT-FIELD",
-        "new byte integer",
-        "The integer with a byte taken over from another integer.",
-        &["(deposit-field 255 (byte 4 4) 0) => 240"],
-        |_, args| {
-            let byte = byte_of(&args[1])?;
-            let bits = number::extract(byte, &args[0])?;
-            number::deposit(&bits, byte, &args[2])
-        },
-    ),
-    pure(
-        "DECODE-FLOAT",
-        "float",
-        "Mantissa, exponent and sign of a float.",
-        &["(decode-float 0.5) => 0.5 ; 0 ; 1.0"],
-        |_, args| number::decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
-    ),
-    pure(
-        "INTEGER-DECODE-FLOAT",
-        "float",
-        "Mantissa, exponent and sign of a float as integers.",
-        &["(integer-decode-float 1.0) => 8388608 ; -23 ; 1"],
-        |_, args| number::integer_decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
-    ),
-    pure(
-        "SCALE-FLOAT",
-        "float power",
-        "The float times two to the power.",
-        &["(scale-float 1.5 2) => 6.0"],
-        |_, args| number::scale(&args[0], &args[1]),
-    ),
-    pure(
-        "FLOAT-RADIX",
-        "float",
-        "The base of the float's exponent.",
-        &["(float-radix 1.0) => 2"],
-        |_, args| number::digits(&args[0]).map(|_| Value::Int(2)),
-    ),
-    pure(
-        "FLOAT-DIGITS",
-        "float",
-        "The number of bits of the mantissa.",
-        &["(float-digits 1.0) => 24"],
-        |_, args| number::digits(&args[0]),
-    ),
-    pure(
-        "FLOAT-PRECISION",
-        "float",
-        "The number of significant bits of the mantissa.",
-        &["(float-precision 1d0) => 53"],
-        |_, args| number::precision(&args[0]),
-    ),
-    pure(
-        "FLOAT-SIGN",
-        "float &optional magnitude",
-        "The magnitude, or one, with the sign of the float.",
-        &["(float-sign -2.5) => -1.0", "(float-sign -1.0 3.0) => -3.0"],
-        |_, args| number::sign_of(&args[0], args.get(1)),
-    ),
-    pure(
-        "PARSE-INTEGER",
-        "string &key start end radix junk-allowed",
-        "The integer that a string stands for, and where it ends.",
-        &[
-            "(parse-integer \" 42 \") => 42 ; 4",
-            "(parse-integer \"ff\" :radix 16) => 255 ; 2",
-        ],
-        parse_integer,
-    ),
-];
+/// The greatest common divisor; 0 of none.
+///
+/// `(gcd 12 18 27)` => `3`
+/// `(gcd)` => `0`
+#[builtin(_, "&rest integers")]
+fn gcd(args: &[Value]) -> Outcome {
+    fold(args, 0, number::gcd)
+}
+
+/// The least common multiple; 1 of none.
+///
+/// `(lcm 4 6)` => `12`
+#[builtin(_, "&rest integers")]
+fn lcm(args: &[Value]) -> Outcome {
+    fold(args, 1, number::lcm)
+}
+
+/// The largest integer whose square is not above the integer.
+///
+/// `(isqrt 17)` => `4`
+#[builtin(_, "integer")]
+fn isqrt(args: &[Value]) -> Outcome {
+    number::isqrt(&args[0])
+}
+
+/// The numerator in lowest terms.
+///
+/// `(numerator 6/4)` => `3`
+#[builtin(_, "rational")]
+fn numerator(args: &[Value]) -> Outcome {
+    number::numerator(&args[0])
+}
+
+/// The denominator in lowest terms.
+///
+/// `(denominator 6/4)` => `2`
+#[builtin(_, "rational")]
+fn denominator(args: &[Value]) -> Outcome {
+    number::denominator(&args[0])
+}
+
+/// The exact value of the number.
+///
+/// `(rational 0.5)` => `1/2`
+#[builtin(_, "number")]
+fn rational(args: &[Value]) -> Outcome {
+    number::rational(&args[0])
+}
+
+/// The simplest exact number that is the same float.
+///
+/// `(rationalize 0.1)` => `1/10`
+#[builtin(_, "number")]
+fn rationalize(args: &[Value]) -> Outcome {
+    number::rationalize(&args[0])
+}
+
+/// The bits that all integers have.
+///
+/// `(logand 12 10)` => `8`
+/// `(logand)` => `-1`
+#[builtin(_, "&rest integers")]
+fn logand(args: &[Value]) -> Outcome {
+    fold(args, -1, number::and)
+}
+
+/// The bits that some of the integers have.
+///
+/// `(logior 12 10)` => `14`
+#[builtin(_, "&rest integers")]
+fn logior(args: &[Value]) -> Outcome {
+    fold(args, 0, number::or)
+}
+
+/// The bits that an odd number of the integers have.
+///
+/// `(logxor 12 10)` => `6`
+#[builtin(_, "&rest integers")]
+fn logxor(args: &[Value]) -> Outcome {
+    fold(args, 0, number::xor)
+}
+
+/// The bits in which an even number of the integers differ.
+///
+/// `(logeqv 12 10)` => `-7`
+#[builtin(_, "&rest integers")]
+fn logeqv(args: &[Value]) -> Outcome {
+    fold(args, -1, |a, b| number::not(&number::xor(a, b)?))
+}
+
+/// The bits that the integer does not have.
+///
+/// `(lognot 5)` => `-6`
+#[builtin(_, "integer")]
+fn lognot(args: &[Value]) -> Outcome {
+    number::not(&args[0])
+}
+
+/// The bits that not both have.
+///
+/// `(lognand 12 10)` => `-9`
+#[builtin(_, "integer1 integer2")]
+fn lognand(args: &[Value]) -> Outcome {
+    boole_op(6, &args[0], &args[1])
+}
+
+/// The bits that neither has.
+///
+/// `(lognor 12 10)` => `-15`
+#[builtin(_, "integer1 integer2")]
+fn lognor(args: &[Value]) -> Outcome {
+    boole_op(11, &args[0], &args[1])
+}
+
+/// The bits of the second that the first does not have.
+///
+/// `(logandc1 12 10)` => `2`
+#[builtin(_, "integer1 integer2")]
+fn logandc1(args: &[Value]) -> Outcome {
+    boole_op(12, &args[0], &args[1])
+}
+
+/// The bits of the first that the second does not have.
+///
+/// `(logandc2 15 5)` => `10`
+#[builtin(_, "integer1 integer2")]
+fn logandc2(args: &[Value]) -> Outcome {
+    boole_op(13, &args[0], &args[1])
+}
+
+/// The bits of the second and those that the first does not have.
+///
+/// `(logorc1 12 10)` => `-5`
+#[builtin(_, "integer1 integer2")]
+fn logorc1(args: &[Value]) -> Outcome {
+    boole_op(14, &args[0], &args[1])
+}
+
+/// The bits of the first and those that the second does not have.
+///
+/// `(logorc2 12 10)` => `-3`
+#[builtin(_, "integer1 integer2")]
+fn logorc2(args: &[Value]) -> Outcome {
+    boole_op(15, &args[0], &args[1])
+}
+
+/// Have both integers a bit in common?
+///
+/// `(logtest 12 4)` => `T`
+#[builtin(_, "integer1 integer2")]
+fn logtest(args: &[Value]) -> Outcome {
+    let common = number::and(&args[0], &args[1])?;
+    Ok(Value::bool(!number::is_zero(&common)?))
+}
+
+/// Has the integer the bit of that index?
+///
+/// `(logbitp 0 5)` => `T`
+/// `(logbitp 1 5)` => `NIL`
+#[builtin(_, "index integer")]
+fn logbitp(args: &[Value]) -> Outcome {
+    number::is_bit_set(&args[0], &args[1]).map(Value::bool)
+}
+
+/// The number of bits that differ from the sign.
+///
+/// `(logcount 255)` => `8`
+#[builtin(_, "integer")]
+fn logcount(args: &[Value]) -> Outcome {
+    number::bit_count(&args[0])
+}
+
+/// The number of bits without the sign.
+///
+/// `(integer-length 255)` => `8`
+/// `(integer-length 0)` => `0`
+#[builtin(_, "integer")]
+fn integer_length(args: &[Value]) -> Outcome {
+    number::bit_length(&args[0])
+}
+
+/// The integer shifted to the left; to the right if the count is negative.
+///
+/// `(ash 1 10)` => `1024`
+/// `(ash -8 -1)` => `-4`
+#[builtin(_, "integer count")]
+fn ash(args: &[Value]) -> Outcome {
+    number::ash(&args[0], &args[1])
+}
+
+/// Combines the bits of two integers by an operation such as BOOLE-AND.
+///
+/// `(boole boole-and 12 10)` => `8`
+#[builtin(_, "operation integer1 integer2")]
+fn boole(args: &[Value]) -> Outcome {
+    match &args[0] {
+        Value::Int(operation @ 0..=15) => boole_op(*operation, &args[1], &args[2]),
+        other => Err(Raise::type_error(
+            other,
+            Value::list([known::MOD.into(), Value::Int(16)]),
+        )),
+    }
+}
+
+/// Describes so many bits above so many others.
+///
+/// `(byte 8 0)` => `(8 . 0)`
+#[builtin(_, "size position")]
+fn byte(args: &[Value]) -> Outcome {
+    byte_of(&Value::cons(args[0].clone(), args[1].clone()))?;
+    Ok(Value::cons(args[0].clone(), args[1].clone()))
+}
+
+/// How many bits a byte has.
+///
+/// `(byte-size (byte 8 2))` => `8`
+#[builtin(_, "byte")]
+fn byte_size(args: &[Value]) -> Outcome {
+    byte_of(&args[0]).map(|byte| Value::Int(byte.size.into()))
+}
+
+/// How many bits are below a byte.
+///
+/// `(byte-position (byte 8 2))` => `2`
+#[builtin(_, "byte")]
+fn byte_position(args: &[Value]) -> Outcome {
+    byte_of(&args[0]).map(|byte| Value::Int(byte.position.into()))
+}
+
+/// The bits of a byte, as an integer.
+///
+/// `(ldb (byte 8 0) 511)` => `255`
+#[builtin(_, "byte integer")]
+fn ldb(args: &[Value]) -> Outcome {
+    number::extract(byte_of(&args[0])?, &args[1])
+}
+
+/// Is any bit of a byte set?
+///
+/// `(ldb-test (byte 2 0) 4)` => `NIL`
+#[builtin(_, "byte integer")]
+fn ldb_test(args: &[Value]) -> Outcome {
+    let bits = number::extract(byte_of(&args[0])?, &args[1])?;
+    Ok(Value::bool(!number::is_zero(&bits)?))
+}
+
+/// The bits of a byte where they are in the integer.
+///
+/// `(mask-field (byte 4 4) 255)` => `240`
+#[builtin(_, "byte integer")]
+fn mask_field(args: &[Value]) -> Outcome {
+    let byte = byte_of(&args[0])?;
+    let bits = number::extract(byte, &args[1])?;
+    number::ash(&bits, &Value::Int(byte.position.into()))
+}
+
+/// The integer with new bits in a byte.
+///
+/// `(dpb 15 (byte 4 0) 0)` => `15`
+#[builtin(_, "new byte integer")]
+fn dpb(args: &[Value]) -> Outcome {
+    number::deposit(&args[0], byte_of(&args[1])?, &args[2])
+}
+
+/// The integer with a byte taken over from another integer.
+///
+/// `(deposit-field 255 (byte 4 4) 0)` => `240`
+#[builtin(_, "new byte integer")]
+fn deposit_field(args: &[Value]) -> Outcome {
+    let byte = byte_of(&args[1])?;
+    let bits = number::extract(byte, &args[0])?;
+    number::deposit(&bits, byte, &args[2])
+}
+
+/// Mantissa, exponent and sign of a float.
+///
+/// `(decode-float 0.5)` => `0.5 ; 0 ; 1.0`
+#[builtin(_, "float")]
+fn decode_float(args: &[Value]) -> Outcome {
+    number::decode(&args[0]).map(|parts| Value::values(parts.to_vec()))
+}
+
+/// Mantissa, exponent and sign of a float as integers.
+///
+/// `(integer-decode-float 1.0)` => `8388608 ; -23 ; 1`
+#[builtin(_, "float")]
+fn integer_decode_float(args: &[Value]) -> Outcome {
+    number::integer_decode(&args[0]).map(|parts| Value::values(parts.to_vec()))
+}
+
+/// The float times two to the power.
+///
+/// `(scale-float 1.5 2)` => `6.0`
+#[builtin(_, "float power")]
+fn scale_float(args: &[Value]) -> Outcome {
+    number::scale(&args[0], &args[1])
+}
+
+/// The base of the float's exponent.
+///
+/// `(float-radix 1.0)` => `2`
+#[builtin(_, "float")]
+fn float_radix(args: &[Value]) -> Outcome {
+    number::digits(&args[0]).map(|_| Value::Int(2))
+}
+
+/// The number of bits of the mantissa.
+///
+/// `(float-digits 1.0)` => `24`
+#[builtin(_, "float")]
+fn float_digits(args: &[Value]) -> Outcome {
+    number::digits(&args[0])
+}
+
+/// The number of significant bits of the mantissa.
+///
+/// `(float-precision 1d0)` => `53`
+#[builtin(_, "float")]
+fn float_precision(args: &[Value]) -> Outcome {
+    number::precision(&args[0])
+}
+
+/// The magnitude, or one, with the sign of the float.
+///
+/// `(float-sign -2.5)` => `-1.0`
+/// `(float-sign -1.0 3.0)` => `-3.0`
+#[builtin(_, "float &optional magnitude")]
+fn float_sign(args: &[Value]) -> Outcome {
+    number::sign_of(&args[0], args.get(1))
+}
 
 fn fold(args: &[Value], start: i64, operate: fn(&Value, &Value) -> Outcome) -> Outcome {
     args.iter()
@@ -405,6 +417,11 @@ fn byte_of(value: &Value) -> Result<ByteSpecifier, Box<Raise>> {
     }
 }
 
+/// The number as a float; as a float of the prototype's type.
+///
+/// `(float 5)` => `5.0`
+/// `(float 1/3 1d0)` => `0.3333333333333333d0`
+#[builtin(_, "number &optional prototype")]
 fn float(_: &mut Image, args: &[Value]) -> Outcome {
     match (&args[0], args.get(1)) {
         (Value::Single(_) | Value::Double(_), None) => Ok(args[0].clone()),
@@ -416,6 +433,11 @@ fn float(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The integer that a string stands for, and where it ends.
+///
+/// `(parse-integer " 42 ")` => `42 ; 4`
+/// `(parse-integer "ff" :radix 16)` => `255 ; 2`
+#[builtin(_, "string &key start end radix junk-allowed")]
 fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
     let Value::Str(string) = &args[0] else {
         return Err(Raise::type_error(&args[0], known::STRING));
@@ -486,3 +508,48 @@ fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
         )),
     }
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    gcd,
+    lcm,
+    isqrt,
+    numerator,
+    denominator,
+    rational,
+    rationalize,
+    float,
+    logand,
+    logior,
+    logxor,
+    logeqv,
+    lognot,
+    lognand,
+    lognor,
+    logandc1,
+    logandc2,
+    logorc1,
+    logorc2,
+    logtest,
+    logbitp,
+    logcount,
+    integer_length,
+    ash,
+    boole,
+    byte,
+    byte_size,
+    byte_position,
+    ldb,
+    ldb_test,
+    mask_field,
+    dpb,
+    deposit_field,
+    decode_float,
+    integer_decode_float,
+    scale_float,
+    float_radix,
+    float_digits,
+    float_precision,
+    float_sign,
+    parse_integer,
+];

@@ -7,7 +7,7 @@ use super::packages::{
 };
 use super::shown::shown;
 use super::strings;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -15,6 +15,7 @@ use crate::lisp::value::package::{Access, PackageId};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::list_items;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -26,7 +27,11 @@ fn texts(image: &Image, items: &[Value]) -> Result<Vec<String>, Box<Raise>> {
         .collect()
 }
 
-/// Carries out a `defpackage`: arguments are the name and the options.
+/// Carries out a `defpackage`.
+///
+/// `(system::%define-package "DEFINED-AS-EXAMPLE" '((:use :cl)))` => `#<PACKAGE "DEFINED-AS-EXAMPLE">`
+// Carries out a `defpackage`: arguments are the name and the options.
+#[builtin("%DEFINE-PACKAGE", "name options")]
 fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
     let name = strings::designated(image, &args[0])?;
     let mut options: Vec<(Sym, Vec<Value>)> = Vec::new();
@@ -194,12 +199,20 @@ fn imported(
     Ok(symbols)
 }
 
+/// The package of a name; an error if there is none.
+///
+/// `(system::%existing-package :cl)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin("%EXISTING-PACKAGE", "designator")]
 fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
     designated(image, &args[0]).map(Value::Package)
 }
 
-/// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
-/// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
+/// The symbols of a package.
+///
+/// `(system::%package-symbols (make-package :empty-example) :external)` => `NIL`
+// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
+// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
+#[builtin("%PACKAGE-SYMBOLS", "package kind")]
 fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     let symbols: Vec<Sym> = match &args[1] {
         Value::Symbol(known::T, ..) => {
@@ -228,7 +241,11 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(symbols.into_iter().map(Value::symbol)))
 }
 
-/// The state of a package iterator: a pair whose car lists what is still to come.
+/// An iterator over the symbols of packages.
+///
+/// `(system::%package-iterator :cl nil)` => `(NIL)`
+// The state of a package iterator: a pair whose car lists what is still to come.
+#[builtin("%PACKAGE-ITERATOR", "packages kinds")]
 fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
     let kinds = list_items(&args[1])?;
     let mut entries = Vec::new();
@@ -248,50 +265,28 @@ fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::cons(Value::list(entries), Value::NIL))
 }
 
+/// A new package.
+///
+/// `(package-name (system::%make-package :made-below))` => `"MADE-BELOW"`
+#[builtin("%MAKE-PACKAGE", "name &key nicknames use")]
+fn make_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    make_package(image, args)
+}
+
+/// Deletes a package.
+///
+/// `(progn (make-package :short) (system::%delete-package :short))` => `T`
+#[builtin("%DELETE-PACKAGE", "package")]
+fn delete_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    delete_package(image, args)
+}
+
 /// What the expansions call; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%MAKE-PACKAGE",
-        "name &key nicknames use",
-        "A new package.",
-        &["(package-name (system::%make-package :made-below)) => \"MADE-BELOW\""],
-        make_package,
-    ),
-    pure(
-        "%DELETE-PACKAGE",
-        "package",
-        "Deletes a package.",
-        &["(progn (make-package :short) (system::%delete-package :short)) => T"],
-        delete_package,
-    ),
-    pure(
-        "%DEFINE-PACKAGE",
-        "name options",
-        "Carries out a `defpackage`.",
-        &[
-            "(system::%define-package \"DEFINED-AS-EXAMPLE\" '((:use :cl))) => #<PACKAGE \"DEFINED-AS-EXAMPLE\">",
-        ],
-        define_package,
-    ),
-    pure(
-        "%EXISTING-PACKAGE",
-        "designator",
-        "The package of a name; an error if there is none.",
-        &["(system::%existing-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
-        existing_package,
-    ),
-    pure(
-        "%PACKAGE-SYMBOLS",
-        "package kind",
-        "The symbols of a package.",
-        &["(system::%package-symbols (make-package :empty-example) :external) => NIL"],
-        package_symbols,
-    ),
-    pure(
-        "%PACKAGE-ITERATOR",
-        "packages kinds",
-        "An iterator over the symbols of packages.",
-        &["(system::%package-iterator :cl nil) => (NIL)"],
-        package_iterator,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    make_package_builtin,
+    delete_package_builtin,
+    define_package,
+    existing_package,
+    package_symbols,
+    package_iterator,
 ];

@@ -3,12 +3,13 @@
 use super::packages::{names, one_or_more, or_current, package_error};
 use super::property_lists::symbol;
 use super::shown::shown;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::package::PackageId;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -35,6 +36,10 @@ pub(crate) fn import_one(
     Ok(())
 }
 
+/// Makes symbols present in a package (the current one).
+///
+/// `(import 'cl:car)` => `T`
+#[builtin(_, "symbols &optional package")]
 fn import(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
@@ -48,6 +53,10 @@ fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
     one_or_more(value)?.iter().map(symbol).collect()
 }
 
+/// Makes symbols present in a package in place of others of their names.
+///
+/// `(shadowing-import nil)` => `T`
+#[builtin(_, "symbols &optional package")]
 fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
@@ -58,7 +67,11 @@ fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
-/// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
+/// Takes a symbol out of a package; was it there?
+///
+/// `(unintern (make-symbol "X"))` => `NIL`
+// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
+#[builtin(_, "symbol &optional package")]
 fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
     let sym = symbol(&args[0])?;
     let package = or_current(image, args.get(1))?;
@@ -118,6 +131,10 @@ fn must_be_accessible(
     ))
 }
 
+/// Exports symbols from a package (the current one).
+///
+/// `(export 'exported-as-example)` => `T`
+#[builtin(_, "symbols &optional package")]
 fn export(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
@@ -158,6 +175,10 @@ fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(
     }
 }
 
+/// Makes exported symbols internal again.
+///
+/// `(unexport 'exported-as-example)` => `T`
+#[builtin(_, "symbols &optional package")]
 fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
@@ -193,6 +214,10 @@ pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
     }
 }
 
+/// Gives a package symbols of its own in place of inherited ones.
+///
+/// `(shadow "OWN-SYMBOL")` => `T`
+#[builtin(_, "names &optional package")]
 fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for name in names(image, Some(&args[0]))? {
@@ -202,47 +227,5 @@ fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What is done to the symbols of packages.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package (the current one).",
-        &["(import 'cl:car) => T"],
-        import,
-    ),
-    pure(
-        "SHADOWING-IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package in place of others of their names.",
-        &["(shadowing-import nil) => T"],
-        shadowing_import,
-    ),
-    pure(
-        "EXPORT",
-        "symbols &optional package",
-        "Exports symbols from a package (the current one).",
-        &["(export 'exported-as-example) => T"],
-        export,
-    ),
-    pure(
-        "UNINTERN",
-        "symbol &optional package",
-        "Takes a symbol out of a package; was it there?",
-        &["(unintern (make-symbol \"X\")) => NIL"],
-        unintern,
-    ),
-    pure(
-        "UNEXPORT",
-        "symbols &optional package",
-        "Makes exported symbols internal again.",
-        &["(unexport 'exported-as-example) => T"],
-        unexport,
-    ),
-    pure(
-        "SHADOW",
-        "names &optional package",
-        "Gives a package symbols of its own in place of inherited ones.",
-        &["(shadow \"OWN-SYMBOL\") => T"],
-        shadow,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![import, shadowing_import, export, unintern, unexport, shadow,];

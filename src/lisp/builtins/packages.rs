@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -12,6 +12,7 @@ use crate::lisp::value::package::{Access, PackageId, PackageTable};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::list_items;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -94,14 +95,26 @@ pub(crate) fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
     found
 }
 
+/// Is the object a package?
+///
+/// `(packagep *package*)` => `T`
+#[builtin(_, "object")]
 fn packagep(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(matches!(args[0], Value::Package(_))))
 }
 
+/// The package of a name or nickname, or `NIL`.
+///
+/// `(find-package :cl)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin(_, "name")]
 fn find_package(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(find(image, &args[0])?.map_or(Value::NIL, Value::Package))
 }
 
+/// A package's name.
+///
+/// `(package-name :cl)` => `"COMMON-LISP"`
+#[builtin(_, "package")]
 fn package_name(image: &mut Image, args: &[Value]) -> Outcome {
     if let Value::Package(id) = &args[0]
         && image.packages.is_deleted(*id)
@@ -112,6 +125,10 @@ fn package_name(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::string(image.packages.get(id).name.as_ref()))
 }
 
+/// A package's other names.
+///
+/// `(package-nicknames :keyword)` => `NIL`
+#[builtin(_, "package")]
 fn package_nicknames(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     let names = &image.packages.get(id).nicknames;
@@ -122,11 +139,19 @@ fn package_list(ids: impl IntoIterator<Item = PackageId>) -> Value {
     Value::list(ids.into_iter().map(Value::Package).collect::<Vec<_>>())
 }
 
+/// The packages that a package uses.
+///
+/// `(package-use-list :keyword)` => `NIL`
+#[builtin(_, "package")]
 fn package_use_list(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     Ok(package_list(image.packages.get(id).uses.iter().copied()))
 }
 
+/// The packages that use a package.
+///
+/// `(package-used-by-list :keyword)` => `NIL`
+#[builtin(_, "package")]
 fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     let users = image.packages.ids();
@@ -135,6 +160,10 @@ fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
     })))
 }
 
+/// The symbols that a package shadows.
+///
+/// `(package-shadowing-symbols :cl)` => `NIL`
+#[builtin(_, "package")]
 fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     let this = image.packages.get(id);
@@ -146,13 +175,21 @@ fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-fn list_all_packages(image: &mut Image, _: &[Value]) -> Outcome {
+/// All packages.
+///
+/// `(first (list-all-packages))` => `#<PACKAGE "COMMON-LISP">`
+#[builtin(_, "")]
+fn list_all_packages(image: &mut Image) -> Outcome {
     let all = image.packages.ids();
     Ok(package_list(
         all.filter(|id| !image.packages.is_deleted(*id)),
     ))
 }
 
+/// All symbols of a name.
+///
+/// `(find-all-symbols "CADDDR")` => `(CADDDR)`
+#[builtin(_, "name")]
 fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     let name = super::strings::designated(image, &args[0])?;
     let mut found: Vec<Sym> = Vec::new();
@@ -213,6 +250,10 @@ pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::Package(id))
 }
 
+/// Gives a package another name.
+///
+/// `(progn (make-package :old-name) (package-name (rename-package :old-name :new-name)))` => `"NEW-NAME"`
+#[builtin(_, "package name &optional nicknames")]
 fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     let name = super::strings::designated(image, &args[1])?;
@@ -298,6 +339,10 @@ pub(crate) fn use_one(
     Ok(())
 }
 
+/// Lets a package (the current one) inherit the exported symbols of others.
+///
+/// `(use-package :cl)` => `T`
+#[builtin(_, "packages &optional package")]
 fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for used in one_or_more(&args[0])? {
@@ -307,6 +352,10 @@ fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
+/// Takes packages out of those that a package uses.
+///
+/// `(unuse-package :keyword)` => `T`
+#[builtin(_, "packages &optional package")]
 fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for used in one_or_more(&args[0])? {
@@ -317,91 +366,17 @@ fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Packages.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "PACKAGEP",
-        "object",
-        "Is the object a package?",
-        &["(packagep *package*) => T"],
-        packagep,
-    ),
-    pure(
-        "FIND-PACKAGE",
-        "name",
-        "The package of a name or nickname, or `NIL`.",
-        &["(find-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
-        find_package,
-    ),
-    pure(
-        "PACKAGE-NAME",
-        "package",
-        "A package's name.",
-        &["(package-name :cl) => \"COMMON-LISP\""],
-        package_name,
-    ),
-    pure(
-        "PACKAGE-NICKNAMES",
-        "package",
-        "A package's other names.",
-        &["(package-nicknames :keyword) => NIL"],
-        package_nicknames,
-    ),
-    pure(
-        "PACKAGE-USE-LIST",
-        "package",
-        "The packages that a package uses.",
-        &["(package-use-list :keyword) => NIL"],
-        package_use_list,
-    ),
-    pure(
-        "PACKAGE-USED-BY-LIST",
-        "package",
-        "The packages that use a package.",
-        &["(package-used-by-list :keyword) => NIL"],
-        package_used_by_list,
-    ),
-    pure(
-        "PACKAGE-SHADOWING-SYMBOLS",
-        "package",
-        "The symbols that a package shadows.",
-        &["(package-shadowing-symbols :cl) => NIL"],
-        package_shadowing_symbols,
-    ),
-    pure(
-        "LIST-ALL-PACKAGES",
-        "",
-        "All packages.",
-        &["(first (list-all-packages)) => #<PACKAGE \"COMMON-LISP\">"],
-        list_all_packages,
-    ),
-    pure(
-        "FIND-ALL-SYMBOLS",
-        "name",
-        "All symbols of a name.",
-        &["(find-all-symbols \"CADDDR\") => (CADDDR)"],
-        find_all_symbols,
-    ),
-    pure(
-        "RENAME-PACKAGE",
-        "package name &optional nicknames",
-        "Gives a package another name.",
-        &[
-            "(progn (make-package :old-name) (package-name (rename-package :old-name :new-name))) => \"NEW-NAME\"",
-        ],
-        rename_package,
-    ),
-    pure(
-        "USE-PACKAGE",
-        "packages &optional package",
-        "Lets a package (the current one) inherit the exported symbols of others.",
-        &["(use-package :cl) => T"],
-        use_package,
-    ),
-    pure(
-        "UNUSE-PACKAGE",
-        "packages &optional package",
-        "Takes packages out of those that a package uses.",
-        &["(unuse-package :keyword) => T"],
-        unuse_package,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    packagep,
+    find_package,
+    package_name,
+    package_nicknames,
+    package_use_list,
+    package_used_by_list,
+    package_shadowing_symbols,
+    list_all_packages,
+    find_all_symbols,
+    rename_package,
+    use_package,
+    unuse_package,
 ];

@@ -1,24 +1,38 @@
 //! Pathnames: taking them apart and putting them together. All else is written in Lisp.
 
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::pathname::Pathname;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// Is the object a pathname?
+///
+/// `(pathnamep #P"a.lisp")` => `T`
+/// `(pathnamep "a.lisp")` => `NIL`
+#[builtin(_, "object")]
 fn pathnamep(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(args[0].as_foreign::<Pathname>().is_some()))
 }
 
+/// The pathname of a name.
+///
+/// `(system::%parse-pathname "plans/a.lisp")` => `#P"plans/a.lisp"`
+#[builtin("%PARSE-PATHNAME", "name")]
 fn parse(_: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
     Ok(Value::foreign(Pathname::parse(&name)))
 }
 
+/// The pathname with these parts.
+///
+/// `(system::%pathname-of-parts '(:relative "plans") "a" nil nil)` => `#P"plans/a"`
+#[builtin("%PATHNAME-OF-PARTS", "directory name type version &optional host")]
 fn assemble(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::foreign(Pathname {
         host: args.get(4).cloned().unwrap_or(Value::NIL),
@@ -29,6 +43,10 @@ fn assemble(_: &mut Image, args: &[Value]) -> Outcome {
     }))
 }
 
+/// Directory, name, type, version and host of a pathname.
+///
+/// `(system::%pathname-parts #P"plans/a.lisp")` => `(:RELATIVE "plans") ; "a" ; "lisp" ; NIL ; NIL`
+#[builtin("%PATHNAME-PARTS", "pathname")]
 fn parts(_: &mut Image, args: &[Value]) -> Outcome {
     match args[0].as_foreign::<Pathname>() {
         Some(pathname) => Ok(Value::values(vec![
@@ -42,6 +60,10 @@ fn parts(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The name of a pathname.
+///
+/// `(system::%namestring #P"plans/a.lisp")` => `"plans/a.lisp"`
+#[builtin("%NAMESTRING", "pathname")]
 fn namestring(_: &mut Image, args: &[Value]) -> Outcome {
     match args[0].as_foreign::<Pathname>() {
         Some(pathname) => Ok(Value::string(pathname.namestring())),
@@ -50,47 +72,7 @@ fn namestring(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Pathnames.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "PATHNAMEP",
-    "object",
-    "Is the object a pathname?",
-    &[
-        "(pathnamep #P\"a.lisp\") => T",
-        "(pathnamep \"a.lisp\") => NIL",
-    ],
-    pathnamep,
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![pathnamep,];
 
 /// What the library makes pathnames with, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%PARSE-PATHNAME",
-        "name",
-        "The pathname of a name.",
-        &["(system::%parse-pathname \"plans/a.lisp\") => #P\"plans/a.lisp\""],
-        parse,
-    ),
-    pure(
-        "%PATHNAME-OF-PARTS",
-        "directory name type version &optional host",
-        "The pathname with these parts.",
-        &["(system::%pathname-of-parts '(:relative \"plans\") \"a\" nil nil) => #P\"plans/a\""],
-        assemble,
-    ),
-    pure(
-        "%PATHNAME-PARTS",
-        "pathname",
-        "Directory, name, type, version and host of a pathname.",
-        &[
-            "(system::%pathname-parts #P\"plans/a.lisp\") => (:RELATIVE \"plans\") ; \"a\" ; \"lisp\" ; NIL ; NIL",
-        ],
-        parts,
-    ),
-    pure(
-        "%NAMESTRING",
-        "pathname",
-        "The name of a pathname.",
-        &["(system::%namestring #P\"plans/a.lisp\") => \"plans/a.lisp\""],
-        namestring,
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![parse, assemble, parts, namestring,];

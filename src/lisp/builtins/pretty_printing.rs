@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::composing::compose;
 use super::streams::stream_of;
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::print::{self, Settings, SharedLabels};
 use crate::lisp::stream::{self, Stream};
@@ -15,142 +15,86 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%OUTPUT-STREAM",
-        "designator",
-        "The output stream that a designator denotes.",
-        &[],
-        |image, args| stream::output_stream(image, &args[0]).map(Value::Stream),
-    ),
-    pure(
-        "%PRETTY-STREAM-P",
-        "stream",
-        "May lines break in what is written to the stream?",
-        &[],
-        |image, args| Ok(Value::bool(stream::pretty(image, &args[0]).is_some())),
-    ),
-    pure(
-        "%MAKE-PRETTY-STREAM",
-        "target",
-        "A stream that collects what will be laid out and written to the target.",
-        &[],
-        |image, args| {
-            let start = stream::column(image, &args[0])?.unwrap_or(0);
-            Ok(Value::Stream(Rc::new(Stream::to_document(true, start))))
-        },
-    ),
-    pure(
-        "%LAY-OUT",
-        "stream target",
-        "Breaks the lines of what the stream has collected, and writes them to the target.",
-        &[],
-        lay_out,
-    ),
-    pure(
-        "%START-BLOCK",
-        "stream prefix per-line suffix",
-        "Writes the prefix and starts a block, whose lines begin with it if so wanted.",
-        &[],
-        start_block,
-    ),
-    pure(
-        "%END-BLOCK",
-        "stream suffix",
-        "Ends a block and writes the suffix.",
-        &[],
-        |image, args| {
-            if let Some(stream) = stream::pretty(image, &args[0]) {
-                stream.with_document(Document::end);
-            }
-            stream::write(image, &args[0], &string(&args[1])?.text())?;
-            Ok(Value::NIL)
-        },
-    ),
-    pure(
-        "%LABELS",
-        "list",
-        "The labels of a list that a logical block prints.",
-        &[],
-        |image, args| {
-            let labels = SharedLabels::of(image, &args[0], &Settings::of(image));
-            Ok(Value::foreign(labels))
-        },
-    ),
-    pure(
-        "%LABELLED-P",
-        "object",
-        "Is the object printed with a label in the logical block?",
-        &[],
-        |image, args| {
-            let labels = Settings::of(image).shared;
-            Ok(Value::bool(
-                labels.is_some_and(|labels| labels.is_marked(&args[0])),
-            ))
-        },
-    ),
-    pure(
-        "%WRITE-LABEL",
-        "object stream",
-        "Writes the label that the object has in the logical block; does it take the place of the object?",
-        &[],
-        |image, args| {
-            let labels = Settings::of(image).shared;
-            let Some((label, is_all)) = labels.and_then(|labels| labels.next(&args[0])) else {
-                return Ok(Value::NIL);
-            };
-            stream::write(image, &args[1], &label)?;
-            Ok(Value::bool(is_all))
-        },
-    ),
-    pure(
-        "%NEWLINE",
-        "kind stream",
-        "A place where a line may break.",
-        &[],
-        newline,
-    ),
-    pure(
-        "%INDENT",
-        "current columns stream",
-        "Indents the next lines from the current column, or from where the block started.",
-        &[],
-        |image, args| {
-            let Value::Int(columns) = args[1] else {
-                return Err(Raise::type_error(&args[1], known::FIXNUM));
-            };
-            if let Some(stream) = stream::pretty(image, &args[2]) {
-                stream.with_document(|document| {
-                    if args[0].is_true() {
-                        document.indent_current(columns);
-                    } else {
-                        document.indent_block(columns);
-                    }
-                });
-            }
-            Ok(Value::NIL)
-        },
-    ),
-    pure(
-        "%TAB",
-        "section relative column step stream",
-        "Blanks up to a column.",
-        &[],
-        tab,
-    ),
-    control(
-        "%WRITE-AS-STANDARD",
-        "stream object",
-        "Writes the object as if the dispatch table had no function for it.",
-        &[],
-        write_as_standard,
-    ),
-];
+/// The output stream that a designator denotes.
+#[builtin("%OUTPUT-STREAM", "designator")]
+fn output_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    stream::output_stream(image, &args[0]).map(Value::Stream)
+}
 
+/// May lines break in what is written to the stream?
+#[builtin("%PRETTY-STREAM-P", "stream")]
+fn pretty_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(stream::pretty(image, &args[0]).is_some()))
+}
+
+/// A stream that collects what will be laid out and written to the target.
+#[builtin("%MAKE-PRETTY-STREAM", "target")]
+fn make_pretty_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    let start = stream::column(image, &args[0])?.unwrap_or(0);
+    Ok(Value::Stream(Rc::new(Stream::to_document(true, start))))
+}
+
+/// Ends a block and writes the suffix.
+#[builtin("%END-BLOCK", "stream suffix")]
+fn end_block(image: &mut Image, args: &[Value]) -> Outcome {
+    if let Some(stream) = stream::pretty(image, &args[0]) {
+        stream.with_document(Document::end);
+    }
+    stream::write(image, &args[0], &string(&args[1])?.text())?;
+    Ok(Value::NIL)
+}
+
+/// The labels of a list that a logical block prints.
+#[builtin("%LABELS", "list")]
+fn labels(image: &mut Image, args: &[Value]) -> Outcome {
+    let labels = SharedLabels::of(image, &args[0], &Settings::of(image));
+    Ok(Value::foreign(labels))
+}
+
+/// Is the object printed with a label in the logical block?
+#[builtin("%LABELLED-P", "object")]
+fn labelled_p(image: &mut Image, args: &[Value]) -> Outcome {
+    let labels = Settings::of(image).shared;
+    Ok(Value::bool(
+        labels.is_some_and(|labels| labels.is_marked(&args[0])),
+    ))
+}
+
+/// Writes the label that the object has in the logical block; does it take the place of the object?
+#[builtin("%WRITE-LABEL", "object stream")]
+fn write_label(image: &mut Image, args: &[Value]) -> Outcome {
+    let labels = Settings::of(image).shared;
+    let Some((label, is_all)) = labels.and_then(|labels| labels.next(&args[0])) else {
+        return Ok(Value::NIL);
+    };
+    stream::write(image, &args[1], &label)?;
+    Ok(Value::bool(is_all))
+}
+
+/// Indents the next lines from the current column, or from where the block started.
+#[builtin("%INDENT", "current columns stream")]
+fn indent(image: &mut Image, args: &[Value]) -> Outcome {
+    let Value::Int(columns) = args[1] else {
+        return Err(Raise::type_error(&args[1], known::FIXNUM));
+    };
+    if let Some(stream) = stream::pretty(image, &args[2]) {
+        stream.with_document(|document| {
+            if args[0].is_true() {
+                document.indent_current(columns);
+            } else {
+                document.indent_block(columns);
+            }
+        });
+    }
+    Ok(Value::NIL)
+}
+
+/// Breaks the lines of what the stream has collected, and writes them to the target.
+#[builtin("%LAY-OUT", "stream target")]
 fn lay_out(image: &mut Image, args: &[Value]) -> Outcome {
     let Some(document) = stream_of(&args[0])?.take_document() else {
         return Err(Raise::type_error(&args[0], known::STRING_STREAM));
@@ -161,6 +105,8 @@ fn lay_out(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// Writes the prefix and starts a block, whose lines begin with it if so wanted.
+#[builtin("%START-BLOCK", "stream prefix per-line suffix")]
 fn start_block(image: &mut Image, args: &[Value]) -> Outcome {
     let prefix = string(&args[1])?.text();
     let suffix = string(&args[3])?.text();
@@ -176,6 +122,8 @@ fn start_block(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// A place where a line may break.
+#[builtin("%NEWLINE", "kind stream")]
 fn newline(image: &mut Image, args: &[Value]) -> Outcome {
     let newline = match args[0].as_symbol().map(|sym| image.name(sym)) {
         Some("LINEAR") => Newline::Linear,
@@ -189,6 +137,8 @@ fn newline(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// Blanks up to a column.
+#[builtin("%TAB", "section relative column step stream")]
 fn tab(image: &mut Image, args: &[Value]) -> Outcome {
     let count = |value: &Value| match value {
         Value::Int(n) if *n >= 0 => Ok(usize::try_from(*n).unwrap_or(usize::MAX).min(10_000)),
@@ -206,6 +156,8 @@ fn tab(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// Writes the object as if the dispatch table had no function for it.
+#[builtin("%WRITE-AS-STANDARD", "stream object")]
 fn write_as_standard(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let settings = Settings::of(machine.image);
     let target = args[0].clone();
@@ -235,3 +187,20 @@ fn write_as_standard(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
         },
     )
 }
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    output_stream,
+    pretty_stream_p,
+    make_pretty_stream,
+    lay_out,
+    start_block,
+    end_block,
+    labels,
+    labelled_p,
+    write_label,
+    newline,
+    indent,
+    tab,
+    write_as_standard,
+];

@@ -1,11 +1,12 @@
 //! Property lists, those of symbols included.
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::{Rounds, Value};
+use crate::lisp::{builtin, builtins};
 
 use crate::lisp::value::sequence::{ListWalk, circular};
 
@@ -81,19 +82,37 @@ fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>>
     Ok((plist.clone(), false))
 }
 
+/// The value of an indicator in a property list.
+///
+/// `(getf '(:a 1 :b 2) :b)` => `2`
+/// `(getf '(:a 1) :z :none)` => `:NONE`
+#[builtin(_, "plist indicator &optional default")]
 fn getf(_: &mut Image, args: &[Value]) -> Outcome {
     lookup(&args[0], &args[1], args.get(2))
 }
 
+/// The property list with a value for an indicator; an existing entry is changed.
+///
+/// `(system::putf '(:a 1) :b 2)` => `(:B 2 :A 1)`
+#[builtin(_, "plist indicator value")]
 fn putf(_: &mut Image, args: &[Value]) -> Outcome {
     put(&args[0], &args[1], &args[2])
 }
 
+/// The property list without an indicator, and whether it was there.
+///
+/// `(system::remove-property (list :a 1 :b 2) :b)` => `(:A 1) ; T`
+#[builtin("REMOVE-PROPERTY", "plist indicator")]
 fn removef(_: &mut Image, args: &[Value]) -> Outcome {
     let (plist, found) = remove(&args[0], &args[1])?;
     Ok(Value::values(vec![plist, found.into()]))
 }
 
+/// The first indicator of a property list that is among the given ones, its value, and the list
+/// from there.
+///
+/// `(get-properties '(:a 1 :b 2) '(:b :c))` => `:B ; 2 ; (:B 2)`
+#[builtin(_, "plist indicators")]
 fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
     let mut walk = ListWalk::new(args[0].clone());
     while let Some(cons) = walk.next_cons()? {
@@ -119,11 +138,17 @@ pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
+/// The value of an indicator in a symbol's property list.
+///
+/// `(get 'no-such-thing 'color 'grey)` => `GREY`
+#[builtin(_, "symbol indicator &optional default")]
 fn get(image: &mut Image, args: &[Value]) -> Outcome {
     let plist = &image.symbol(symbol(&args[0])?).plist;
     lookup(plist, &args[1], args.get(2))
 }
 
+/// Sets an indicator in a symbol's property list.
+#[builtin("GET", "value symbol indicator &optional default")]
 fn set_get(image: &mut Image, args: &[Value]) -> Outcome {
     let sym = symbol(&args[1])?;
     let plist = put(&image.symbol(sym).plist, &args[2], &args[0])?;
@@ -131,6 +156,10 @@ fn set_get(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// Takes an indicator out of a symbol's property list.
+///
+/// `(remprop 'no-such-thing 'color)` => `NIL`
+#[builtin(_, "symbol indicator")]
 fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
     let sym = symbol(&args[0])?;
     let (plist, found) = remove(&image.symbol(sym).plist, &args[1])?;
@@ -138,10 +167,16 @@ fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(found.into())
 }
 
+/// A symbol's property list.
+///
+/// `(symbol-plist 'no-such-thing)` => `NIL`
+#[builtin(_, "symbol")]
 fn symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(image.symbol(symbol(&args[0])?).plist.clone())
 }
 
+/// Replaces a symbol's property list.
+#[builtin("SYMBOL-PLIST", "value symbol")]
 fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
     let sym = symbol(&args[1])?;
     image.symbols.get_mut(sym).plist = args[0].clone();
@@ -149,79 +184,10 @@ fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Property lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "GETF",
-        "plist indicator &optional default",
-        "The value of an indicator in a property list.",
-        &[
-            "(getf '(:a 1 :b 2) :b) => 2",
-            "(getf '(:a 1) :z :none) => :NONE",
-        ],
-        getf,
-    ),
-    pure(
-        "GET-PROPERTIES",
-        "plist indicators",
-        "The first indicator of a property list that is among the given ones, its value, and the list from there.",
-        &["(get-properties '(:a 1 :b 2) '(:b :c)) => :B ; 2 ; (:B 2)"],
-        get_properties,
-    ),
-    pure(
-        "GET",
-        "symbol indicator &optional default",
-        "The value of an indicator in a symbol's property list.",
-        &["(get 'no-such-thing 'color 'grey) => GREY"],
-        get,
-    ),
-    pure(
-        "REMPROP",
-        "symbol indicator",
-        "Takes an indicator out of a symbol's property list.",
-        &["(remprop 'no-such-thing 'color) => NIL"],
-        remprop,
-    ),
-    pure(
-        "SYMBOL-PLIST",
-        "symbol",
-        "A symbol's property list.",
-        &["(symbol-plist 'no-such-thing) => NIL"],
-        symbol_plist,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![getf, get_properties, get, remprop, symbol_plist,];
 
 /// What `setf` and `remf` of `getf` expand into; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "PUTF",
-        "plist indicator value",
-        "The property list with a value for an indicator; an existing entry is changed.",
-        &["(system::putf '(:a 1) :b 2) => (:B 2 :A 1)"],
-        putf,
-    ),
-    pure(
-        "REMOVE-PROPERTY",
-        "plist indicator",
-        "The property list without an indicator, and whether it was there.",
-        &["(system::remove-property (list :a 1 :b 2) :b) => (:A 1) ; T"],
-        removef,
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![putf, removef,];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "GET",
-        "value symbol indicator &optional default",
-        "Sets an indicator in a symbol's property list.",
-        &[],
-        set_get,
-    ),
-    pure(
-        "SYMBOL-PLIST",
-        "value symbol",
-        "Replaces a symbol's property list.",
-        &[],
-        set_symbol_plist,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_get, set_symbol_plist,];

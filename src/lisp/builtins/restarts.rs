@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::evaluator::restart::Restart;
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -12,84 +12,27 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "INVOKE-RESTART",
-        "restart &rest arguments",
-        "Calls the function of a restart.",
-        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
-        invoke_restart,
-    ),
-    control(
-        "INVOKE-RESTART-INTERACTIVELY",
-        "restart",
-        "Calls the function of a restart with the arguments that its :interactive function returns.",
-        &[
-            "(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x)) => 1",
-        ],
-        invoke_restart_interactively,
-    ),
-    control(
-        "FIND-RESTART",
-        "restart &optional condition",
-        "The innermost restart of a name that applies to the condition, or NIL.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        find_restart,
-    ),
-    control(
-        "COMPUTE-RESTARTS",
-        "&optional condition",
-        "All restarts in force that apply to the condition, innermost first.",
-        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
-        compute_restarts,
-    ),
-    pure(
-        "RESTART-NAME",
-        "restart",
-        "The name of a restart.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        restart_name,
-    ),
-];
+/// Lets restarts belong to a condition; the condition.
+#[builtin(_, "condition restarts")]
+fn associate_restarts(image: &mut Image, args: &[Value]) -> Result<Value> {
+    change_conditions(image, args, |conditions, condition| {
+        conditions.push(condition)
+    })
+}
 
-/// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-RESTART",
-        "name function report interactive &optional test",
-        "A restart object.",
-        &[],
-        make_restart,
-    ),
-    pure(
-        "ASSOCIATE-RESTARTS",
-        "condition restarts",
-        "Lets restarts belong to a condition; the condition.",
-        &[],
-        |image, args| {
-            change_conditions(image, args, |conditions, condition| {
-                conditions.push(condition)
-            })
-        },
-    ),
-    pure(
-        "DISSOCIATE-RESTARTS",
-        "condition restarts",
-        "Ends that restarts belong to a condition; the condition.",
-        &[],
-        |image, args| {
-            change_conditions(image, args, |conditions, condition| {
-                if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
-                    conditions.remove(at);
-                }
-            })
-        },
-    ),
-];
+/// Ends that restarts belong to a condition; the condition.
+#[builtin(_, "condition restarts")]
+fn dissociate_restarts(image: &mut Image, args: &[Value]) -> Result<Value> {
+    change_conditions(image, args, |conditions, condition| {
+        if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
+            conditions.remove(at);
+        }
+    })
+}
 
 /// The restarts in force that apply to a condition, or to none in particular (`NIL`), innermost
 /// first: a restart that belongs to conditions applies to no others, and its test has to hold.
@@ -116,6 +59,10 @@ fn condition_argument(args: &[Value], index: usize) -> Value {
     args.get(index).cloned().unwrap_or(Value::NIL)
 }
 
+/// All restarts in force that apply to the condition, innermost first.
+///
+/// `(restart-case (restart-name (first (compute-restarts))) (r () 1))` => `R`
+#[builtin(_, "&optional condition")]
 fn compute_restarts(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     run(machine, "COMPUTE-RESTARTS", |calls| async move {
         let restarts = applicable(&calls, condition_argument(&args, 0)).await;
@@ -123,6 +70,10 @@ fn compute_restarts(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step>
     })
 }
 
+/// The innermost restart of a name that applies to the condition, or NIL.
+///
+/// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
+#[builtin(_, "restart &optional condition")]
 fn find_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     run(machine, "FIND-RESTART", |calls| async move {
         let condition = condition_argument(&args, 1);
@@ -154,6 +105,10 @@ async fn active(calls: &Calls, designator: Value) -> Result<Value> {
     Err(Raise::control(format!("No restart {shown} is active.")))
 }
 
+/// Calls the function of a restart.
+///
+/// `(restart-case (invoke-restart 'r 1) (r (x) x))` => `1`
+#[builtin(_, "restart &rest arguments")]
 fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     run(machine, "INVOKE-RESTART", |calls| async move {
         let restart = active(&calls, args[0].clone()).await?;
@@ -161,6 +116,10 @@ fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     })
 }
 
+/// Calls the function of a restart with the arguments that its :interactive function returns.
+///
+/// `(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x))` => `1`
+#[builtin(_, "restart")]
 fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     run(
         machine,
@@ -188,6 +147,10 @@ fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
     Step::TailCall { function, args }
 }
 
+/// The name of a restart.
+///
+/// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
+#[builtin(_, "restart")]
 fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
     match args[0].as_foreign::<Restart>() {
         Some(restart) => Ok(restart.name.into()),
@@ -195,6 +158,8 @@ fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
     }
 }
 
+/// A restart object.
+#[builtin(_, "name function report interactive &optional test")]
 fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
@@ -222,3 +187,16 @@ fn change_conditions(
     }
     Ok(args[0].clone())
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    invoke_restart,
+    invoke_restart_interactively,
+    find_restart,
+    compute_restarts,
+    restart_name,
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![make_restart, associate_restarts, dissociate_restarts,];

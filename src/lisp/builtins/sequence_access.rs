@@ -6,7 +6,7 @@ use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::guard::reserve;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -14,13 +14,24 @@ use crate::lisp::value::array::Vector;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// The number of elements of a sequence.
+///
+/// `(length '(1 2 3))` => `3`
+/// `(length "naïve")` => `5`
+#[builtin(_, "sequence")]
 fn length(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Sequence::of(&args[0])?.len()?.into())
 }
 
+/// The element of a sequence at an index from 0.
+///
+/// `(elt '(a b c) 1)` => `B`
+/// `(elt "abc" 1)` => `#\b`
+#[builtin(_, "sequence index")]
 fn elt(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     let at = index(&args[1])?;
@@ -31,6 +42,8 @@ fn elt(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces an element of a sequence.
+#[builtin("ELT", "value sequence index")]
 fn set_elt(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[1])?;
     let at = index(&args[2])?;
@@ -41,6 +54,11 @@ fn set_elt(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// A copy of a part of a sequence.
+///
+/// `(subseq '(1 2 3 4) 1 3)` => `(2 3)`
+/// `(subseq "hello" 2)` => `"llo"`
+#[builtin(_, "sequence start &optional end")]
 fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
@@ -50,7 +68,9 @@ fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
     sequence.kind().make(sequence.items(bounds)?)
 }
 
-/// `(setf (subseq sequence start end) new)`.
+/// Replaces elements of a sequence.
+// `(setf (subseq sequence start end) new)`.
+#[builtin("SUBSEQ", "value sequence start &optional end")]
 fn set_subseq(_: &mut Image, args: &[Value]) -> Outcome {
     let target = Sequence::of(&args[1])?;
     let bounds = Bounds::new(&target, args.get(2), args.get(3))?;
@@ -89,6 +109,10 @@ fn overwrite(target: &Sequence, bounds: Bounds, items: Vec<Value>) -> Result<(),
     Ok(())
 }
 
+/// A copy of a sequence; the elements are the same.
+///
+/// `(copy-seq #(1 2))` => `#(1 2)`
+#[builtin(_, "sequence")]
 fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     match &sequence {
@@ -97,6 +121,11 @@ fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// A sequence of the same elements in reverse order.
+///
+/// `(reverse '(1 2 3))` => `(3 2 1)`
+/// `(reverse "abc")` => `"cba"`
+#[builtin(_, "sequence")]
 fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     let mut items = sequence.all()?;
@@ -104,6 +133,10 @@ fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
     sequence.kind().make(items)
 }
 
+/// Like `reverse`, but reuses the sequence; use the result.
+///
+/// `(nreverse (list 1 2 3))` => `(3 2 1)`
+#[builtin(_, "sequence")]
 fn nreverse(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     if let Sequence::List(list) = &sequence {
@@ -115,6 +148,10 @@ fn nreverse(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// Replaces all elements of a sequence by an item.
+///
+/// `(fill (list 1 2 3) 0 :start 1)` => `(1 0 0)`
+#[builtin(_, "sequence item &key start end")]
 fn fill(image: &mut Image, args: &[Value]) -> Outcome {
     let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
     let sequence = Sequence::of(&args[0])?;
@@ -124,6 +161,10 @@ fn fill(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// Copies elements of one sequence over those of another.
+///
+/// `(replace (list 1 2 3 4) '(a b) :start1 1)` => `(1 A B 4)`
+#[builtin(_, "target source &key start1 end1 start2 end2")]
 fn replace(image: &mut Image, args: &[Value]) -> Outcome {
     let [start1, end1, start2, end2] = keywords::parse(
         image,
@@ -143,6 +184,11 @@ fn replace(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// A sequence of the elements of all sequences.
+///
+/// `(concatenate 'string "foo" "bar")` => `"foobar"`
+/// `(concatenate 'list '(1) #(2))` => `(1 2)`
+#[builtin(_, "result-type &rest sequences")]
 fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
     let result = sequence_type(image, &args[0])?;
     if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
@@ -163,6 +209,10 @@ fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
     result.make(items)
 }
 
+/// A sequence of equal elements.
+///
+/// `(make-sequence 'list 2 :initial-element 0)` => `(0 0)`
+#[builtin(_, "result-type size &key initial-element")]
 fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     let [element] = keywords::parse(image, &args[2..], [known::K_INITIAL_ELEMENT])?;
     let result = sequence_type(image, &args[0])?;
@@ -180,114 +230,28 @@ pub(crate) fn default_element(kind: Kind) -> Value {
     }
 }
 
+/// A fresh vector of the arguments.
+///
+/// `(vector 1 2)` => `#(1 2)`
+#[builtin(_, "&rest elements")]
 fn vector(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::Vector(Rc::new(Vector::simple(args.to_vec()))))
 }
 
 /// Parts of sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "LENGTH",
-        "sequence",
-        "The number of elements of a sequence.",
-        &["(length '(1 2 3)) => 3", "(length \"naïve\") => 5"],
-        length,
-    ),
-    pure(
-        "ELT",
-        "sequence index",
-        "The element of a sequence at an index from 0.",
-        &["(elt '(a b c) 1) => B", "(elt \"abc\" 1) => #\\b"],
-        elt,
-    ),
-    pure(
-        "SUBSEQ",
-        "sequence start &optional end",
-        "A copy of a part of a sequence.",
-        &[
-            "(subseq '(1 2 3 4) 1 3) => (2 3)",
-            "(subseq \"hello\" 2) => \"llo\"",
-        ],
-        subseq,
-    ),
-    pure(
-        "COPY-SEQ",
-        "sequence",
-        "A copy of a sequence; the elements are the same.",
-        &["(copy-seq #(1 2)) => #(1 2)"],
-        copy_seq,
-    ),
-    pure(
-        "REVERSE",
-        "sequence",
-        "A sequence of the same elements in reverse order.",
-        &[
-            "(reverse '(1 2 3)) => (3 2 1)",
-            "(reverse \"abc\") => \"cba\"",
-        ],
-        reverse,
-    ),
-    pure(
-        "NREVERSE",
-        "sequence",
-        "Like `reverse`, but reuses the sequence; use the result.",
-        &["(nreverse (list 1 2 3)) => (3 2 1)"],
-        nreverse,
-    ),
-    pure(
-        "FILL",
-        "sequence item &key start end",
-        "Replaces all elements of a sequence by an item.",
-        &["(fill (list 1 2 3) 0 :start 1) => (1 0 0)"],
-        fill,
-    ),
-    pure(
-        "REPLACE",
-        "target source &key start1 end1 start2 end2",
-        "Copies elements of one sequence over those of another.",
-        &["(replace (list 1 2 3 4) '(a b) :start1 1) => (1 A B 4)"],
-        replace,
-    ),
-    pure(
-        "CONCATENATE",
-        "result-type &rest sequences",
-        "A sequence of the elements of all sequences.",
-        &[
-            "(concatenate 'string \"foo\" \"bar\") => \"foobar\"",
-            "(concatenate 'list '(1) #(2)) => (1 2)",
-        ],
-        concatenate,
-    ),
-    pure(
-        "MAKE-SEQUENCE",
-        "result-type size &key initial-element",
-        "A sequence of equal elements.",
-        &["(make-sequence 'list 2 :initial-element 0) => (0 0)"],
-        make_sequence,
-    ),
-    pure(
-        "VECTOR",
-        "&rest elements",
-        "A fresh vector of the arguments.",
-        &["(vector 1 2) => #(1 2)"],
-        vector,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    length,
+    elt,
+    subseq,
+    copy_seq,
+    reverse,
+    nreverse,
+    fill,
+    replace,
+    concatenate,
+    make_sequence,
+    vector,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "ELT",
-        "value sequence index",
-        "Replaces an element of a sequence.",
-        &[],
-        set_elt,
-    ),
-    pure(
-        "SUBSEQ",
-        "value sequence start &optional end",
-        "Replaces elements of a sequence.",
-        &[],
-        set_subseq,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_elt, set_subseq,];

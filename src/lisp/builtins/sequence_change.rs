@@ -3,7 +3,7 @@
 
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -12,6 +12,7 @@ use crate::lisp::value::sequence::{Bounds, Sequence, conses, relink, text_of};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 /// What happens to the elements that satisfy a condition.
 enum Change {
@@ -196,50 +197,99 @@ fn replace_by(
 const IF: By = By::Predicate { expected: true };
 const IF_NOT: By = By::Predicate { expected: false };
 
+/// A sequence without the elements that match an item.
+///
+/// `(remove 2 '(1 2 3 2))` => `(1 3)`
+/// `(remove #\a "banana")` => `"bnn"`
+#[builtin(_, "item sequence &key key start end from-end count test test-not")]
 fn remove(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "REMOVE", By::Item, false)
 }
 
+/// A sequence without the elements that satisfy a predicate.
+///
+/// `(remove-if #'evenp '(1 2 3 4))` => `(1 3)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
 fn remove_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "REMOVE-IF", IF, false)
 }
 
+/// A sequence of the elements that satisfy a predicate.
+///
+/// `(remove-if-not #'evenp '(1 2 3 4))` => `(2 4)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
 fn remove_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "REMOVE-IF-NOT", IF_NOT, false)
 }
 
+/// Like `remove`, but may change the sequence; use the result.
+///
+/// `(delete 2 (list 1 2 3))` => `(1 3)`
+#[builtin(_, "item sequence &key key start end from-end count test test-not")]
 fn delete(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "DELETE", By::Item, true)
 }
 
+/// Like `remove-if`, but may change the sequence; use the result.
+///
+/// `(delete-if #'evenp (list 1 2 3))` => `(1 3)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
 fn delete_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "DELETE-IF", IF, true)
 }
 
+/// Like `remove-if-not`, but may change the sequence; use the result.
+///
+/// `(delete-if-not #'evenp (list 1 2 3))` => `(2)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
 fn delete_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     remove_by(machine, &args, "DELETE-IF-NOT", IF_NOT, true)
 }
 
+/// A sequence with the elements that match `old` replaced by `new`.
+///
+/// `(substitute 9 2 '(1 2 3 2) :count 1)` => `(1 9 3 2)`
+#[builtin(_, "new old sequence &key key start end from-end count test test-not")]
 fn substitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "SUBSTITUTE", By::Item, false)
 }
 
+/// A sequence with the elements that satisfy a predicate replaced by `new`.
+///
+/// `(substitute-if 0 #'evenp '(1 2 3 4))` => `(1 0 3 0)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
 fn substitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "SUBSTITUTE-IF", IF, false)
 }
 
+/// A sequence with the elements that do not satisfy a predicate replaced by `new`.
+///
+/// `(substitute-if-not 0 #'evenp '(1 2 3 4))` => `(0 2 0 4)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
 fn substitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "SUBSTITUTE-IF-NOT", IF_NOT, false)
 }
 
+/// Like `substitute`, but changes the sequence.
+///
+/// `(nsubstitute 9 2 (list 1 2 3))` => `(1 9 3)`
+#[builtin(_, "new old sequence &key key start end from-end count test test-not")]
 fn nsubstitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "NSUBSTITUTE", By::Item, true)
 }
 
+/// Like `substitute-if`, but changes the sequence.
+///
+/// `(nsubstitute-if 0 #'evenp (list 1 2))` => `(1 0)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
 fn nsubstitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "NSUBSTITUTE-IF", IF, true)
 }
 
+/// Like `substitute-if-not`, but changes the sequence.
+///
+/// `(nsubstitute-if-not 0 #'evenp (list 1 2))` => `(0 2)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
 fn nsubstitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     replace_by(machine, &args, "NSUBSTITUTE-IF-NOT", IF_NOT, true)
 }
@@ -250,92 +300,17 @@ const REPLACE_ITEM: &str = "new old sequence &key key start end from-end count t
 const REPLACE_IF: &str = "new predicate sequence &key key start end from-end count";
 
 /// Removing and replacing elements.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "REMOVE",
-        REMOVE_ITEM,
-        "A sequence without the elements that match an item.",
-        &[
-            "(remove 2 '(1 2 3 2)) => (1 3)",
-            "(remove #\\a \"banana\") => \"bnn\"",
-        ],
-        remove,
-    ),
-    control(
-        "REMOVE-IF",
-        REMOVE_IF,
-        "A sequence without the elements that satisfy a predicate.",
-        &["(remove-if #'evenp '(1 2 3 4)) => (1 3)"],
-        remove_if,
-    ),
-    control(
-        "REMOVE-IF-NOT",
-        REMOVE_IF,
-        "A sequence of the elements that satisfy a predicate.",
-        &["(remove-if-not #'evenp '(1 2 3 4)) => (2 4)"],
-        remove_if_not,
-    ),
-    control(
-        "DELETE",
-        REMOVE_ITEM,
-        "Like `remove`, but may change the sequence; use the result.",
-        &["(delete 2 (list 1 2 3)) => (1 3)"],
-        delete,
-    ),
-    control(
-        "DELETE-IF",
-        REMOVE_IF,
-        "Like `remove-if`, but may change the sequence; use the result.",
-        &["(delete-if #'evenp (list 1 2 3)) => (1 3)"],
-        delete_if,
-    ),
-    control(
-        "DELETE-IF-NOT",
-        REMOVE_IF,
-        "Like `remove-if-not`, but may change the sequence; use the result.",
-        &["(delete-if-not #'evenp (list 1 2 3)) => (2)"],
-        delete_if_not,
-    ),
-    control(
-        "SUBSTITUTE",
-        REPLACE_ITEM,
-        "A sequence with the elements that match `old` replaced by `new`.",
-        &["(substitute 9 2 '(1 2 3 2) :count 1) => (1 9 3 2)"],
-        substitute,
-    ),
-    control(
-        "SUBSTITUTE-IF",
-        REPLACE_IF,
-        "A sequence with the elements that satisfy a predicate replaced by `new`.",
-        &["(substitute-if 0 #'evenp '(1 2 3 4)) => (1 0 3 0)"],
-        substitute_if,
-    ),
-    control(
-        "SUBSTITUTE-IF-NOT",
-        REPLACE_IF,
-        "A sequence with the elements that do not satisfy a predicate replaced by `new`.",
-        &["(substitute-if-not 0 #'evenp '(1 2 3 4)) => (0 2 0 4)"],
-        substitute_if_not,
-    ),
-    control(
-        "NSUBSTITUTE",
-        REPLACE_ITEM,
-        "Like `substitute`, but changes the sequence.",
-        &["(nsubstitute 9 2 (list 1 2 3)) => (1 9 3)"],
-        nsubstitute,
-    ),
-    control(
-        "NSUBSTITUTE-IF",
-        REPLACE_IF,
-        "Like `substitute-if`, but changes the sequence.",
-        &["(nsubstitute-if 0 #'evenp (list 1 2)) => (1 0)"],
-        nsubstitute_if,
-    ),
-    control(
-        "NSUBSTITUTE-IF-NOT",
-        REPLACE_IF,
-        "Like `substitute-if-not`, but changes the sequence.",
-        &["(nsubstitute-if-not 0 #'evenp (list 1 2)) => (0 2)"],
-        nsubstitute_if_not,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    remove,
+    remove_if,
+    remove_if_not,
+    delete,
+    delete_if,
+    delete_if_not,
+    substitute,
+    substitute_if,
+    substitute_if_not,
+    nsubstitute,
+    nsubstitute_if,
+    nsubstitute_if_not,
 ];

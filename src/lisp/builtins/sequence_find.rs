@@ -3,7 +3,7 @@
 
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -12,6 +12,7 @@ use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 /// What to find out about the elements that satisfy a condition.
 #[derive(Clone, Copy)]
@@ -110,11 +111,20 @@ impl Search {
     }
 }
 
+/// The first element that matches an item, or `NIL`.
+///
+/// `(find 2 '((1 a) (2 b)) :key #'first)` => `(2 B)`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
 fn find(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_item(machine.image, &args)?;
     run(machine, "FIND", |calls| search.find(calls, Goal::Element))
 }
 
+/// The first element that satisfies a predicate, or `NIL`.
+///
+/// `(find-if #'evenp '(1 2 3 4))` => `2`
+/// `(find-if #'evenp '(1 2 3 4) :from-end t)` => `4`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, true)?;
     run(machine, "FIND-IF", |calls| {
@@ -122,6 +132,10 @@ fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
     })
 }
 
+/// The first element that does not satisfy a predicate, or `NIL`.
+///
+/// `(find-if-not #'evenp '(2 4 5))` => `5`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, false)?;
     run(machine, "FIND-IF-NOT", |calls| {
@@ -129,6 +143,10 @@ fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
     })
 }
 
+/// The index of the first element that matches an item, or `NIL`.
+///
+/// `(position #\l "hello")` => `2`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
 fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_item(machine.image, &args)?;
     run(machine, "POSITION", |calls| {
@@ -136,6 +154,10 @@ fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     })
 }
 
+/// The index of the first element that satisfies a predicate, or `NIL`.
+///
+/// `(position-if #'evenp #(1 2 3))` => `1`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, true)?;
     run(machine, "POSITION-IF", |calls| {
@@ -143,6 +165,10 @@ fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
     })
 }
 
+/// The index of the first element that does not satisfy a predicate, or `NIL`.
+///
+/// `(position-if-not #'evenp '(2 4 5))` => `2`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, false)?;
     run(machine, "POSITION-IF-NOT", |calls| {
@@ -150,16 +176,28 @@ fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, 
     })
 }
 
+/// The number of elements that match an item.
+///
+/// `(count #\a "banana")` => `3`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
 fn count(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_item(machine.image, &args)?;
     run(machine, "COUNT", |calls| search.find(calls, Goal::Count))
 }
 
+/// The number of elements that satisfy a predicate.
+///
+/// `(count-if #'evenp '(1 2 4))` => `2`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn count_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, true)?;
     run(machine, "COUNT-IF", |calls| search.find(calls, Goal::Count))
 }
 
+/// The number of elements that do not satisfy a predicate.
+///
+/// `(count-if-not #'evenp '(1 2 4))` => `1`
+#[builtin(_, "predicate sequence &key key start end from-end")]
 fn count_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let search = Search::by_predicate(machine.image, &args, false)?;
     run(machine, "COUNT-IF-NOT", |calls| {
@@ -171,71 +209,14 @@ const BY_ITEM: &str = "item sequence &key key start end from-end test test-not";
 const BY_PREDICATE: &str = "predicate sequence &key key start end from-end";
 
 /// Finding and counting elements.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "FIND",
-        BY_ITEM,
-        "The first element that matches an item, or `NIL`.",
-        &["(find 2 '((1 a) (2 b)) :key #'first) => (2 B)"],
-        find,
-    ),
-    control(
-        "FIND-IF",
-        BY_PREDICATE,
-        "The first element that satisfies a predicate, or `NIL`.",
-        &[
-            "(find-if #'evenp '(1 2 3 4)) => 2",
-            "(find-if #'evenp '(1 2 3 4) :from-end t) => 4",
-        ],
-        find_if,
-    ),
-    control(
-        "FIND-IF-NOT",
-        BY_PREDICATE,
-        "The first element that does not satisfy a predicate, or `NIL`.",
-        &["(find-if-not #'evenp '(2 4 5)) => 5"],
-        find_if_not,
-    ),
-    control(
-        "POSITION",
-        BY_ITEM,
-        "The index of the first element that matches an item, or `NIL`.",
-        &["(position #\\l \"hello\") => 2"],
-        position,
-    ),
-    control(
-        "POSITION-IF",
-        BY_PREDICATE,
-        "The index of the first element that satisfies a predicate, or `NIL`.",
-        &["(position-if #'evenp #(1 2 3)) => 1"],
-        position_if,
-    ),
-    control(
-        "POSITION-IF-NOT",
-        BY_PREDICATE,
-        "The index of the first element that does not satisfy a predicate, or `NIL`.",
-        &["(position-if-not #'evenp '(2 4 5)) => 2"],
-        position_if_not,
-    ),
-    control(
-        "COUNT",
-        BY_ITEM,
-        "The number of elements that match an item.",
-        &["(count #\\a \"banana\") => 3"],
-        count,
-    ),
-    control(
-        "COUNT-IF",
-        BY_PREDICATE,
-        "The number of elements that satisfy a predicate.",
-        &["(count-if #'evenp '(1 2 4)) => 2"],
-        count_if,
-    ),
-    control(
-        "COUNT-IF-NOT",
-        BY_PREDICATE,
-        "The number of elements that do not satisfy a predicate.",
-        &["(count-if-not #'evenp '(1 2 4)) => 1"],
-        count_if_not,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    find,
+    find_if,
+    find_if_not,
+    position,
+    position_if,
+    position_if_not,
+    count,
+    count_if,
+    count_if_not,
 ];

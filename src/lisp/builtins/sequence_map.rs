@@ -4,7 +4,7 @@
 use super::criterion::Key;
 use super::keywords;
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -13,6 +13,7 @@ use crate::lisp::vm::callable::callable;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -44,6 +45,12 @@ impl Side {
     }
 }
 
+/// A sequence of the results of a function for the elements of sequences; `NIL` as type collects
+/// nothing.
+///
+/// `(map 'vector #'1+ '(1 2 3))` => `#(2 3 4)`
+/// `(map 'list #'+ #(1 2) '(10 20))` => `(11 22)`
+#[builtin(_, "result-type function sequence &rest sequences")]
 fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let result = match &args[0] {
         Value::Symbol(known::NIL, ..) => None,
@@ -66,6 +73,10 @@ fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> 
     })
 }
 
+/// Writes the results of a function for the elements of sequences into a sequence.
+///
+/// `(map-into (list 0 0) #'+ '(1 2) '(10 20))` => `(11 22)`
+#[builtin(_, "target function &rest sequences")]
 fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let target = Sequence::of(&args[0])?;
     let function = callable(machine.image, &args[1])?;
@@ -147,22 +158,43 @@ fn quantify(
     })
 }
 
+/// Do all elements satisfy a predicate?
+///
+/// `(every #'evenp '(2 4))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
 fn every(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     quantify(machine, &args, "EVERY", Quantifier::Every)
 }
 
+/// The first true result of a predicate for the elements, or `NIL`.
+///
+/// `(some #'evenp '(1 2))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
 fn some(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     quantify(machine, &args, "SOME", Quantifier::Some)
 }
 
+/// Does no element satisfy a predicate?
+///
+/// `(notany #'evenp '(1 3))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
 fn notany(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     quantify(machine, &args, "NOTANY", Quantifier::NotAny)
 }
 
+/// Is there an element that does not satisfy a predicate?
+///
+/// `(notevery #'evenp '(2 3))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
 fn notevery(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     quantify(machine, &args, "NOTEVERY", Quantifier::NotEvery)
 }
 
+/// Combines the elements of a sequence two by two.
+///
+/// `(reduce #'+ '(1 2 3 4))` => `10`
+/// `(reduce #'list '(1 2 3) :from-end t)` => `(1 (2 3))`
+#[builtin(_, "function sequence &key key from-end start end initial-value")]
 fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
     let [key, start, end, from_end, initial] = keywords::parse(
@@ -209,60 +241,5 @@ fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 }
 
 /// Functions over the elements of sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MAP",
-        "result-type function sequence &rest sequences",
-        "A sequence of the results of a function for the elements of sequences; `NIL` as type collects nothing.",
-        &[
-            "(map 'vector #'1+ '(1 2 3)) => #(2 3 4)",
-            "(map 'list #'+ #(1 2) '(10 20)) => (11 22)",
-        ],
-        map,
-    ),
-    control(
-        "MAP-INTO",
-        "target function &rest sequences",
-        "Writes the results of a function for the elements of sequences into a sequence.",
-        &["(map-into (list 0 0) #'+ '(1 2) '(10 20)) => (11 22)"],
-        map_into,
-    ),
-    control(
-        "EVERY",
-        "predicate sequence &rest sequences",
-        "Do all elements satisfy a predicate?",
-        &["(every #'evenp '(2 4)) => T"],
-        every,
-    ),
-    control(
-        "SOME",
-        "predicate sequence &rest sequences",
-        "The first true result of a predicate for the elements, or `NIL`.",
-        &["(some #'evenp '(1 2)) => T"],
-        some,
-    ),
-    control(
-        "NOTANY",
-        "predicate sequence &rest sequences",
-        "Does no element satisfy a predicate?",
-        &["(notany #'evenp '(1 3)) => T"],
-        notany,
-    ),
-    control(
-        "NOTEVERY",
-        "predicate sequence &rest sequences",
-        "Is there an element that does not satisfy a predicate?",
-        &["(notevery #'evenp '(2 3)) => T"],
-        notevery,
-    ),
-    control(
-        "REDUCE",
-        "function sequence &key key from-end start end initial-value",
-        "Combines the elements of a sequence two by two.",
-        &[
-            "(reduce #'+ '(1 2 3 4)) => 10",
-            "(reduce #'list '(1 2 3) :from-end t) => (1 (2 3))",
-        ],
-        reduce,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![map, map_into, every, some, notany, notevery, reduce,];

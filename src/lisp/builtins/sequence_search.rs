@@ -2,7 +2,7 @@
 
 use super::criterion::{Key, Test};
 use super::keywords;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -10,6 +10,7 @@ use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 /// Two parts of sequences and how their elements are compared.
 struct Pair {
@@ -111,11 +112,27 @@ impl Pair {
     }
 }
 
+/// The index at which the first sequence occurs in the second, or `NIL`.
+///
+/// `(search "ll" "hello")` => `2`
+/// `(search '(2 3) '(1 2 3 4))` => `1`
+#[builtin(
+    _,
+    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
+)]
 fn search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let pair = Pair::new(machine, &args)?;
     run(machine, "SEARCH", |calls| pair.search(calls))
 }
 
+/// The index at which two sequences begin to differ, or `NIL`.
+///
+/// `(mismatch "hello" "help")` => `3`
+/// `(mismatch '(1) '(1))` => `NIL`
+#[builtin(
+    _,
+    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
+)]
 fn mismatch(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let pair = Pair::new(machine, &args)?;
     run(machine, "MISMATCH", |calls| pair.mismatch(calls))
@@ -125,25 +142,4 @@ const LAMBDA_LIST: &str =
     "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2";
 
 /// Comparing sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "SEARCH",
-        LAMBDA_LIST,
-        "The index at which the first sequence occurs in the second, or `NIL`.",
-        &[
-            "(search \"ll\" \"hello\") => 2",
-            "(search '(2 3) '(1 2 3 4)) => 1",
-        ],
-        search,
-    ),
-    control(
-        "MISMATCH",
-        LAMBDA_LIST,
-        "The index at which two sequences begin to differ, or `NIL`.",
-        &[
-            "(mismatch \"hello\" \"help\") => 3",
-            "(mismatch '(1) '(1)) => NIL",
-        ],
-        mismatch,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![search, mismatch,];

@@ -1,6 +1,6 @@
 //! Signalling conditions, and throwing.
 
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::evaluator::signal::Declined;
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -11,58 +11,38 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "SIGNAL",
-        "datum &rest arguments",
-        "Signals a condition; NIL if every handler declines.",
-        &["(signal \"nothing happens\") => NIL"],
-        |m, args| signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return),
-    ),
-    control(
-        "ERROR",
-        "datum &rest arguments",
-        "Signals an error: a condition object, the name of a class with initargs, or a format control with arguments.",
-        &["(handler-case (error \"no ~a\" 1) (error (e) (princ-to-string e))) => \"no 1\""],
-        |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
-    ),
-    control(
-        "INVOKE-DEBUGGER",
-        "condition",
-        "Stops with a condition.",
-        &[],
-        |_, args| Ok(Step::Unhandled(args[0].clone())),
-    ),
-    control(
-        "BREAK",
-        "&optional control &rest arguments",
-        "Stops with a text.",
-        &[],
-        |m, args| signal_break(m, &args),
-    ),
-];
+/// Signals a condition; NIL if every handler declines.
+///
+/// `(signal "nothing happens")` => `NIL`
+#[builtin(_, "datum &rest arguments")]
+fn signal(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return)
+}
 
-/// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "CASE-FAILED",
-        "key operator wanted",
-        "The error of ECASE and its kin.",
-        &[],
-        case_failed,
-    ),
-    pure(
-        "CHECK-TYPE-FAILED",
-        "value place type string",
-        "The error of CHECK-TYPE.",
-        &[],
-        check_type_failed,
-    ),
-];
+/// Signals an error: a condition object, the name of a class with initargs, or a format control
+/// with arguments.
+///
+/// `(handler-case (error "no ~a" 1) (error (e) (princ-to-string e)))` => `"no 1"`
+#[builtin(_, "datum &rest arguments")]
+fn error(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop)
+}
+
+/// Stops with a condition.
+#[builtin(_, "condition")]
+fn invoke_debugger(args: Vec<Value>) -> Result<Step> {
+    Ok(Step::Unhandled(args[0].clone()))
+}
+
+/// Stops with a text.
+#[builtin("BREAK", "&optional control &rest arguments")]
+fn lisp_break(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    signal_break(m, &args)
+}
 
 /// The condition that a datum and arguments designate.
 async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> Result<Value> {
@@ -136,6 +116,8 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
     })
 }
 
+/// The error of ECASE and its kin.
+#[builtin(_, "key operator wanted")]
 fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let image = &mut *machine.image;
     let show = |v: &Value| print::to_string(image, v, true);
@@ -156,6 +138,8 @@ fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         .with(known::K_EXPECTED_TYPE, expected))
 }
 
+/// The error of CHECK-TYPE.
+#[builtin(_, "value place type string")]
 fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
     let show = |v: &Value| print::to_string(image, v, true);
     let wanted = match args[3].as_text() {
@@ -171,3 +155,9 @@ fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
         .with(known::K_DATUM, args[0].clone())
         .with(known::K_EXPECTED_TYPE, args[2].clone()))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![signal, error, invoke_debugger, lisp_break,];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![case_failed, check_type_failed,];

@@ -3,7 +3,7 @@
 use super::criterion::Key;
 use super::keywords;
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -12,6 +12,7 @@ use crate::lisp::vm::callable::{builtin_name, callable};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 /// An item with the value by which it is compared.
 #[derive(Clone)]
@@ -155,14 +156,27 @@ fn sort_named(
     })
 }
 
+/// Sorts a sequence, which is changed; use the result.
+///
+/// `(sort (list 3 1 2) #'<)` => `(1 2 3)`
+/// `(sort (list "b" "a") #'string<)` => `("a" "b")`
+#[builtin(_, "sequence predicate &key key")]
 fn sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     sort_named(machine, &args, "SORT")
 }
 
+/// Like `sort`; elements that are equal keep their order.
+///
+/// `(stable-sort (list '(1 a) '(0 b) '(1 c)) #'< :key #'first)` => `((0 B) (1 A) (1 C))`
+#[builtin(_, "sequence predicate &key key")]
 fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     sort_named(machine, &args, "STABLE-SORT")
 }
 
+/// Merges two sorted sequences into one.
+///
+/// `(merge 'list (list 1 3 5) (list 2 4) #'<)` => `(1 2 3 4 5)`
+#[builtin(_, "result-type sequence-1 sequence-2 predicate &key key")]
 fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let result = sequence_type(machine.image, &args[0])?;
     let image = &machine.image;
@@ -183,29 +197,4 @@ fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Sorting.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "SORT",
-        "sequence predicate &key key",
-        "Sorts a sequence, which is changed; use the result.",
-        &[
-            "(sort (list 3 1 2) #'<) => (1 2 3)",
-            "(sort (list \"b\" \"a\") #'string<) => (\"a\" \"b\")",
-        ],
-        sort,
-    ),
-    control(
-        "STABLE-SORT",
-        "sequence predicate &key key",
-        "Like `sort`; elements that are equal keep their order.",
-        &["(stable-sort (list '(1 a) '(0 b) '(1 c)) #'< :key #'first) => ((0 B) (1 A) (1 C))"],
-        stable_sort,
-    ),
-    control(
-        "MERGE",
-        "result-type sequence-1 sequence-2 predicate &key key",
-        "Merges two sorted sequences into one.",
-        &["(merge 'list (list 1 3 5) (list 2 4) #'<) => (1 2 3 4 5)"],
-        merge,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![sort, stable_sort, merge,];

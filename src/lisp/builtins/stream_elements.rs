@@ -6,16 +6,21 @@ use std::rc::Rc;
 use super::keywords;
 use super::streams::{at_end, stream_of};
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::stream::{self, Stream, StreamKind};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Bounds, Sequence, index, text_of};
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// Reads characters or bytes into a sequence; the index after the last one.
+///
+/// `(read-sequence (make-string 2) (make-string-input-stream "abc"))` => `2`
+#[builtin(_, "sequence stream &key start end")]
 fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
     let target = Sequence::of(&args[0])?;
@@ -37,6 +42,10 @@ fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(at.into())
 }
 
+/// Writes the characters or bytes of a sequence.
+///
+/// `(with-output-to-string (s) (write-sequence "hello" s :start 1 :end 3))` => `"el"`
+#[builtin(_, "sequence stream &key start end")]
 fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
     let source = Sequence::of(&args[0])?;
@@ -53,7 +62,11 @@ fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
-/// `(read-byte stream eof-error-p eof-value)`.
+/// Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.
+///
+/// `(handler-case (read-byte (make-string-input-stream "a")) (stream-error () 'characters))` => `CHARACTERS`
+// `(read-byte stream eof-error-p eof-value)`.
+#[builtin(_, "stream &optional eof-error-p eof-value")]
 fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
     match stream::read_byte(image, stream_of(&args[0])?)? {
         Some(byte) => Ok(byte),
@@ -61,12 +74,20 @@ fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.
+///
+/// `(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters))` => `CHARACTERS`
+#[builtin(_, "integer stream")]
 fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
     stream::write_byte(image, stream_of(&args[1])?, &args[0])?;
     Ok(args[0].clone())
 }
 
-/// How many bytes a character or a string takes in a file.
+/// How many bytes a character or string would take in a file.
+///
+/// `(file-string-length *standard-output* "naïve")` => `6`
+// How many bytes a character or a string takes in a file.
+#[builtin(_, "stream object")]
 fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream::output_stream(image, &args[0])?;
     // A stream that writes nowhere takes no more than one element.
@@ -80,7 +101,11 @@ fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
     .into())
 }
 
-/// The position in a stream: in characters, or in bytes for a stream that writes a file.
+/// How far a stream has come, or sets that.
+///
+/// `(file-position (make-string-input-stream "x"))` => `0`
+// The position in a stream: in characters, or in bytes for a stream that writes a file.
+#[builtin(_, "stream &optional position")]
 fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream_of(&args[0])?;
     match (&mut *stream.kind.borrow_mut(), args.get(1)) {
@@ -152,6 +177,10 @@ fn measured(stream: &Rc<Stream>) -> Option<Rc<Stream>> {
     Some(stream)
 }
 
+/// The length of the file behind a stream.
+///
+/// `(file-length (make-broadcast-stream))` => `0`
+#[builtin(_, "stream")]
 fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream::followed(image, stream_of(&args[0])?)?;
     let Some(stream) = measured(&stream) else {
@@ -171,58 +200,12 @@ fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Elements of streams.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "READ-SEQUENCE",
-        "sequence stream &key start end",
-        "Reads characters or bytes into a sequence; the index after the last one.",
-        &["(read-sequence (make-string 2) (make-string-input-stream \"abc\")) => 2"],
-        read_sequence,
-    ),
-    pure(
-        "WRITE-SEQUENCE",
-        "sequence stream &key start end",
-        "Writes the characters or bytes of a sequence.",
-        &["(with-output-to-string (s) (write-sequence \"hello\" s :start 1 :end 3)) => \"el\""],
-        write_sequence,
-    ),
-    pure(
-        "FILE-POSITION",
-        "stream &optional position",
-        "How far a stream has come, or sets that.",
-        &["(file-position (make-string-input-stream \"x\")) => 0"],
-        file_position,
-    ),
-    pure(
-        "FILE-LENGTH",
-        "stream",
-        "The length of the file behind a stream.",
-        &["(file-length (make-broadcast-stream)) => 0"],
-        file_length,
-    ),
-    pure(
-        "READ-BYTE",
-        "stream &optional eof-error-p eof-value",
-        "Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.",
-        &[
-            "(handler-case (read-byte (make-string-input-stream \"a\")) (stream-error () 'characters)) => CHARACTERS",
-        ],
-        read_byte,
-    ),
-    pure(
-        "WRITE-BYTE",
-        "integer stream",
-        "Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.",
-        &[
-            "(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters)) => CHARACTERS",
-        ],
-        write_byte,
-    ),
-    pure(
-        "FILE-STRING-LENGTH",
-        "stream object",
-        "How many bytes a character or string would take in a file.",
-        &["(file-string-length *standard-output* \"naïve\") => 6"],
-        file_string_length,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    read_sequence,
+    write_sequence,
+    file_position,
+    file_length,
+    read_byte,
+    write_byte,
+    file_string_length,
 ];

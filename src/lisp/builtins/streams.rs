@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::stream::{self, Elements, Stream, StreamKind};
 use crate::lisp::value::Value;
@@ -12,6 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::character;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -38,6 +39,10 @@ pub(crate) fn or_method(
     }
 }
 
+/// Is the object a stream?
+///
+/// `(streamp *standard-output*)` => `T`
+#[builtin(_, "object")]
 fn streamp(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(match &args[0] {
         Value::Stream(_) => true,
@@ -46,26 +51,46 @@ fn streamp(_: &mut Image, args: &[Value]) -> Outcome {
     }))
 }
 
+/// Can the stream be read?
+///
+/// `(input-stream-p (make-string-input-stream "x"))` => `T`
+#[builtin(_, "stream")]
 fn input_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream::followed(image, stream_of(&args[0])?)?;
     Ok(Value::bool(stream.is_input()))
 }
 
+/// Can the stream be written?
+///
+/// `(output-stream-p (make-string-input-stream "x"))` => `NIL`
+#[builtin(_, "stream")]
 fn output_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream::followed(image, stream_of(&args[0])?)?;
     Ok(Value::bool(stream.is_output()))
 }
 
+/// Is somebody at the other end?
+///
+/// `(interactive-stream-p *standard-input*)` => `NIL`
+#[builtin(_, "stream")]
 fn interactive_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
     stream_of(&args[0]).map(|_| Value::NIL)
 }
 
+/// Is the stream open?
+///
+/// `(open-stream-p (make-string-input-stream "x"))` => `T`
+#[builtin(_, "stream")]
 fn open_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream_of(&args[0])?;
     let open = !matches!(&*stream.kind.borrow(), StreamKind::Closed);
     Ok(Value::bool(open))
 }
 
+/// The type of what the stream carries.
+///
+/// `(stream-element-type (make-string-input-stream "x"))` => `CHARACTER`
+#[builtin(_, "stream")]
 fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(match stream_of(&args[0])?.elements {
         Elements::Characters => known::CHARACTER.into(),
@@ -80,17 +105,29 @@ fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
     })
 }
 
+/// How characters are encoded in files: UTF-8.
+///
+/// `(stream-external-format (make-string-input-stream "x"))` => `:DEFAULT`
+#[builtin("STREAM-EXTERNAL-FORMAT", "stream")]
 fn external_format(image: &mut Image, args: &[Value]) -> Outcome {
     stream_of(&args[0])?;
     Ok(image.keyword("DEFAULT").into())
 }
 
+/// Closes a stream; was it open?
+///
+/// `(close (make-string-input-stream "x"))` => `T`
+#[builtin(_, "stream &key abort")]
 fn close(image: &mut Image, args: &[Value]) -> Outcome {
     keywords::parse(image, &args[1..], [known::K_ABORT])?;
     stream::close(stream_of(&args[0])?).map(Value::bool)
 }
 
-/// Flushes the buffer of a file stream.
+/// Writes out what is held back.
+///
+/// `(finish-output)` => `NIL`
+// Flushes the buffer of a file stream.
+#[builtin(_, "&optional stream")]
 fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
     let target = args.first().unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
@@ -99,6 +136,10 @@ fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
+/// Does nothing: no input waits.
+///
+/// `(clear-input)` => `NIL`
+#[builtin(_, "&optional stream")]
 fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
     stream::input_stream(image, args.first().unwrap_or(&Value::NIL))?;
     Ok(Value::NIL)
@@ -123,6 +164,10 @@ pub(crate) fn at_end(
     .with(known::K_STREAM, stream))
 }
 
+/// Reads a character.
+///
+/// `(read-char (make-string-input-stream "abc"))` => `#\a`
+#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
 fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.first().unwrap_or(&Value::NIL);
     match stream::read_char(image, source)? {
@@ -131,8 +176,13 @@ fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-/// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
-/// before it.
+/// Looks at the next character; with `T` the next that is not blank, with a character the next such
+/// one.
+///
+/// `(peek-char t (make-string-input-stream "  x"))` => `#\x`
+// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
+// before it.
+#[builtin(_, "&optional type stream eof-error-p eof-value recursive-p")]
 fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.get(1).unwrap_or(&Value::NIL);
     while let Some(c) = stream::peek_char(image, source)? {
@@ -149,12 +199,20 @@ fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
     at_end(image, args.get(1), args.get(2), args.get(3))
 }
 
+/// Gives the character back that was read last.
+///
+/// `(let ((s (make-string-input-stream "ab"))) (unread-char (read-char s) s) (read-char s))` => `#\a`
+#[builtin(_, "character &optional stream")]
 fn unread_char(image: &mut Image, args: &[Value]) -> Outcome {
     let c = character(&args[0])?;
     stream::unread_char(image, args.get(1).unwrap_or(&Value::NIL), c)?;
     Ok(Value::NIL)
 }
 
+/// Is there a character to read?
+///
+/// `(listen (make-string-input-stream ""))` => `NIL`
+#[builtin(_, "&optional stream")]
 fn listen(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.first().unwrap_or(&Value::NIL);
     // Nobody is asked.
@@ -164,6 +222,10 @@ fn listen(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(stream::peek_char(image, source)?.is_some()))
 }
 
+/// Reads a line; the second value tells whether it ended without a newline.
+///
+/// `(read-line (make-string-input-stream "only"))` => `"only" ; T`
+#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
 fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.first().unwrap_or(&Value::NIL);
     let (text, from) = stream::rest(image, source)?;
@@ -183,134 +245,48 @@ fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
     ]))
 }
 
+/// Writes out what is held back.
+///
+/// `(force-output)` => `NIL`
+#[builtin(_, "&optional stream")]
+fn force_output(image: &mut Image, args: &[Value]) -> Outcome {
+    finish_output(image, args)
+}
+
+/// Does nothing: all output is written.
+///
+/// `(clear-output)` => `NIL`
+#[builtin(_, "&optional stream")]
+fn clear_output(image: &mut Image, args: &[Value]) -> Outcome {
+    finish_output(image, args)
+}
+
+/// Reads a character.
+///
+/// `(read-char-no-hang (make-string-input-stream "abc"))` => `#\a`
+#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
+fn read_char_no_hang(image: &mut Image, args: &[Value]) -> Outcome {
+    read_char(image, args)
+}
+
 /// Streams.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "STREAMP",
-        "object",
-        "Is the object a stream?",
-        &["(streamp *standard-output*) => T"],
-        streamp,
-    ),
-    pure(
-        "INPUT-STREAM-P",
-        "stream",
-        "Can the stream be read?",
-        &["(input-stream-p (make-string-input-stream \"x\")) => T"],
-        input_stream_p,
-    ),
-    pure(
-        "OUTPUT-STREAM-P",
-        "stream",
-        "Can the stream be written?",
-        &["(output-stream-p (make-string-input-stream \"x\")) => NIL"],
-        output_stream_p,
-    ),
-    pure(
-        "INTERACTIVE-STREAM-P",
-        "stream",
-        "Is somebody at the other end?",
-        &["(interactive-stream-p *standard-input*) => NIL"],
-        interactive_stream_p,
-    ),
-    pure(
-        "OPEN-STREAM-P",
-        "stream",
-        "Is the stream open?",
-        &["(open-stream-p (make-string-input-stream \"x\")) => T"],
-        open_stream_p,
-    ),
-    pure(
-        "STREAM-ELEMENT-TYPE",
-        "stream",
-        "The type of what the stream carries.",
-        &["(stream-element-type (make-string-input-stream \"x\")) => CHARACTER"],
-        stream_element_type,
-    ),
-    pure(
-        "STREAM-EXTERNAL-FORMAT",
-        "stream",
-        "How characters are encoded in files: UTF-8.",
-        &["(stream-external-format (make-string-input-stream \"x\")) => :DEFAULT"],
-        external_format,
-    ),
-    pure(
-        "CLOSE",
-        "stream &key abort",
-        "Closes a stream; was it open?",
-        &["(close (make-string-input-stream \"x\")) => T"],
-        close,
-    ),
-    pure(
-        "FINISH-OUTPUT",
-        "&optional stream",
-        "Writes out what is held back.",
-        &["(finish-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "FORCE-OUTPUT",
-        "&optional stream",
-        "Writes out what is held back.",
-        &["(force-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "CLEAR-OUTPUT",
-        "&optional stream",
-        "Does nothing: all output is written.",
-        &["(clear-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "CLEAR-INPUT",
-        "&optional stream",
-        "Does nothing: no input waits.",
-        &["(clear-input) => NIL"],
-        clear_input,
-    ),
-    pure(
-        "READ-CHAR",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a character.",
-        &["(read-char (make-string-input-stream \"abc\")) => #\\a"],
-        read_char,
-    ),
-    pure(
-        "READ-CHAR-NO-HANG",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a character.",
-        &["(read-char-no-hang (make-string-input-stream \"abc\")) => #\\a"],
-        read_char,
-    ),
-    pure(
-        "PEEK-CHAR",
-        "&optional type stream eof-error-p eof-value recursive-p",
-        "Looks at the next character; with `T` the next that is not blank, with a character the next such one.",
-        &["(peek-char t (make-string-input-stream \"  x\")) => #\\x"],
-        peek_char,
-    ),
-    pure(
-        "UNREAD-CHAR",
-        "character &optional stream",
-        "Gives the character back that was read last.",
-        &[
-            "(let ((s (make-string-input-stream \"ab\"))) (unread-char (read-char s) s) (read-char s)) => #\\a",
-        ],
-        unread_char,
-    ),
-    pure(
-        "LISTEN",
-        "&optional stream",
-        "Is there a character to read?",
-        &["(listen (make-string-input-stream \"\")) => NIL"],
-        listen,
-    ),
-    pure(
-        "READ-LINE",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a line; the second value tells whether it ended without a newline.",
-        &["(read-line (make-string-input-stream \"only\")) => \"only\" ; T"],
-        read_line,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    streamp,
+    input_stream_p,
+    output_stream_p,
+    interactive_stream_p,
+    open_stream_p,
+    stream_element_type,
+    external_format,
+    close,
+    finish_output,
+    force_output,
+    clear_output,
+    clear_input,
+    read_char,
+    read_char_no_hang,
+    peek_char,
+    unread_char,
+    listen,
+    read_line,
 ];

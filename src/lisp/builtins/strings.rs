@@ -6,13 +6,14 @@ use super::array_index;
 use super::characters::{downcase, upcase};
 use super::keywords;
 use super::lists::size;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Bounds, Sequence, character, index};
 use crate::lisp::value::string::LispString;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -42,6 +43,10 @@ pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
     }
 }
 
+/// The string that a string, a symbol or a character means.
+///
+/// `(string 'foo)` => `"FOO"`
+#[builtin("STRING", "designator")]
 fn to_string(image: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         Value::Str(_) => Ok(args[0].clone()),
@@ -49,16 +54,28 @@ fn to_string(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Is the object a string?
+///
+/// `(stringp "a")` => `T`
+#[builtin(_, "object")]
 fn stringp(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(matches!(args[0], Value::Str(_))))
 }
 
+/// Is the object a string without a fill pointer?
+///
+/// `(simple-string-p "a")` => `T`
+#[builtin(_, "object")]
 fn simple_string_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(
         matches!(&args[0], Value::Str(s) if s.is_simple()),
     ))
 }
 
+/// A string of equal characters.
+///
+/// `(make-string 3 :initial-element #\a)` => `"aaa"`
+#[builtin(_, "size &key initial-element element-type")]
 fn make_string(image: &mut Image, args: &[Value]) -> Outcome {
     let [element, _] = keywords::parse(
         image,
@@ -70,6 +87,10 @@ fn make_string(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::string(element.to_string().repeat(count)))
 }
 
+/// The character of a string at an index from 0.
+///
+/// `(char "abc" 1)` => `#\b`
+#[builtin("CHAR", "string index")]
 fn char_at(_: &mut Image, args: &[Value]) -> Outcome {
     let string = string(&args[0])?;
     match string.element(index(&args[1])?) {
@@ -78,6 +99,8 @@ fn char_at(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Replaces a character of a string.
+#[builtin("CHAR", "value string index")]
 fn set_char_at(_: &mut Image, args: &[Value]) -> Outcome {
     let string = string(&args[1])?;
     let c = character(&args[0])?;
@@ -136,26 +159,50 @@ fn with_case(image: &Image, args: &[Value], case: Case, in_place: bool) -> Outco
     Ok(Value::string(format!("{before}{changed}{after}")))
 }
 
+/// The text in upper case.
+///
+/// `(string-upcase "abc" :start 1)` => `"aBC"`
+#[builtin(_, "string &key start end")]
 fn string_upcase(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Up, false)
 }
 
+/// The text in lower case.
+///
+/// `(string-downcase 'left-side)` => `"left-side"`
+#[builtin(_, "string &key start end")]
 fn string_downcase(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Down, false)
 }
 
+/// The text with each word capitalized.
+///
+/// `(string-capitalize "hello world")` => `"Hello World"`
+#[builtin(_, "string &key start end")]
 fn string_capitalize(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Capitalized, false)
 }
 
+/// Changes a string to upper case.
+///
+/// `(nstring-upcase (copy-seq "abc"))` => `"ABC"`
+#[builtin(_, "string &key start end")]
 fn nstring_upcase(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Up, true)
 }
 
+/// Changes a string to lower case.
+///
+/// `(nstring-downcase (copy-seq "ABC"))` => `"abc"`
+#[builtin(_, "string &key start end")]
 fn nstring_downcase(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Down, true)
 }
 
+/// Capitalizes each word of a string.
+///
+/// `(nstring-capitalize (copy-seq "a bc"))` => `"A Bc"`
+#[builtin(_, "string &key start end")]
 fn nstring_capitalize(image: &mut Image, args: &[Value]) -> Outcome {
     with_case(image, args, Case::Capitalized, true)
 }
@@ -174,141 +221,62 @@ fn trim(image: &Image, args: &[Value], left: bool, right: bool) -> Outcome {
     Ok(Value::string(rest))
 }
 
+/// The text without certain characters at both ends.
+///
+/// `(string-trim " " "  a b ")` => `"a b"`
+#[builtin(_, "characters string")]
 fn string_trim(image: &mut Image, args: &[Value]) -> Outcome {
     trim(image, args, true, true)
 }
 
+/// The text without certain characters at its start.
+///
+/// `(string-left-trim "x" "xxhixx")` => `"hixx"`
+#[builtin(_, "characters string")]
 fn string_left_trim(image: &mut Image, args: &[Value]) -> Outcome {
     trim(image, args, true, false)
 }
 
+/// The text without certain characters at its end.
+///
+/// `(string-right-trim "x" "xxhixx")` => `"xxhi"`
+#[builtin(_, "characters string")]
 fn string_right_trim(image: &mut Image, args: &[Value]) -> Outcome {
     trim(image, args, false, true)
 }
 
+/// The character of a string at an index from 0.
+///
+/// `(schar "abc" 1)` => `#\b`
+#[builtin(_, "string index")]
+fn schar(image: &mut Image, args: &[Value]) -> Outcome {
+    char_at(image, args)
+}
+
+/// Replaces a character of a string.
+#[builtin("SCHAR", "value string index")]
+fn set_schar(image: &mut Image, args: &[Value]) -> Outcome {
+    set_char_at(image, args)
+}
+
 /// Strings.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "STRINGP",
-        "object",
-        "Is the object a string?",
-        &["(stringp \"a\") => T"],
-        stringp,
-    ),
-    pure(
-        "SIMPLE-STRING-P",
-        "object",
-        "Is the object a string without a fill pointer?",
-        &["(simple-string-p \"a\") => T"],
-        simple_string_p,
-    ),
-    pure(
-        "STRING",
-        "designator",
-        "The string that a string, a symbol or a character means.",
-        &["(string 'foo) => \"FOO\""],
-        to_string,
-    ),
-    pure(
-        "MAKE-STRING",
-        "size &key initial-element element-type",
-        "A string of equal characters.",
-        &["(make-string 3 :initial-element #\\a) => \"aaa\""],
-        make_string,
-    ),
-    pure(
-        "CHAR",
-        "string index",
-        "The character of a string at an index from 0.",
-        &["(char \"abc\" 1) => #\\b"],
-        char_at,
-    ),
-    pure(
-        "SCHAR",
-        "string index",
-        "The character of a string at an index from 0.",
-        &["(schar \"abc\" 1) => #\\b"],
-        char_at,
-    ),
-    pure(
-        "STRING-UPCASE",
-        "string &key start end",
-        "The text in upper case.",
-        &["(string-upcase \"abc\" :start 1) => \"aBC\""],
-        string_upcase,
-    ),
-    pure(
-        "STRING-DOWNCASE",
-        "string &key start end",
-        "The text in lower case.",
-        &["(string-downcase 'left-side) => \"left-side\""],
-        string_downcase,
-    ),
-    pure(
-        "STRING-CAPITALIZE",
-        "string &key start end",
-        "The text with each word capitalized.",
-        &["(string-capitalize \"hello world\") => \"Hello World\""],
-        string_capitalize,
-    ),
-    pure(
-        "NSTRING-UPCASE",
-        "string &key start end",
-        "Changes a string to upper case.",
-        &["(nstring-upcase (copy-seq \"abc\")) => \"ABC\""],
-        nstring_upcase,
-    ),
-    pure(
-        "NSTRING-DOWNCASE",
-        "string &key start end",
-        "Changes a string to lower case.",
-        &["(nstring-downcase (copy-seq \"ABC\")) => \"abc\""],
-        nstring_downcase,
-    ),
-    pure(
-        "NSTRING-CAPITALIZE",
-        "string &key start end",
-        "Capitalizes each word of a string.",
-        &["(nstring-capitalize (copy-seq \"a bc\")) => \"A Bc\""],
-        nstring_capitalize,
-    ),
-    pure(
-        "STRING-TRIM",
-        "characters string",
-        "The text without certain characters at both ends.",
-        &["(string-trim \" \" \"  a b \") => \"a b\""],
-        string_trim,
-    ),
-    pure(
-        "STRING-LEFT-TRIM",
-        "characters string",
-        "The text without certain characters at its start.",
-        &["(string-left-trim \"x\" \"xxhixx\") => \"hixx\""],
-        string_left_trim,
-    ),
-    pure(
-        "STRING-RIGHT-TRIM",
-        "characters string",
-        "The text without certain characters at its end.",
-        &["(string-right-trim \"x\" \"xxhixx\") => \"xxhi\""],
-        string_right_trim,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    stringp,
+    simple_string_p,
+    to_string,
+    make_string,
+    char_at,
+    schar,
+    string_upcase,
+    string_downcase,
+    string_capitalize,
+    nstring_upcase,
+    nstring_downcase,
+    nstring_capitalize,
+    string_trim,
+    string_left_trim,
+    string_right_trim,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "CHAR",
-        "value string index",
-        "Replaces a character of a string.",
-        &[],
-        set_char_at,
-    ),
-    pure(
-        "SCHAR",
-        "value string index",
-        "Replaces a character of a string.",
-        &[],
-        set_char_at,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_char_at, set_schar,];

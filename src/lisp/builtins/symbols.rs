@@ -2,7 +2,7 @@
 
 use super::property_lists::symbol;
 use super::strings::string;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
@@ -11,32 +11,57 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::index;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::vm::callable::callable;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// Is the object a symbol?
+///
+/// `(symbolp 'a)` => `T`
+#[builtin(_, "object")]
 fn symbolp(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(args[0].as_symbol().is_some()))
 }
 
+/// Is the object a keyword?
+///
+/// `(keywordp :a)` => `T`
+#[builtin(_, "object")]
 fn keywordp(image: &mut Image, args: &[Value]) -> Outcome {
     let is = args[0].as_symbol().is_some_and(|s| image.is_keyword(s));
     Ok(Value::bool(is))
 }
 
+/// A symbol's name.
+///
+/// `(symbol-name 'foo)` => `"FOO"`
+#[builtin(_, "symbol")]
 fn symbol_name(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::string(image.name(symbol(&args[0])?)))
 }
 
+/// A symbol's home package, or `NIL`.
+///
+/// `(symbol-package 'car)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin(_, "symbol")]
 fn symbol_package(image: &mut Image, args: &[Value]) -> Outcome {
     let package = image.symbol(symbol(&args[0])?).package;
     Ok(package.map_or(Value::NIL, Value::Package))
 }
 
+/// A fresh symbol without a package.
+///
+/// `(make-symbol "A")` => `#:A`
+#[builtin(_, "name")]
 fn make_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
     Ok(image.symbols.make_passing(name.into()))
 }
 
+/// A fresh symbol of the same name without a package.
+///
+/// `(copy-symbol 'foo)` => `#:FOO`
+#[builtin(_, "symbol &optional copy-properties")]
 fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     let from = symbol(&args[0])?;
     let name = image.name(from).to_owned();
@@ -58,6 +83,10 @@ fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(copy)
 }
 
+/// A fresh symbol without a package, with a number in its name.
+///
+/// `(symbol-package (gensym))` => `NIL`
+#[builtin(_, "&optional prefix")]
 fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
     let name = match args.first() {
         None => image.fresh_name("G"),
@@ -67,7 +96,11 @@ fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(image.symbols.make_passing(name.into()))
 }
 
-/// A fresh symbol of the current package; names are counted from 1 for each prefix.
+/// A symbol whose name was not taken.
+///
+/// `(symbolp (gentemp "NEW"))` => `T`
+// A fresh symbol of the current package; names are counted from 1 for each prefix.
+#[builtin(_, "&optional prefix package")]
 fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
     let prefix = match args.first() {
         Some(prefix) => string(prefix)?.text(),
@@ -87,11 +120,19 @@ fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// Has the symbol a value as a global variable?
+///
+/// `(boundp 'pi)` => `T`
+#[builtin(_, "symbol")]
 fn boundp(image: &mut Image, args: &[Value]) -> Outcome {
     let bound = !image.special(symbol(&args[0])?).is_unbound();
     Ok(Value::bool(bound))
 }
 
+/// The value of a global variable.
+///
+/// `(symbol-value :a)` => `:A`
+#[builtin(_, "symbol")]
 fn symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
     let sym = symbol(&args[0])?;
     match image.special(sym) {
@@ -111,21 +152,36 @@ fn assign(image: &mut Image, sym: Sym, value: &Value) -> Outcome {
     Ok(value.clone())
 }
 
+/// Assigns a global variable.
+///
+/// `(progn (set 'set-example 6) (symbol-value 'set-example))` => `6`
+#[builtin(_, "symbol value")]
 fn set(image: &mut Image, args: &[Value]) -> Outcome {
     assign(image, symbol(&args[0])?, &args[1])
 }
 
+/// Assigns a global variable.
+#[builtin("SYMBOL-VALUE", "value symbol")]
 fn set_symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
     assign(image, symbol(&args[1])?, &args[0])
 }
 
+/// Takes a global variable's value away.
+///
+/// `(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example))` => `NIL`
+#[builtin(_, "symbol")]
 fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
     assign(image, symbol(&args[0])?, &Value::Unbound)?;
     Ok(args[0].clone())
 }
 
-/// Does a form always have the same value: is it a constant, a quoted object, or something that
-/// evaluates to itself?
+/// Does the form always have the same value?
+///
+/// `(constantp :a)` => `T`
+/// `(constantp 'x)` => `NIL`
+// Does a form always have the same value: is it a constant, a quoted object, or something that
+// evaluates to itself?
+#[builtin(_, "form &optional environment")]
 fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
     let constant = match &args[0] {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
@@ -135,6 +191,10 @@ fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(constant))
 }
 
+/// Is the object a function that is not generic? All of these are compiled.
+///
+/// `(compiled-function-p #'car)` => `T`
+#[builtin(_, "object")]
 fn compiled_function_p(_: &mut Image, args: &[Value]) -> Outcome {
     let is_compiled = matches!(&args[0], Value::Function(f) if !matches!(f.body, Body::Generic(_)));
     Ok(Value::bool(is_compiled))
@@ -160,6 +220,10 @@ fn function_name(value: &Value) -> Result<FunctionName, Box<Raise>> {
     }
 }
 
+/// Names this a function, macro or special operator?
+///
+/// `(fboundp 'car)` => `T`
+#[builtin(_, "name")]
 fn fboundp(image: &mut Image, args: &[Value]) -> Outcome {
     let bound = match function_name(&args[0])? {
         FunctionName::Plain(sym) => !matches!(image.symbol(sym).function, FunctionCell::Unbound),
@@ -168,6 +232,10 @@ fn fboundp(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(bound))
 }
 
+/// The function of a name.
+///
+/// `(funcall (fdefinition 'car) '(1))` => `1`
+#[builtin(_, "name")]
 fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
     let undefined = || Raise::undefined_function(args[0].clone());
     match function_name(&args[0])? {
@@ -193,11 +261,17 @@ fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The function that a symbol names.
+///
+/// `(funcall (symbol-function 'car) '(1))` => `1`
+#[builtin(_, "symbol")]
 fn symbol_function(image: &mut Image, args: &[Value]) -> Outcome {
     symbol(&args[0])?;
     fdefinition(image, args)
 }
 
+/// Sets the function that a symbol names.
+#[builtin("SYMBOL-FUNCTION", "value symbol")]
 fn set_fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
     let Value::Function(function) = callable(image, &args[0])? else {
         return Err(Raise::type_error(&args[0], known::FUNCTION));
@@ -209,6 +283,10 @@ fn set_fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// Takes a name's function away.
+///
+/// `(fmakunbound 'no-such-function)` => `NO-SUCH-FUNCTION`
+#[builtin(_, "name")]
 fn fmakunbound(image: &mut Image, args: &[Value]) -> Outcome {
     match function_name(&args[0])? {
         FunctionName::Plain(sym) => image.symbols.get_mut(sym).function = FunctionCell::Unbound,
@@ -217,6 +295,10 @@ fn fmakunbound(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// The symbol of a name, made if need be, and how it was accessible.
+///
+/// `(intern "SVREF")` => `SVREF ; :INHERITED`
+#[builtin(_, "name &optional package")]
 fn intern(image: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
     let package = super::packages::or_current(image, args.get(1))?;
@@ -229,6 +311,10 @@ fn intern(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(vec![sym.into(), status]))
 }
 
+/// The symbol of a name, and how it is accessible, or `NIL`.
+///
+/// `(find-symbol "CAR" :cl)` => `CAR ; :EXTERNAL`
+#[builtin(_, "name &optional package")]
 fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
     let package = super::packages::or_current(image, args.get(1))?;
@@ -239,173 +325,36 @@ fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     ]))
 }
 
+/// Sets the function of a name.
+#[builtin("FDEFINITION", "value name")]
+fn set_fdefinition_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    set_fdefinition(image, args)
+}
+
 /// Symbols.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "SYMBOLP",
-        "object",
-        "Is the object a symbol?",
-        &["(symbolp 'a) => T"],
-        symbolp,
-    ),
-    pure(
-        "KEYWORDP",
-        "object",
-        "Is the object a keyword?",
-        &["(keywordp :a) => T"],
-        keywordp,
-    ),
-    pure(
-        "SYMBOL-NAME",
-        "symbol",
-        "A symbol's name.",
-        &["(symbol-name 'foo) => \"FOO\""],
-        symbol_name,
-    ),
-    pure(
-        "SYMBOL-PACKAGE",
-        "symbol",
-        "A symbol's home package, or `NIL`.",
-        &["(symbol-package 'car) => #<PACKAGE \"COMMON-LISP\">"],
-        symbol_package,
-    ),
-    pure(
-        "MAKE-SYMBOL",
-        "name",
-        "A fresh symbol without a package.",
-        &["(make-symbol \"A\") => #:A"],
-        make_symbol,
-    ),
-    pure(
-        "COPY-SYMBOL",
-        "symbol &optional copy-properties",
-        "A fresh symbol of the same name without a package.",
-        &["(copy-symbol 'foo) => #:FOO"],
-        copy_symbol,
-    ),
-    pure(
-        "GENSYM",
-        "&optional prefix",
-        "A fresh symbol without a package, with a number in its name.",
-        &["(symbol-package (gensym)) => NIL"],
-        gensym,
-    ),
-    pure(
-        "GENTEMP",
-        "&optional prefix package",
-        "A symbol whose name was not taken.",
-        &["(symbolp (gentemp \"NEW\")) => T"],
-        gentemp,
-    ),
-    pure(
-        "BOUNDP",
-        "symbol",
-        "Has the symbol a value as a global variable?",
-        &["(boundp 'pi) => T"],
-        boundp,
-    ),
-    pure(
-        "SYMBOL-VALUE",
-        "symbol",
-        "The value of a global variable.",
-        &["(symbol-value :a) => :A"],
-        symbol_value,
-    ),
-    pure(
-        "SET",
-        "symbol value",
-        "Assigns a global variable.",
-        &["(progn (set 'set-example 6) (symbol-value 'set-example)) => 6"],
-        set,
-    ),
-    pure(
-        "MAKUNBOUND",
-        "symbol",
-        "Takes a global variable's value away.",
-        &[
-            "(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example)) => NIL",
-        ],
-        makunbound,
-    ),
-    pure(
-        "CONSTANTP",
-        "form &optional environment",
-        "Does the form always have the same value?",
-        &["(constantp :a) => T", "(constantp 'x) => NIL"],
-        constantp,
-    ),
-    pure(
-        "COMPILED-FUNCTION-P",
-        "object",
-        "Is the object a function that is not generic? All of these are compiled.",
-        &["(compiled-function-p #'car) => T"],
-        compiled_function_p,
-    ),
-    pure(
-        "FBOUNDP",
-        "name",
-        "Names this a function, macro or special operator?",
-        &["(fboundp 'car) => T"],
-        fboundp,
-    ),
-    pure(
-        "FDEFINITION",
-        "name",
-        "The function of a name.",
-        &["(funcall (fdefinition 'car) '(1)) => 1"],
-        fdefinition,
-    ),
-    pure(
-        "SYMBOL-FUNCTION",
-        "symbol",
-        "The function that a symbol names.",
-        &["(funcall (symbol-function 'car) '(1)) => 1"],
-        symbol_function,
-    ),
-    pure(
-        "FMAKUNBOUND",
-        "name",
-        "Takes a name's function away.",
-        &["(fmakunbound 'no-such-function) => NO-SUCH-FUNCTION"],
-        fmakunbound,
-    ),
-    pure(
-        "INTERN",
-        "name &optional package",
-        "The symbol of a name, made if need be, and how it was accessible.",
-        &["(intern \"SVREF\") => SVREF ; :INHERITED"],
-        intern,
-    ),
-    pure(
-        "FIND-SYMBOL",
-        "name &optional package",
-        "The symbol of a name, and how it is accessible, or `NIL`.",
-        &["(find-symbol \"CAR\" :cl) => CAR ; :EXTERNAL"],
-        find_symbol,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    symbolp,
+    keywordp,
+    symbol_name,
+    symbol_package,
+    make_symbol,
+    copy_symbol,
+    gensym,
+    gentemp,
+    boundp,
+    symbol_value,
+    set,
+    makunbound,
+    constantp,
+    compiled_function_p,
+    fboundp,
+    fdefinition,
+    symbol_function,
+    fmakunbound,
+    intern,
+    find_symbol,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "SYMBOL-VALUE",
-        "value symbol",
-        "Assigns a global variable.",
-        &[],
-        set_symbol_value,
-    ),
-    pure(
-        "SYMBOL-FUNCTION",
-        "value symbol",
-        "Sets the function that a symbol names.",
-        &[],
-        set_fdefinition,
-    ),
-    pure(
-        "FDEFINITION",
-        "value name",
-        "Sets the function of a name.",
-        &[],
-        set_fdefinition,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] =
+    builtins![set_symbol_value, set_fdefinition, set_fdefinition_builtin,];

@@ -1,6 +1,6 @@
 //! Weak pointers: objects that refer to others without keeping them.
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::copy::Copier;
 use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
@@ -8,6 +8,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::weak::Reference;
+use crate::lisp::{builtin, builtins};
 
 /// A weak pointer; without a reference if its object was gone when the image was copied.
 struct WeakPointer(Option<Reference>);
@@ -36,30 +37,29 @@ impl Foreign for WeakPointer {
     }
 }
 
+/// An object that refers to another one without keeping it.
+#[builtin("%MAKE-WEAK-POINTER", "object")]
+fn make_weak_pointer(args: &[Value]) -> Result<Value, Box<Raise>> {
+    Ok(Value::foreign(WeakPointer(Some(Reference::to(&args[0])))))
+}
+
+/// Is the object a weak pointer?
+///
+/// `(system::%weak-pointer-p 1)` => `NIL`
+#[builtin("%WEAK-POINTER-P", "object")]
+fn weak_pointer_p(args: &[Value]) -> Result<Value, Box<Raise>> {
+    Ok(Value::bool(args[0].as_foreign::<WeakPointer>().is_some()))
+}
+
+/// The object to which a weak pointer refers; NIL if it is gone.
+#[builtin("%WEAK-POINTER-VALUE", "weak-pointer")]
+fn weak_pointer_value(args: &[Value]) -> Result<Value, Box<Raise>> {
+    match args[0].as_foreign::<WeakPointer>() {
+        Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
+        None => Err(Raise::type_error(&args[0], known::WEAK_POINTER)),
+    }
+}
+
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%MAKE-WEAK-POINTER",
-        "object",
-        "An object that refers to another one without keeping it.",
-        &[],
-        |_, args| Ok(Value::foreign(WeakPointer(Some(Reference::to(&args[0]))))),
-    ),
-    pure(
-        "%WEAK-POINTER-P",
-        "object",
-        "Is the object a weak pointer?",
-        &["(system::%weak-pointer-p 1) => NIL"],
-        |_, args| Ok(Value::bool(args[0].as_foreign::<WeakPointer>().is_some())),
-    ),
-    pure(
-        "%WEAK-POINTER-VALUE",
-        "weak-pointer",
-        "The object to which a weak pointer refers; NIL if it is gone.",
-        &[],
-        |_, args| match args[0].as_foreign::<WeakPointer>() {
-            Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
-            None => Err(Raise::type_error(&args[0], known::WEAK_POINTER)),
-        },
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![make_weak_pointer, weak_pointer_p, weak_pointer_value,];

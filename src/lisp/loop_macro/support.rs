@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
@@ -13,6 +13,7 @@ use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::Sequence;
 use crate::lisp::value::sequence::last_pair;
+use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -37,6 +38,10 @@ pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
     }
 }
 
+/// The number, which must be greater than zero.
+///
+/// `(system::positive-step 2)` => `2`
+#[builtin(_, "number")]
 fn positive_step(_: &mut Image, args: &[Value]) -> Outcome {
     check_positive(&args[0])?;
     Ok(args[0].clone())
@@ -48,6 +53,10 @@ fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
         .ok_or_else(|| Raise::type_error(value, known::CONS))
 }
 
+/// Adds an element behind the last pair of a list; the new last pair.
+///
+/// `(system::extend-list (list 1) 2)` => `(2)`
+#[builtin(_, "last-pair element")]
 fn extend_list(_: &mut Image, args: &[Value]) -> Outcome {
     let tail = pair(&args[0])?;
     let last = Value::cons(args[1].clone(), Value::NIL);
@@ -62,16 +71,28 @@ fn join(tail: &Value, list: Value) -> Outcome {
     Ok(last.map_or_else(|| tail.clone(), Value::Cons))
 }
 
+/// Adds the elements of a list behind the last pair of a list; the new last pair.
+///
+/// `(system::extend-list-copying (list 1) '(2 3))` => `(3)`
+#[builtin(_, "last-pair list")]
 fn extend_list_copying(_: &mut Image, args: &[Value]) -> Outcome {
     let mut iter = args[1].iter_list();
     let items: Vec<Value> = iter.by_ref().collect();
     join(&args[0], Value::list_with_tail(items, iter.rest))
 }
 
+/// Joins a list to the last pair of a list; the new last pair.
+///
+/// `(system::extend-list-joining (list 1) (list 2 3))` => `(3)`
+#[builtin(_, "last-pair list")]
 fn extend_list_joining(_: &mut Image, args: &[Value]) -> Outcome {
     join(&args[0], args[1].clone())
 }
 
+/// The elements of a sequence as a list.
+///
+/// `(system::elements #(1 2))` => `(1 2)`
+#[builtin(_, "sequence")]
 fn elements(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         list @ (Value::Cons(_) | Value::Symbol(known::NIL, ..)) => Ok(list.clone()),
@@ -79,6 +100,10 @@ fn elements(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The number of elements of a vector.
+///
+/// `(system::vector-length #(1 2))` => `2`
+#[builtin(_, "vector")]
 fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         Value::Vector(v) => Ok(Vector::len(v).into()),
@@ -88,47 +113,11 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Functions that loops call, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "EXTEND-LIST",
-        "last-pair element",
-        "Adds an element behind the last pair of a list; the new last pair.",
-        &["(system::extend-list (list 1) 2) => (2)"],
-        extend_list,
-    ),
-    pure(
-        "EXTEND-LIST-COPYING",
-        "last-pair list",
-        "Adds the elements of a list behind the last pair of a list; the new last pair.",
-        &["(system::extend-list-copying (list 1) '(2 3)) => (3)"],
-        extend_list_copying,
-    ),
-    pure(
-        "EXTEND-LIST-JOINING",
-        "last-pair list",
-        "Joins a list to the last pair of a list; the new last pair.",
-        &["(system::extend-list-joining (list 1) (list 2 3)) => (3)"],
-        extend_list_joining,
-    ),
-    pure(
-        "POSITIVE-STEP",
-        "number",
-        "The number, which must be greater than zero.",
-        &["(system::positive-step 2) => 2"],
-        positive_step,
-    ),
-    pure(
-        "ELEMENTS",
-        "sequence",
-        "The elements of a sequence as a list.",
-        &["(system::elements #(1 2)) => (1 2)"],
-        elements,
-    ),
-    pure(
-        "VECTOR-LENGTH",
-        "vector",
-        "The number of elements of a vector.",
-        &["(system::vector-length #(1 2)) => 2"],
-        vector_length,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    extend_list,
+    extend_list_copying,
+    extend_list_joining,
+    positive_step,
+    elements,
+    vector_length,
 ];

@@ -1,0 +1,150 @@
+//! The arguments of builtins as Rust values.
+
+use crate::lisp::builtins::keywords;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Sequence, character, index};
+use crate::lisp::value::symbol::Sym;
+
+/// A type of arguments.
+pub(crate) trait FromValue<'a>: Sized {
+    /// Is `NIL` a value of the type? If not, it stands for an optional argument that is not given.
+    const HAS_NIL: bool = false;
+
+    /// The argument; a type error if the value is none of the type.
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>>;
+}
+
+/// An optional argument or a keyword argument.
+#[inline]
+pub(crate) fn optional<'a, T: FromValue<'a>>(
+    image: &mut Image,
+    value: Option<&'a Value>,
+) -> Result<Option<T>, Box<Raise>> {
+    match value {
+        Some(value) if T::HAS_NIL || value.is_true() => T::from_value(image, value).map(Some),
+        _ => Ok(None),
+    }
+}
+
+/// All further arguments.
+pub(crate) fn all<'a, T: FromValue<'a>>(
+    image: &mut Image,
+    values: &'a [Value],
+) -> Result<Vec<T>, Box<Raise>> {
+    values
+        .iter()
+        .map(|value| T::from_value(image, value))
+        .collect()
+}
+
+/// The name of a keyword argument.
+#[derive(Clone, Copy)]
+pub(crate) struct Keyword {
+    name: &'static str,
+    /// The symbol, if Rust code names it.
+    known: Option<Sym>,
+}
+
+/// The keyword argument of a name.
+pub(crate) const fn keyword(name: &'static str) -> Keyword {
+    Keyword {
+        name,
+        known: known::keyword(name),
+    }
+}
+
+/// The keyword arguments with these names in `args`, which holds nothing but keyword arguments.
+#[inline]
+pub(crate) fn keys<'a, const N: usize>(
+    image: &mut Image,
+    args: &'a [Value],
+    names: [Keyword; N],
+) -> Result<[Option<&'a Value>; N], Box<Raise>> {
+    if args.is_empty() {
+        return Ok([None; N]);
+    }
+    let names = names.map(|key| key.known.unwrap_or_else(|| image.keyword(key.name)));
+    keywords::given(image, args, names)
+}
+
+/// The error of a call with fewer or more arguments than the function has. The machine has counted
+/// them by the lambda list, which agrees with the function.
+#[cold]
+pub(crate) fn wrong_count() -> Box<Raise> {
+    Raise::program("invalid number of arguments")
+}
+
+impl<'a> FromValue<'a> for &'a Value {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        Ok(value)
+    }
+}
+
+impl FromValue<'_> for Value {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        Ok(value.clone())
+    }
+}
+
+/// A generalised boolean.
+impl FromValue<'_> for bool {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        Ok(value.is_true())
+    }
+}
+
+impl FromValue<'_> for char {
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        character(value)
+    }
+}
+
+/// An index or a size; larger ones than there are count as the largest.
+impl FromValue<'_> for usize {
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        index(value)
+    }
+}
+
+impl FromValue<'_> for Sym {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        let symbol = value.as_symbol();
+        symbol.ok_or_else(|| Raise::type_error(value, known::SYMBOL))
+    }
+}
+
+impl FromValue<'_> for Sequence {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        Sequence::of(value)
+    }
+}
+
+/// A value that is also `NIL`.
+impl<'a, T: FromValue<'a>> FromValue<'a> for Option<T> {
+    const HAS_NIL: bool = true;
+
+    #[inline]
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        optional(image, Some(value))
+    }
+}
