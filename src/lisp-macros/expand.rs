@@ -1,8 +1,7 @@
 //! The code that the macros make.
 
 use proc_macro2::{Literal, Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
-use syn::spanned::Spanned;
+use quote::{format_ident, quote};
 use syn::{Error, Ident, ItemFn, Path, Result, Type};
 
 use crate::attribute::Wording;
@@ -104,9 +103,9 @@ fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenS
     let contexts = parameters
         .contexts
         .iter()
-        .map(|(context, ty)| match context {
+        .map(|(context, _)| match context {
             Context::Image if is_control => quote!(&mut *machine.image),
-            Context::Image => quote_spanned!(ty.span()=> image),
+            Context::Image => quote!(image),
             Context::Machine => quote!(machine),
             Context::Calls | Context::Owner => quote!(calls),
         });
@@ -156,8 +155,8 @@ fn acting(function: &ItemFn, parameters: &Parameters, owner: &Type) -> Result<To
     let contexts = parameters
         .contexts
         .iter()
-        .map(|(context, ty)| match context {
-            Context::Image => quote_spanned!(ty.span()=> image),
+        .map(|(context, _)| match context {
+            Context::Image => quote!(image),
             _ => quote!(owner),
         });
     let passed = passed(parameters);
@@ -271,7 +270,6 @@ fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> To
         let variable_name = variable("argument", &argument.ident);
         let given = variable("given", &argument.ident);
         let ty = &argument.ty;
-        let span = ty.span();
         let given = match argument.shape {
             Shape::Required | Shape::Key => quote!(#given),
             Shape::Optional => {
@@ -294,21 +292,19 @@ fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> To
         let value = match (argument.shape, argument.optional_type(), &argument.default) {
             (Shape::Rest, ..) => match argument.element_type() {
                 Some(element) => {
-                    quote_spanned!(span=> builtin::all::<#element>(#image, #given)?)
+                    quote!(builtin::all::<#element>(#image, #given)?)
                 }
                 None => given,
             },
             (Shape::Required, ..) => {
-                quote_spanned!(span=> <#ty as builtin::FromValue>::from_value(#image, #given)?)
+                quote!(builtin::required::<#ty>(#image, #given)?)
             }
             (_, Some(inner), _) => {
-                quote_spanned!(span=> builtin::optional::<#inner>(#image, #given)?)
+                quote!(builtin::optional::<#inner>(#image, #given)?)
             }
-            (_, None, default) => quote_spanned! {span=>
+            (_, None, default) => quote! {
                 match #given {
-                    ::std::option::Option::Some(given) => {
-                        <#ty as builtin::FromValue>::from_value(#image, given)?
-                    }
+                    ::std::option::Option::Some(given) => builtin::required::<#ty>(#image, given)?,
                     ::std::option::Option::None => #default,
                 }
             },

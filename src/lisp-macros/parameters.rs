@@ -42,7 +42,7 @@ impl Argument {
     /// The name in the lambda list.
     pub(crate) fn name(&self) -> String {
         let name = self.ident.to_string();
-        let name = name.trim_start_matches("r#").trim_start_matches('_');
+        let name = name.trim_start_matches("r#").trim_matches('_');
         name.replace('_', "-")
     }
 

@@ -13,14 +13,13 @@ use super::native::{ControlFn, PureFn};
 use super::value::function::Function;
 use super::value::symbol::Sym;
 
-pub(crate) use from_value::{FromValue, all, keys, keyword, optional, wrong_count};
+pub(crate) use from_value::{FromValue, all, keys, keyword, optional, required, wrong_count};
 pub(crate) use returned::Returned;
 
 pub(crate) use super::image::Image;
 pub(crate) use super::native::BuiltinCall;
 pub(crate) use super::value::Value;
 pub(crate) use super::value::raise::Raise;
-pub(crate) use super::vm::calls::run;
 pub(crate) use super::vm::machine::Machine;
 pub(crate) use super::vm::step::Step;
 

@@ -1,11 +1,20 @@
 //! The arguments of builtins as Rust values.
 
+use std::rc::Rc;
+
 use crate::lisp::builtins::keywords;
+use crate::lisp::builtins::strings::designated;
 use crate::lisp::image::Image;
+use crate::lisp::stream::Stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, Instance};
+use crate::lisp::value::cons::Cons;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::hash_table::HashTable;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Sequence, character, index};
+use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::Sym;
 
 /// A type of arguments.
@@ -15,6 +24,15 @@ pub(crate) trait FromValue<'a>: Sized {
 
     /// The argument; a type error if the value is none of the type.
     fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>>;
+}
+
+/// A required argument.
+#[inline]
+pub(crate) fn required<'a, T: FromValue<'a>>(
+    image: &mut Image,
+    value: &'a Value,
+) -> Result<T, Box<Raise>> {
+    T::from_value(image, value)
 }
 
 /// An optional argument or a keyword argument.
@@ -137,6 +155,45 @@ impl FromValue<'_> for Sequence {
     fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
         Sequence::of(value)
     }
+}
+
+impl FromValue<'_> for Rc<Function> {
+    #[inline]
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        <&Rc<Function>>::from_value(image, value).cloned()
+    }
+}
+
+/// The text that a string designator means.
+impl FromValue<'_> for String {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        designated(image, value)
+    }
+}
+
+/// A type whose values are pointers to objects of a kind.
+macro_rules! references {
+    ($($variant:ident($object:ty) $type_name:ident;)*) => {
+        $(impl<'a> FromValue<'a> for &'a Rc<$object> {
+            #[inline]
+            fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+                match value {
+                    Value::$variant(object) => Ok(object),
+                    _ => Err(Raise::type_error(value, known::$type_name)),
+                }
+            }
+        })*
+    };
+}
+
+references! {
+    Cons(Cons) CONS;
+    Str(LispString) STRING;
+    Hash(HashTable) HASH_TABLE;
+    Stream(Stream) STREAM;
+    Function(Function) FUNCTION;
+    Class(Class) CLASS;
+    Instance(Instance) STANDARD_OBJECT;
 }
 
 /// A value that is also `NIL`.

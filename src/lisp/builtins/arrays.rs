@@ -1,5 +1,7 @@
 //! Arrays of any rank: access, shape, kinds.
 
+use std::slice;
+
 use super::array_index;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
@@ -105,67 +107,63 @@ pub(super) fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
 ///
 /// `(aref #(1 2 3) 2)` => `3`
 /// `(aref #2A((1 2) (3 4)) 1 0)` => `3`
-#[builtin(_, "array &rest subscripts")]
-fn aref(_: &mut Image, args: &[Value]) -> Outcome {
-    let at = row_major_index(&args[0], &args[1..])?;
-    match row_major(&args[0], at) {
+#[builtin]
+fn aref(array: &Value, subscripts: &[Value]) -> Outcome {
+    let at = row_major_index(array, subscripts)?;
+    match row_major(array, at) {
         Some(value) => Ok(value),
-        None => Err(array_index::invalid(
-            &args[0],
-            &at.into(),
-            total_size(&args[0])?,
-        )),
+        None => Err(array_index::invalid(array, &at.into(), total_size(array)?)),
     }
 }
 
 /// Replaces an element.
-#[builtin("AREF", "value array &rest subscripts")]
-fn set_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    let at = row_major_index(&args[1], &args[2..])?;
-    set_row_major(&args[1], at, &args[0])
+#[builtin("AREF")]
+fn set_aref(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    let at = row_major_index(array, subscripts)?;
+    set_row_major(array, at, value)
 }
 
 /// The element of a simple vector.
 ///
 /// `(svref #(1 2 3) 1)` => `2`
-#[builtin(_, "vector index")]
-fn svref(image: &mut Image, args: &[Value]) -> Outcome {
-    if is_simple_vector(&args[0]) {
-        aref(image, args)
+#[builtin]
+fn svref(vector: &Value, index: &Value) -> Outcome {
+    if is_simple_vector(vector) {
+        aref(vector, slice::from_ref(index))
     } else {
-        Err(Raise::type_error(&args[0], known::SIMPLE_VECTOR))
+        Err(Raise::type_error(vector, known::SIMPLE_VECTOR))
     }
 }
 
 /// Replaces an element.
-#[builtin("SVREF", "value vector index")]
-fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
-    if is_simple_vector(&args[1]) {
-        set_aref(image, args)
+#[builtin("SVREF")]
+fn set_svref(value: &Value, vector: &Value, index: &Value) -> Outcome {
+    if is_simple_vector(vector) {
+        set_aref(value, vector, slice::from_ref(index))
     } else {
-        Err(Raise::type_error(&args[1], known::SIMPLE_VECTOR))
+        Err(Raise::type_error(vector, known::SIMPLE_VECTOR))
     }
 }
 
 /// The element of a bit array.
 ///
 /// `(bit #*1010 0)` => `1`
-#[builtin(_, "array &rest subscripts")]
-fn bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[0])? == ElementType::Bit {
-        aref(image, args)
+#[builtin]
+fn bit(array: &Value, subscripts: &[Value]) -> Outcome {
+    if element_type(array)? == ElementType::Bit {
+        aref(array, subscripts)
     } else {
-        Err(Raise::type_error(&args[0], bit_array_type()))
+        Err(Raise::type_error(array, bit_array_type()))
     }
 }
 
 /// Replaces an element.
-#[builtin("BIT", "value array &rest subscripts")]
-fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[1])? == ElementType::Bit {
-        set_aref(image, args)
+#[builtin("BIT")]
+fn set_bit(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    if element_type(array)? == ElementType::Bit {
+        set_aref(value, array, subscripts)
     } else {
-        Err(Raise::type_error(&args[1], bit_array_type()))
+        Err(Raise::type_error(array, bit_array_type()))
     }
 }
 
@@ -178,60 +176,54 @@ pub(crate) fn bit_array_type() -> Value {
 ///
 /// `(row-major-aref #2A((1 2) (3 4)) 2)` => `3`
 #[builtin(_, "array index")]
-fn row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    match row_major(&args[0], index(&args[1])?) {
+fn row_major_aref(array: &Value, index_value: &Value) -> Outcome {
+    match row_major(array, index(index_value)?) {
         Some(value) => Ok(value),
-        None => Err(array_index::invalid(
-            &args[0],
-            &args[1],
-            total_size(&args[0])?,
-        )),
+        None => Err(array_index::invalid(array, index_value, total_size(array)?)),
     }
 }
 
 /// Replaces an element.
-#[builtin("ROW-MAJOR-AREF", "value array index")]
-fn set_row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    set_row_major(&args[1], index(&args[2])?, &args[0])
+#[builtin("ROW-MAJOR-AREF")]
+fn set_row_major_aref(value: &Value, array: &Value, index: usize) -> Outcome {
+    set_row_major(array, index, value)
 }
 
 /// The index of an element of an array seen as a vector.
 ///
 /// `(array-row-major-index #2A((1 2) (3 4)) 1 0)` => `2`
-#[builtin(_, "array &rest subscripts")]
-fn array_row_major_index(_: &mut Image, args: &[Value]) -> Outcome {
-    row_major_index(&args[0], &args[1..]).map(Value::from)
+#[builtin]
+fn array_row_major_index(array: &Value, subscripts: &[Value]) -> Outcome {
+    row_major_index(array, subscripts).map(Value::from)
 }
 
 /// The number of dimensions.
 ///
 /// `(array-rank #2A((1)))` => `2`
-#[builtin(_, "array")]
-fn array_rank(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(dimensions(&args[0])?.len().into())
+#[builtin]
+fn array_rank(array: &Value) -> Outcome {
+    Ok(dimensions(array)?.len().into())
 }
 
 /// The sizes of all dimensions.
 ///
 /// `(array-dimensions #2A((1 2 3)))` => `(1 3)`
-#[builtin(_, "array")]
-fn array_dimensions(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::list(
-        dimensions(&args[0])?.into_iter().map(Value::from),
-    ))
+#[builtin]
+fn array_dimensions(array: &Value) -> Outcome {
+    Ok(Value::list(dimensions(array)?.into_iter().map(Value::from)))
 }
 
 /// The size of a dimension.
 ///
 /// `(array-dimension #(1 2) 0)` => `2`
-#[builtin(_, "array axis")]
-fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
-    let dimensions = dimensions(&args[0])?;
-    match dimensions.get(index(&args[1])?) {
+#[builtin]
+fn array_dimension(array: &Value, axis: usize) -> Outcome {
+    let dimensions = dimensions(array)?;
+    match dimensions.get(axis) {
         Some(size) => Ok((*size).into()),
         None => Err(Raise::simple(format!(
             "Axis {} is too large; the array has rank {}.",
-            index(&args[1])?,
+            axis,
             dimensions.len()
         ))),
     }
@@ -240,9 +232,9 @@ fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
 /// The number of elements.
 ///
 /// `(array-total-size #2A((1 2) (3 4)))` => `4`
-#[builtin(_, "array")]
-fn array_total_size(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(total_size(&args[0])?.into())
+#[builtin]
+fn array_total_size(array: &Value) -> Outcome {
+    Ok(total_size(array)?.into())
 }
 
 /// Is there an element at these subscripts?
@@ -265,9 +257,9 @@ fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
 /// The type of the elements.
 ///
 /// `(array-element-type "a")` => `CHARACTER`
-#[builtin(_, "array")]
-fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0]).map(ElementType::specifier)
+#[builtin]
+fn array_element_type(array: &Value) -> Outcome {
+    element_type(array).map(ElementType::specifier)
 }
 
 /// Can the array be adjusted in place?
@@ -283,20 +275,20 @@ pub(super) fn is_adjustable(array: &Value) -> bool {
 /// Can the array be adjusted in place?
 ///
 /// `(adjustable-array-p #(1))` => `NIL`
-#[builtin(_, "array")]
-fn adjustable_array_p(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0])?;
-    Ok(Value::bool(is_adjustable(&args[0])))
+#[builtin]
+fn adjustable_array_p(array: &Value) -> Outcome {
+    element_type(array)?;
+    Ok(Value::bool(is_adjustable(array)))
 }
 
 /// The array that an array shares its elements with, or `NIL`, and the index of the first of them.
 ///
 /// `(array-displacement #(1))` => `NIL ; 0`
 /// `(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1))` => `#(1 2 3) ; 1`
-#[builtin(_, "array")]
-fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0])?;
-    let (target, offset) = match displacement(&args[0]) {
+#[builtin]
+fn array_displacement(array: &Value) -> Outcome {
+    element_type(array)?;
+    let (target, offset) = match displacement(array) {
         Some(displacement) => (displacement.target.clone(), displacement.offset),
         None => (Value::NIL, 0),
     };
@@ -306,20 +298,17 @@ fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
 /// Is the object an array?
 ///
 /// `(arrayp "a")` => `T`
-#[builtin(_, "object")]
-fn arrayp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(dimensions(&args[0]).is_ok()))
+#[builtin]
+fn arrayp(object: &Value) -> bool {
+    dimensions(object).is_ok()
 }
 
 /// Is the object a vector?
 ///
 /// `(vectorp #2A((1)))` => `NIL`
-#[builtin(_, "object")]
-fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(
-        args[0],
-        Value::Vector(_) | Value::Str(_)
-    )))
+#[builtin]
+fn vectorp(object: &Value) -> bool {
+    matches!(object, Value::Vector(_) | Value::Str(_))
 }
 
 /// Is this a vector without a fill pointer whose elements may be anything?
@@ -330,9 +319,9 @@ fn is_simple_vector(value: &Value) -> bool {
 /// Is the object a simple vector?
 ///
 /// `(simple-vector-p #(1))` => `T`
-#[builtin(_, "object")]
-fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(is_simple_vector(&args[0])))
+#[builtin]
+fn simple_vector_p(object: &Value) -> bool {
+    is_simple_vector(object)
 }
 
 fn is_bit_vector(value: &Value) -> bool {
@@ -342,33 +331,31 @@ fn is_bit_vector(value: &Value) -> bool {
 /// Is the object a bit vector?
 ///
 /// `(bit-vector-p #*1)` => `T`
-#[builtin(_, "object")]
-fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(is_bit_vector(&args[0])))
+#[builtin]
+fn bit_vector_p(object: &Value) -> bool {
+    is_bit_vector(object)
 }
 
 /// Is the object a simple bit vector?
 ///
 /// `(simple-bit-vector-p #*1)` => `T`
-#[builtin(_, "object")]
-fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let simple =
-        matches!(&args[0], Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple());
-    Ok(Value::bool(simple))
+#[builtin]
+fn simple_bit_vector_p(object: &Value) -> bool {
+    matches!(object, Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple())
 }
 
 /// The element of a bit array.
 ///
 /// `(sbit #*1010 1)` => `0`
-#[builtin(_, "array &rest subscripts")]
-fn sbit(image: &mut Image, args: &[Value]) -> Outcome {
-    bit(image, args)
+#[builtin]
+fn sbit(array: &Value, subscripts: &[Value]) -> Outcome {
+    bit(array, subscripts)
 }
 
 /// Replaces an element.
-#[builtin("SBIT", "value array &rest subscripts")]
-fn set_sbit(image: &mut Image, args: &[Value]) -> Outcome {
-    set_bit(image, args)
+#[builtin("SBIT")]
+fn set_sbit(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    set_bit(value, array, subscripts)
 }
 
 /// Arrays.

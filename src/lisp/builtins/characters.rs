@@ -7,7 +7,7 @@ use crate::lisp::reader::char_name::{char_name as special_name, char_named};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{character, index};
+use crate::lisp::value::sequence::character;
 use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
@@ -79,25 +79,24 @@ fn designated(image: &Image, value: &Value) -> Result<char, Box<Raise>> {
 /// The character that a character, or a string or symbol of one character, means.
 ///
 /// `(character "a")` => `#\a`
-#[builtin("CHARACTER", "designator")]
-fn to_character(image: &mut Image, args: &[Value]) -> Outcome {
-    designated(image, &args[0]).map(Value::Char)
+#[builtin("CHARACTER")]
+fn to_character(image: &mut Image, designator: &Value) -> Outcome {
+    designated(image, designator).map(Value::Char)
 }
 
 /// The code of a character.
 ///
 /// `(char-code #\A)` => `65`
-#[builtin(_, "character")]
-fn char_code(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Int(i64::from(u32::from(character(&args[0])?))))
+#[builtin]
+fn char_code(character: char) -> Outcome {
+    Ok(Value::Int(i64::from(u32::from(character))))
 }
 
 /// The character of a code.
 ///
 /// `(code-char 65)` => `#\A`
-#[builtin(_, "code")]
-fn code_char(_: &mut Image, args: &[Value]) -> Outcome {
-    let code = index(&args[0])?;
+#[builtin]
+fn code_char(code: usize) -> Outcome {
     let c = u32::try_from(code).ok().and_then(char::from_u32);
     Ok(c.map_or(Value::NIL, Value::Char))
 }
@@ -105,34 +104,33 @@ fn code_char(_: &mut Image, args: &[Value]) -> Outcome {
 /// The name of a character.
 ///
 /// `(char-name #\Newline)` => `"Newline"`
-#[builtin(_, "character")]
-fn char_name(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::string(name_of(character(&args[0])?)))
+#[builtin]
+fn char_name(character: char) -> Outcome {
+    Ok(Value::string(name_of(character)))
 }
 
 /// The character of a name, or `NIL`.
 ///
 /// `(name-char "newline")` => `#\Newline`
-#[builtin(_, "name")]
-fn name_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = super::strings::designated(image, &args[0])?;
+#[builtin]
+fn name_char(name: String) -> Outcome {
     Ok(char_named(&name).map_or(Value::NIL, Value::Char))
 }
 
 /// The upper-case form of a character.
 ///
 /// `(char-upcase #\a)` => `#\A`
-#[builtin(_, "character")]
-fn char_upcase(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Char(upcase(character(&args[0])?)))
+#[builtin]
+fn char_upcase(character: char) -> Outcome {
+    Ok(Value::Char(upcase(character)))
 }
 
 /// The lower-case form of a character.
 ///
 /// `(char-downcase #\A)` => `#\a`
-#[builtin(_, "character")]
-fn char_downcase(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Char(downcase(character(&args[0])?)))
+#[builtin]
+fn char_downcase(character: char) -> Outcome {
+    Ok(Value::Char(downcase(character)))
 }
 
 fn is(args: &[Value], test: impl FnOnce(char) -> bool) -> Outcome {
@@ -142,9 +140,9 @@ fn is(args: &[Value], test: impl FnOnce(char) -> bool) -> Outcome {
 /// Is the object a character?
 ///
 /// `(characterp #\a)` => `T`
-#[builtin(_, "object")]
-fn characterp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Char(_))))
+#[builtin]
+fn characterp(object: &Value) -> bool {
+    matches!(object, Value::Char(_))
 }
 
 /// Is the character a letter?
@@ -213,8 +211,8 @@ fn standard_char_p(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(digit-char-p #\7)` => `7`
 /// `(digit-char-p #\f 16)` => `15`
 #[builtin(_, "character &optional radix")]
-fn digit_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let weight = digit_weight(character(&args[0])?, radix(args.get(1))?);
+fn digit_char_p(character: char, radix_value: Option<&Value>) -> Outcome {
+    let weight = digit_weight(character, radix(radix_value)?);
     Ok(weight.map_or(Value::NIL, |w| Value::Int(i64::from(w))))
 }
 
@@ -223,12 +221,11 @@ fn digit_char_p(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(digit-char 7)` => `#\7`
 /// `(digit-char 11 16)` => `#\B`
 #[builtin(_, "weight &optional radix")]
-fn digit_char(_: &mut Image, args: &[Value]) -> Outcome {
-    let weight = index(&args[0])?;
+fn digit_char(weight: usize, radix_value: Option<&Value>) -> Outcome {
     let digit = u32::try_from(weight)
         .ok()
-        .and_then(|w| char::from_digit(w, radix(args.get(1)).ok()?));
-    radix(args.get(1))?;
+        .and_then(|w| char::from_digit(w, radix(radix_value).ok()?));
+    radix(radix_value)?;
     Ok(digit.map_or(Value::NIL, |c| Value::Char(c.to_ascii_uppercase())))
 }
 
@@ -286,9 +283,9 @@ comparisons! {
 /// The code of a character.
 ///
 /// `(char-int #\A)` => `65`
-#[builtin(_, "character")]
-fn char_int(image: &mut Image, args: &[Value]) -> Outcome {
-    char_code(image, args)
+#[builtin]
+fn char_int(character: char) -> Outcome {
+    char_code(character)
 }
 
 /// Characters.

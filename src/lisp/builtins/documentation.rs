@@ -18,10 +18,10 @@ use crate::lisp::{builtin, builtins};
 ///
 /// `(progn (defun twice (x) "Doubles." (* 2 x)) (documentation 'twice 'function))` => `"Doubles."`
 /// `(progn (defparameter *speed* 1 "In m/s.") (documentation '*speed* 'variable))` => `"In m/s."`
-#[builtin(_, "object doc-type")]
-fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let kind = args[1].as_symbol();
-    let text = match (&args[0], kind) {
+#[builtin]
+fn documentation(image: &mut Image, object: &Value, doc_type: &Value) -> Result<Value, Box<Raise>> {
+    let kind = doc_type.as_symbol();
+    let text = match (object, kind) {
         (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
             image.symbol(*name).variable_doc.clone()
         }
@@ -30,7 +30,7 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
         }
         (Value::Symbol(name, ..), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
         (Value::Cons(_), Some(known::FUNCTION)) => image
-            .named_function(&args[0])
+            .named_function(object)
             .and_then(|f| of_function(image, &f)),
         (Value::Function(function), _) => match name_of(image, function) {
             Some(name) => of_name(image, name),
@@ -97,9 +97,14 @@ fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
 
 /// Gives a name a documentation.
 #[builtin("DOCUMENTATION", "text object doc-type")]
-fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let text: Option<Rc<str>> = args[0].as_text().map(Into::into);
-    match (&args[1], args[2].as_symbol()) {
+fn set_documentation(
+    image: &mut Image,
+    text_value: &Value,
+    object: &Value,
+    doc_type: &Value,
+) -> Result<Value, Box<Raise>> {
+    let text: Option<Rc<str>> = text_value.as_text().map(Into::into);
+    match (object, doc_type.as_symbol()) {
         (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
             image.symbols.get_mut(*name).variable_doc = text;
         }
@@ -119,7 +124,7 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
             }
         }
     }
-    Ok(args[0].clone())
+    Ok(text_value.clone())
 }
 
 /// The builtins.

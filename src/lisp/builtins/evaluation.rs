@@ -21,57 +21,57 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// The object.
 ///
 /// `(identity 1)` => `1`
-#[builtin(_, "object")]
-fn identity(args: &[Value]) -> Result<Value> {
-    Ok(args[0].clone())
+#[builtin]
+fn identity(object: Value) -> Result<Value> {
+    Ok(object)
 }
 
 /// T if the object is NIL.
 ///
 /// `(not nil)` => `T`
-#[builtin(_, "object")]
-fn not(args: &[Value]) -> Result<Value> {
-    Ok(args[0].is_nil().into())
+#[builtin]
+fn not(object: &Value) -> Result<Value> {
+    Ok(object.is_nil().into())
 }
 
 /// Are they the same object?
 ///
 /// `(eq 'a 'a)` => `T`
-#[builtin(_, "a b")]
-fn eq(args: &[Value]) -> Result<Value> {
-    Ok(args[0].is_eq(&args[1]).into())
+#[builtin]
+fn eq(a: &Value, b: &Value) -> Result<Value> {
+    Ok(a.is_eq(b).into())
 }
 
 /// Are they the same object, or equal numbers of one type?
 ///
 /// `(eql 1 1.0)` => `NIL`
-#[builtin(_, "a b")]
-fn eql(args: &[Value]) -> Result<Value> {
-    Ok(args[0].is_eql(&args[1]).into())
+#[builtin]
+fn eql(a: &Value, b: &Value) -> Result<Value> {
+    Ok(a.is_eql(b).into())
 }
 
 /// Have they the same structure and contents?
 ///
 /// `(equal '(1 "a") '(1 "a"))` => `T`
-#[builtin(_, "a b")]
-fn equal(args: &[Value]) -> Result<Value> {
-    Ok(crate::lisp::value::equality::equal(&args[0], &args[1]).into())
+#[builtin]
+fn equal(a: &Value, b: &Value) -> Result<Value> {
+    Ok(crate::lisp::value::equality::equal(a, b).into())
 }
 
 /// Like EQUAL; numbers by value, letters without case, arrays by element.
 ///
 /// `(equalp "A" "a")` => `T`
-#[builtin(_, "a b")]
-fn equalp(args: &[Value]) -> Result<Value> {
-    Ok(crate::lisp::value::equality::equalp(&args[0], &args[1]).into())
+#[builtin]
+fn equalp(a: &Value, b: &Value) -> Result<Value> {
+    Ok(crate::lisp::value::equality::equalp(a, b).into())
 }
 
 /// Is it a function?
 ///
 /// `(functionp #'car)` => `T`
-#[builtin(_, "object")]
-fn functionp(args: &[Value]) -> Result<Value> {
-    Ok(matches!(args[0], Value::Function(_)).into())
+#[builtin]
+fn functionp(object: &Value) -> Result<Value> {
+    Ok(matches!(object, Value::Function(_)).into())
 }
 
 /// Evaluates forms one after the other, so that each sees what the ones before defined.
@@ -123,9 +123,9 @@ pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> 
 /// Evaluates a form.
 ///
 /// `(eval '(+ 1 2))` => `3`
-#[builtin(_, "form")]
-fn eval(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    evaluate(machine, &args[0])
+#[builtin]
+fn eval(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+    evaluate(machine, form)
 }
 
 /// Calls a function.
@@ -160,20 +160,20 @@ fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 /// Returns the values.
 ///
 /// `(values 1 2)` => `1 ; 2`
-#[builtin(_, "&rest values")]
-fn values(_: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(Value::values(args.to_vec()))
+#[builtin]
+fn values(values: &[Value]) -> Result<Value> {
+    Ok(Value::values(values.to_vec()))
 }
 
 /// Returns the elements of a list as values.
 ///
 /// `(values-list '(1 2))` => `1 ; 2`
-#[builtin(_, "list")]
-fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
-    match args[0].list_to_vec() {
+#[builtin]
+fn values_list(list: &Value) -> Result<Value> {
+    match list.list_to_vec() {
         Some(items) => Ok(Value::values(items)),
         None => {
-            let mut items = args[0].iter_list();
+            let mut items = list.iter_list();
             items.by_ref().for_each(drop);
             Err(Raise::type_error(&items.rest, known::LIST))
         }
@@ -184,13 +184,10 @@ fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
 ///
 /// `(funcall (constantly 1) 2 3)` => `1`
 #[builtin(_, "value")]
-fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let constant = Function::pure_of(
-        known::CONSTANTLY,
-        (0, None),
-        args[0].clone(),
-        |value, _, _| Ok(value.clone()),
-    );
+fn constantly(value_value: Value) -> Result<Value> {
+    let constant = Function::pure_of(known::CONSTANTLY, (0, None), value_value, |value, _, _| {
+        Ok(value.clone())
+    });
     Ok(Value::Function(constant))
 }
 
@@ -218,9 +215,13 @@ fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
 ///
 /// `(macroexpand '(when a b))` => `(IF A B) ; T`
 #[builtin(_, "form &optional environment")]
-fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
+fn macroexpand(
+    image: &mut Image,
+    form_value: &Value,
+    environment: Option<&Value>,
+) -> Result<Value> {
     let (form, expanded) =
-        compile::macroexpand_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
+        compile::macroexpand_in(image, form_value, environment.unwrap_or(&Value::NIL))?;
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
@@ -228,10 +229,15 @@ fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
 ///
 /// `(macroexpand-1 '(when a b))` => `(IF A B) ; T`
 #[builtin(_, "form &optional environment")]
-fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expansion = compile::macroexpand_1_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
+fn macroexpand_1(
+    image: &mut Image,
+    form_value: &Value,
+    environment: Option<&Value>,
+) -> Result<Value> {
+    let expansion =
+        compile::macroexpand_1_in(image, form_value, environment.unwrap_or(&Value::NIL))?;
     let expanded = expansion.is_some();
-    let form = expansion.unwrap_or_else(|| args[0].clone());
+    let form = expansion.unwrap_or_else(|| form_value.clone());
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
@@ -239,29 +245,41 @@ fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
 ///
 /// `(funcall (compile nil '(lambda (x) (* x x))) 3)` => `9`
 #[builtin("COMPILE", "name &optional definition")]
-fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
-    match args.get(1) {
+fn compile_function(
+    image: &mut Image,
+    name_value: &Value,
+    definition_value: Option<&Value>,
+) -> Result<Value> {
+    match definition_value {
         Some(definition @ Value::Cons(_)) => {
             let function = Value::Function(compile::compile_lambda(image, definition)?);
-            if let Some(name) = args[0].as_symbol().filter(|_| args[0].is_true())
+            if let Some(name) = name_value.as_symbol().filter(|_| name_value.is_true())
                 && let Value::Function(f) = &function
             {
                 image.set_function(name, f.clone());
-                return Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL]));
+                return Ok(Value::values(vec![
+                    name_value.clone(),
+                    Value::NIL,
+                    Value::NIL,
+                ]));
             }
             Ok(Value::values(vec![function, Value::NIL, Value::NIL]))
         }
-        _ => Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL])),
+        _ => Ok(Value::values(vec![
+            name_value.clone(),
+            Value::NIL,
+            Value::NIL,
+        ])),
     }
 }
 
 /// Does the symbol name a special operator?
 ///
 /// `(special-operator-p 'if)` => `T`
-#[builtin(_, "symbol")]
-fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+#[builtin]
+fn special_operator_p(image: &mut Image, symbol: &Value) -> Result<Value> {
+    let Some(name) = symbol.as_symbol() else {
+        return Err(Raise::type_error(symbol, known::SYMBOL));
     };
     // A declaration is no form.
     let is_special =
@@ -303,9 +321,9 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
 ///
 /// `(function-lambda-expression #'car)` => `NIL ; T ; CAR`
 #[builtin(_, "function")]
-fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Value::Function(function) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::FUNCTION));
+fn function_lambda_expression(function_value: &Value) -> Result<Value> {
+    let Value::Function(function) = function_value else {
+        return Err(Raise::type_error(function_value, known::FUNCTION));
     };
     let name = match &function.body {
         Body::Closure { code, .. } => code.name.value(),

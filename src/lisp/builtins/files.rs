@@ -1,6 +1,7 @@
 //! Files, by the names that the machine knows them by: opening, finding, deleting, renaming. Relative
 //! names begin in the directory that the program was started in; texts are UTF-8.
 
+use crate::lisp::value::string::LispString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind};
 use std::rc::Rc;
@@ -10,7 +11,7 @@ use super::keywords;
 use super::shown::shown;
 use super::strings::string;
 use crate::closest_name::closest_name;
-use crate::lisp::builtin::Builtin;
+use crate::lisp::builtin::{Builtin, FromValue};
 use crate::lisp::image::Image;
 use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::value::Value;
@@ -21,6 +22,15 @@ use crate::lisp::value::stream::Elements;
 use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
+
+/// The name of one file.
+struct FilePath(String);
+
+impl FromValue<'_> for FilePath {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        path(value).map(FilePath)
+    }
+}
 
 fn path(value: &Value) -> Result<String, Box<Raise>> {
     let path = string(value)?.text();
@@ -250,9 +260,9 @@ fn open_output(
 ///
 /// `(system::%true-name "no-such-file.txt")` => `NIL`
 // The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
-#[builtin("%TRUE-NAME", "name")]
-fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+#[builtin("%TRUE-NAME")]
+fn true_name(name: FilePath) -> Outcome {
+    let path = name.0;
     let here = if path.is_empty() { "." } else { path.as_str() };
     let Some(found) = fs::canonicalize(here)
         .ok()
@@ -266,17 +276,17 @@ fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Deletes a file.
-#[builtin("%DELETE-FILE", "name")]
-fn delete_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+#[builtin("%DELETE-FILE")]
+fn delete_file(name: FilePath) -> Outcome {
+    let path = name.0;
     fs::remove_file(&path).map_err(|error| file_error("deleting", &path, &error))?;
     Ok(Value::T)
 }
 
 /// Renames a file.
-#[builtin("%RENAME-FILE", "name new-name")]
-fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let (old, new) = (path(&args[0])?, path(&args[1])?);
+#[builtin("%RENAME-FILE")]
+fn rename_file(name: FilePath, new_name: FilePath) -> Outcome {
+    let (old, new) = (name.0, new_name.0);
     fs::rename(&old, &new).map_err(|error| file_error("renaming", &old, &error))?;
     Ok(Value::T)
 }
@@ -285,9 +295,9 @@ fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
 const UNIVERSAL_TO_UNIX: u64 = 2_208_988_800;
 
 /// The universal time at which a file was written last.
-#[builtin("%FILE-DATE", "name")]
-fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+#[builtin("%FILE-DATE")]
+fn file_date(name: FilePath) -> Outcome {
+    let path = name.0;
     let written = fs::metadata(&path)
         .and_then(|data| data.modified())
         .map_err(|error| file_error("looking at", &path, &error))?;
@@ -300,9 +310,9 @@ fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%make-directories "")` => `NIL`
 // Makes a folder and those around it; was it missing?
-#[builtin("%MAKE-DIRECTORIES", "name")]
-fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+#[builtin("%MAKE-DIRECTORIES")]
+fn make_directories(name: FilePath) -> Outcome {
+    let path = name.0;
     if path.is_empty() || fs::metadata(&path).is_ok_and(|data| data.is_dir()) {
         return Ok(Value::NIL);
     }
@@ -315,8 +325,8 @@ fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system:file-names "no-such-folder")` => `NIL`
 #[builtin(_, "folder")]
-fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
-    let folder = string(&args[0])?.text();
+fn file_names(folder_argument: &Rc<LispString>) -> Outcome {
+    let folder = folder_argument.text();
     let Ok(entries) = fs::read_dir(&folder) else {
         return Ok(Value::NIL);
     };
@@ -337,9 +347,9 @@ fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system:closest-name "iterat" '("fiveam" "iterate"))` => `"iterate"`
 #[builtin("CLOSEST-NAME", "name names")]
-fn closest(_: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let names: Vec<String> = args[1]
+fn closest(name_argument: &Rc<LispString>, names_value: &Value) -> Outcome {
+    let name = name_argument.text();
+    let names: Vec<String> = names_value
         .iter_list()
         .map(|name| Ok(string(&name)?.text()))
         .collect::<Result<_, Box<Raise>>>()?;

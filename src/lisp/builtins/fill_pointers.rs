@@ -1,7 +1,6 @@
 //! Vectors with fill pointers: pushing and popping.
 
 use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
@@ -30,11 +29,11 @@ fn pointer_of(vector: &Value) -> Result<usize, Box<Raise>> {
 /// Has the array a fill pointer?
 ///
 /// `(array-has-fill-pointer-p #(1))` => `NIL`
-#[builtin("ARRAY-HAS-FILL-POINTER-P", "array")]
-fn has_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+#[builtin("ARRAY-HAS-FILL-POINTER-P")]
+fn has_fill_pointer(array: &Value) -> Outcome {
+    match array {
         Value::Array(_) => Ok(Value::NIL),
-        Value::Vector(_) | Value::Str(_) => Ok(Value::bool(pointer_of(&args[0]).is_ok())),
+        Value::Vector(_) | Value::Str(_) => Ok(Value::bool(pointer_of(array).is_ok())),
         other => Err(Raise::type_error(other, known::ARRAY)),
     }
 }
@@ -42,17 +41,16 @@ fn has_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
 /// The number of active elements.
 ///
 /// `(fill-pointer (make-array 3 :fill-pointer 2))` => `2`
-#[builtin(_, "vector")]
-fn fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    pointer_of(&args[0]).map(Value::from)
+#[builtin]
+fn fill_pointer(vector: &Value) -> Outcome {
+    pointer_of(vector).map(Value::from)
 }
 
 /// Sets the number of active elements.
-#[builtin("FILL-POINTER", "value vector")]
-fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    let vector = &args[1];
+#[builtin("FILL-POINTER")]
+fn set_fill_pointer(value: &Value, vector: &Value) -> Outcome {
     pointer_of(vector)?;
-    let pointer = index(&args[0])?;
+    let pointer = index(value)?;
     let (done, size) = match vector {
         Value::Vector(v) => {
             let size = v.items.len();
@@ -65,13 +63,13 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
         _ => (false, 0),
     };
     if done {
-        Ok(args[0].clone())
+        Ok(value.clone())
     } else {
         Err(Raise::new(
             known::SIMPLE_TYPE_ERROR,
             format!("The fill pointer {pointer} is beyond the vector's size {size}."),
         )
-        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_DATUM, value.clone())
         .with(
             known::K_EXPECTED_TYPE,
             Value::list([known::INTEGER.into(), Value::Int(0), size.into()]),
@@ -82,18 +80,17 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
 /// Adds an element behind the active ones; its index, or `NIL` if the vector is full.
 ///
 /// `(vector-push 'a (make-array 2 :fill-pointer 0))` => `0`
-#[builtin(_, "element vector")]
-fn vector_push(_: &mut Image, args: &[Value]) -> Outcome {
-    push(&args[0], &args[1], None)
+#[builtin]
+fn vector_push(element: &Value, vector: &Value) -> Outcome {
+    push(element, vector, None)
 }
 
 /// Adds an element behind the active ones, making room if need be; its index.
 ///
 /// `(vector-push-extend 'a (make-array 0 :fill-pointer 0 :adjustable t))` => `0`
-#[builtin(_, "element vector &optional extension")]
-fn vector_push_extend(_: &mut Image, args: &[Value]) -> Outcome {
-    let extension = args.get(2).map_or(Ok(1), index)?;
-    push(&args[0], &args[1], Some(extension.max(1)))
+#[builtin]
+fn vector_push_extend(element: &Value, vector: &Value, #[default(1)] extension: usize) -> Outcome {
+    push(element, vector, Some(extension.max(1)))
 }
 
 /// Adds an element; returns its index, or `NIL` if there is no room and the vector must not grow.
@@ -129,12 +126,12 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
 /// Takes the last active element.
 ///
 /// `(vector-pop (make-array 1 :fill-pointer 1 :initial-element 'x))` => `X`
-#[builtin(_, "vector")]
-fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
-    let Some(last) = pointer_of(&args[0])?.checked_sub(1) else {
+#[builtin]
+fn vector_pop(vector: &Value) -> Outcome {
+    let Some(last) = pointer_of(vector)?.checked_sub(1) else {
         return Err(Raise::simple("There is nothing left to pop."));
     };
-    match &args[0] {
+    match vector {
         Value::Vector(v) => {
             v.fill_pointer.set(Some(last));
             Ok(v.get(last).unwrap_or(Value::NIL))

@@ -158,17 +158,22 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 /// Writes to a stream as FORMAT does; the arguments that are left.
 // Writes to a stream as FORMAT does; returns the arguments that are left.
 #[builtin("%FORMAT-REST", "stream control &rest arguments")]
-fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let Value::Str(control) = &args[1] else {
-        return Err(Raise::type_error(&args[1], known::STRING));
+fn format_rest(
+    machine: &mut Machine<'_>,
+    stream_value: Value,
+    control_value: Value,
+    arguments: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let Value::Str(control) = &control_value else {
+        return Err(Raise::type_error(&control_value, known::STRING));
     };
     let control = Control::parse(&control.borrow())?;
-    let target = args[0].clone();
+    let target = stream_value;
     if let Some(stream) = stream::pretty(machine.image, &target) {
         return compose(
             machine,
             "FORMATTER",
-            move |image, calls| control.run_for_rest(image, &args[2..], 0, true, calls),
+            move |image, calls| control.run_for_rest(image, &arguments, 0, true, calls),
             move |_, (output, rest)| {
                 stream.with_document(|document| document.append(&output.into_document()));
                 Ok(Step::Return(Value::list(rest)))
@@ -183,7 +188,7 @@ fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
     compose(
         machine,
         "FORMATTER",
-        move |image, calls| control.run_for_rest(image, &args[2..], column, false, calls),
+        move |image, calls| control.run_for_rest(image, &arguments, column, false, calls),
         move |machine, (output, rest)| {
             let text = Value::string(output.into_text());
             run(machine, "FORMATTER", |calls| async move {

@@ -4,7 +4,7 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Operator};
+use crate::lisp::builtin::{Builtin, FromValue, Operator};
 use crate::lisp::image::Image;
 use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
 use crate::lisp::object::combine::{invoke_method, no_next_method};
@@ -33,44 +33,60 @@ fn no_applicable_method(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<S
 }
 
 /// The error that CALL-NEXT-METHOD has nothing to call.
-#[builtin("NO-NEXT-METHOD", "generic-function method &rest arguments")]
-fn no_next_method_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    Err(no_next_method(machine.image, &args[0]))
+#[builtin("NO-NEXT-METHOD")]
+fn no_next_method_builtin(
+    machine: &mut Machine<'_>,
+    generic_function: &Value,
+    _method: &Value,
+    _arguments: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    Err(no_next_method(machine.image, generic_function))
 }
 
 /// Adds a method to a generic function, which is returned.
-#[builtin("ADD-METHOD", "generic-function method")]
-fn add_method_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(&args[0])?.clone();
+#[builtin("ADD-METHOD")]
+fn add_method_builtin(
+    image: &mut Image,
+    generic_function: &Value,
+    method: &Rc<Method>,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_argument(generic_function)?.clone();
     let required = as_generic(&function)?.parameters.borrow().required;
-    let count = method_argument(&args[1])?.specializers.len();
+    let count = method.specializers.len();
     if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
-        return Err(wrong_count(image, &args[0], required, count));
+        return Err(wrong_count(image, generic_function, required, count));
     }
-    check_owner(image, &function, method_argument(&args[1])?)?;
-    add_method(image, &function, method_argument(&args[1])?.clone())?;
-    Ok(args[0].clone())
+    check_owner(image, &function, method)?;
+    add_method(image, &function, method.clone())?;
+    Ok(generic_function.clone())
 }
 
 /// Removes a method from a generic function, which is returned.
 ///
 /// `(progn (defgeneric lift (x)) (let ((m (defmethod lift ((x integer)) x))) (remove-method #'lift m) (find-method #'lift '() (list (find-class 'integer)) nil)))` => `NIL`
-#[builtin("REMOVE-METHOD", "generic-function method")]
-fn remove_method_builtin(args: &[Value]) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(&args[0])?;
+#[builtin("REMOVE-METHOD")]
+fn remove_method_builtin(
+    generic_function: &Value,
+    method: &Rc<Method>,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_argument(generic_function)?;
     if let Some(generic) = function.as_generic() {
-        remove_method(generic, method_argument(&args[1])?);
+        remove_method(generic, method);
     }
-    Ok(args[0].clone())
+    Ok(generic_function.clone())
 }
 
 /// The methods that apply to the arguments, most specific first.
 ///
 /// `(progn (defgeneric f (x)) (compute-applicable-methods #'f '(1)))` => `NIL`
 #[builtin(_, "generic-function arguments")]
-fn compute_applicable_methods(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(&args[0])?.clone();
-    let arguments: Vec<Value> = args[1].iter_list().collect();
+fn compute_applicable_methods(
+    image: &mut Image,
+    generic_function: Generic<'_>,
+    arguments_value: &Value,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_function.0.clone();
+    let arguments: Vec<Value> = arguments_value.iter_list().collect();
     let generic = as_generic(&function)?;
     let methods = applicable_methods(image, generic, &arguments);
     Ok(Value::list(methods.iter().map(method_value)))
@@ -79,9 +95,9 @@ fn compute_applicable_methods(image: &mut Image, args: &[Value]) -> Result<Value
 /// The keywords that a method accepts, and whether it accepts all others, too.
 ///
 /// `(function-keywords (defmethod poured (x &key (into 'cup)) (list x into)))` => `(:INTO) ; NIL`
-#[builtin(_, "method")]
-fn function_keywords(args: &[Value]) -> Result<Value, Box<Raise>> {
-    let parameters = &method_argument(&args[0])?.parameters;
+#[builtin]
+fn function_keywords(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
+    let parameters = &method.parameters;
     let keys = parameters.keys.iter().flatten().copied();
     Ok(Value::values(vec![
         Value::list(keys.map(Value::symbol)),
@@ -92,9 +108,8 @@ fn function_keywords(args: &[Value]) -> Result<Value, Box<Raise>> {
 /// The qualifiers of a method.
 ///
 /// `(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x)))` => `(:BEFORE)`
-#[builtin(_, "method")]
-fn method_qualifiers(args: &[Value]) -> Result<Value, Box<Raise>> {
-    let method = method_argument(&args[0])?;
+#[builtin]
+fn method_qualifiers(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
     let qualifiers: Vec<Sym> = method.qualifiers.clone();
     Ok(Value::list(qualifiers.into_iter().map(Value::symbol)))
 }
@@ -131,19 +146,19 @@ fn define_combination_builtin(image: &mut Image, args: &[Value]) -> Result<Value
 
 /// Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.
 #[builtin("%INVOKE-METHOD", "method arguments next")]
-fn invoke_method_builtin(args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let arguments = args[1].iter_list().collect();
-    Ok(invoke_method(
-        method_argument(&args[0])?,
-        arguments,
-        args[2].clone(),
-    ))
+fn invoke_method_builtin(
+    method: &Rc<Method>,
+    arguments_value: &Value,
+    next: Value,
+) -> Result<Step, Box<Raise>> {
+    let arguments = arguments_value.iter_list().collect();
+    Ok(invoke_method(method, arguments, next))
 }
 
 /// The error that CALL-NEXT-METHOD has nothing to call.
-#[builtin("%NO-NEXT-METHOD", "name")]
-fn no_next_method3(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    Err(no_next_method(image, &args[0]))
+#[builtin("%NO-NEXT-METHOD")]
+fn no_next_method3(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>> {
+    Err(no_next_method(image, name))
 }
 
 /// The macros.
@@ -172,6 +187,21 @@ pub(crate) static OPERATORS: &[Operator] = &[
         expand: Some(expand_define_method_combination),
     },
 ];
+
+/// A generic function.
+pub(super) struct Generic<'a>(pub(super) &'a Rc<Function>);
+
+impl<'a> FromValue<'a> for Generic<'a> {
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        generic_argument(value).map(Generic)
+    }
+}
+
+impl<'a> FromValue<'a> for &'a Rc<Method> {
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        method_argument(value)
+    }
+}
 
 pub(super) fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
     match value {

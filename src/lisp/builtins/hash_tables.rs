@@ -72,73 +72,81 @@ pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
 /// Is the object a hash table?
 ///
 /// `(hash-table-p 5)` => `NIL`
-#[builtin(_, "object")]
-fn hash_table_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Hash(_))))
+#[builtin]
+fn hash_table_p(object: &Value) -> bool {
+    matches!(object, Value::Hash(_))
 }
 
 /// The value of a key, and whether the key is there.
 ///
 /// `(gethash 'a (make-hash-table) 7)` => `7 ; NIL`
-#[builtin(_, "key table &optional default")]
-fn gethash(image: &mut Image, args: &[Value]) -> Outcome {
-    let (value, found) = match table(&args[1])?.get(&args[0]) {
+#[builtin]
+fn gethash(
+    image: &mut Image,
+    key: &Value,
+    table: &Rc<HashTable>,
+    default: Option<&Value>,
+) -> Outcome {
+    let (value, found) = match table.get(key) {
         Some(value) => (value, true),
-        None => (args.get(2).cloned().unwrap_or(Value::NIL), false),
+        None => (default.cloned().unwrap_or(Value::NIL), false),
     };
     Ok(image.with_second(value, || found.into()))
 }
 
 /// Sets the value of a key.
-#[builtin("GETHASH", "value key table &optional default")]
-fn set_gethash(_: &mut Image, args: &[Value]) -> Outcome {
-    let table = table(&args[2])?;
-    cycles::note(table, &args[0]);
-    cycles::note(table, &args[1]);
-    table.insert(args[1].clone(), args[0].clone());
-    Ok(args[0].clone())
+#[builtin("GETHASH")]
+fn set_gethash(
+    value: &Value,
+    key: &Value,
+    table: &Rc<HashTable>,
+    _default: Option<&Value>,
+) -> Outcome {
+    cycles::note(table, value);
+    cycles::note(table, key);
+    table.insert(key.clone(), value.clone());
+    Ok(value.clone())
 }
 
 /// Removes a key; was it there?
 ///
 /// `(remhash 'a (make-hash-table))` => `NIL`
-#[builtin(_, "key table")]
-fn remhash(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(table(&args[1])?.remove(&args[0]).into())
+#[builtin]
+fn remhash(key: &Value, table: &Rc<HashTable>) -> Outcome {
+    Ok(table.remove(key).into())
 }
 
 /// Removes all entries; returns the table.
 ///
 /// `(hash-table-count (clrhash (make-hash-table)))` => `0`
 #[builtin(_, "table")]
-fn clrhash(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0])?.clear();
-    Ok(args[0].clone())
+fn clrhash(table_value: &Value) -> Outcome {
+    table(table_value)?.clear();
+    Ok(table_value.clone())
 }
 
 /// The number of entries.
 ///
 /// `(hash-table-count (make-hash-table))` => `0`
-#[builtin(_, "table")]
-fn hash_table_count(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(table(&args[0])?.len().into())
+#[builtin]
+fn hash_table_count(table: &Rc<HashTable>) -> Outcome {
+    Ok(table.len().into())
 }
 
 /// The number of entries that there is room for.
 ///
 /// `(hash-table-size (make-hash-table :size 100))` => `100`
-#[builtin(_, "table")]
-fn hash_table_size(_: &mut Image, args: &[Value]) -> Outcome {
-    let table = table(&args[0])?;
+#[builtin]
+fn hash_table_size(table: &Rc<HashTable>) -> Outcome {
     Ok(table.size.get().max(table.len()).into())
 }
 
 /// The name of the table's test.
 ///
 /// `(hash-table-test (make-hash-table))` => `EQL`
-#[builtin(_, "table")]
-fn hash_table_test(_: &mut Image, args: &[Value]) -> Outcome {
-    let test = table(&args[0])?.test;
+#[builtin]
+fn hash_table_test(table: &Rc<HashTable>) -> Outcome {
+    let test = table.test;
     let name = TESTS.iter().find(|(t, _)| *t == test);
     Ok(name.map_or(Value::NIL, |(_, sym)| Value::symbol(*sym)))
 }
@@ -147,25 +155,29 @@ fn hash_table_test(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(hash-table-rehash-size (make-hash-table))` => `1.5`
 #[builtin("HASH-TABLE-REHASH-SIZE", "table")]
-fn rehash_size(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0]).map(|_| Value::Single(1.5))
+fn rehash_size(table_value: &Value) -> Outcome {
+    table(table_value).map(|_| Value::Single(1.5))
 }
 
 /// How full a table may be.
 ///
 /// `(hash-table-rehash-threshold (make-hash-table))` => `1.0`
 #[builtin("HASH-TABLE-REHASH-THRESHOLD", "table")]
-fn rehash_threshold(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0]).map(|_| Value::Single(1.0))
+fn rehash_threshold(table_value: &Value) -> Outcome {
+    table(table_value).map(|_| Value::Single(1.0))
 }
 
 /// Calls a function with the key and value of each entry, in order of insertion.
 ///
 /// `(let ((h (make-hash-table)) r) (setf (gethash 1 h) 'a) (maphash (lambda (k v) (push (list k v) r)) h) r)` => `((1 A))`
 #[builtin(_, "function table")]
-fn maphash(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let function = callable(machine.image, &args[0])?;
-    let table = table(&args[1])?.clone();
+fn maphash(
+    machine: &mut Machine<'_>,
+    function_value: Value,
+    table_argument: &Rc<HashTable>,
+) -> Result<Step, Box<Raise>> {
+    let function = callable(machine.image, &function_value)?;
+    let table = table_argument.clone();
     run(machine, "MAPHASH", |calls| async move {
         for (key, _) in table.pairs() {
             // An entry may have been removed or changed since.
@@ -181,15 +193,15 @@ fn maphash(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
 ///
 /// `(= (sxhash "abc") (sxhash (copy-seq "abc")))` => `T`
 // A number that is the same for values that are `equal`, on every run.
-#[builtin(_, "object")]
-fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
+#[builtin]
+fn sxhash(image: &mut Image, object: Value) -> Outcome {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let mut mix = |bytes: &[u8]| {
         for byte in bytes {
             hash = (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
         }
     };
-    let mut pending = vec![args[0].clone()];
+    let mut pending = vec![object];
     // Deep structures are distinguished by their first few leaves only.
     for _ in 0..64 {
         let Some(value) = pending.pop() else { break };
@@ -220,9 +232,9 @@ fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%hash-iterator (make-hash-table))` => `(NIL)`
 // The entries that `with-hash-table-iterator` steps through, in a fresh pair.
-#[builtin("%HASH-ITERATOR", "table")]
-fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
-    let entries = table(&args[0])?.pairs();
+#[builtin("%HASH-ITERATOR")]
+fn hash_iterator(table: &Rc<HashTable>) -> Outcome {
+    let entries = table.pairs();
     let entries = entries.into_iter().map(|(k, v)| Value::list([k, v]));
     Ok(Value::cons(
         Value::list(entries.collect::<Vec<_>>()),
@@ -234,10 +246,10 @@ fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%iterator-next (list '((a 1))))` => `T ; A ; 1`
 // Advances an iterator: returns `T` and the parts of the next entry, or `NIL`.
-#[builtin("%ITERATOR-NEXT", "iterator")]
-fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Cons(state) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::CONS));
+#[builtin("%ITERATOR-NEXT")]
+fn iterator_next(iterator: &Value) -> Outcome {
+    let Value::Cons(state) = iterator else {
+        return Err(Raise::type_error(iterator, known::CONS));
     };
     match state.car() {
         Value::Cons(entries) => {
@@ -253,9 +265,9 @@ fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
 /// The keys of a table, in order of insertion.
 ///
 /// `(system::%hash-keys (make-hash-table))` => `NIL`
-#[builtin("%HASH-KEYS", "table")]
-fn hash_keys(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+#[builtin("%HASH-KEYS")]
+fn hash_keys(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs.into_iter().map(|(k, _)| k).collect::<Vec<_>>(),
     ))
@@ -264,9 +276,9 @@ fn hash_keys(_: &mut Image, args: &[Value]) -> Outcome {
 /// The values of a table, in order of insertion.
 ///
 /// `(system::%hash-values (make-hash-table))` => `NIL`
-#[builtin("%HASH-VALUES", "table")]
-fn hash_values(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+#[builtin("%HASH-VALUES")]
+fn hash_values(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs.into_iter().map(|(_, v)| v).collect::<Vec<_>>(),
     ))
@@ -275,9 +287,9 @@ fn hash_values(_: &mut Image, args: &[Value]) -> Outcome {
 /// The entries of a table as pairs, in order of insertion.
 ///
 /// `(system::%hash-pairs (make-hash-table))` => `NIL`
-#[builtin("%HASH-PAIRS", "table")]
-fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+#[builtin("%HASH-PAIRS")]
+fn hash_alist(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs
             .into_iter()

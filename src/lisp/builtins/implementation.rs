@@ -69,9 +69,13 @@ pub(crate) fn define_constants(image: &mut Image) {
 ///
 /// `(constantp 5)` => `T`
 /// `(constantp '(+ 1 2))` => `NIL`
-#[builtin(_, "form &optional environment")]
-fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let is_constant = match &args[0] {
+#[builtin]
+fn constantp(
+    image: &mut Image,
+    form: &Value,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let is_constant = match form {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => cons.car().as_symbol() == Some(known::QUOTE),
         _ => true,

@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use super::keywords;
-use crate::lisp::builtin::Builtin;
+use crate::lisp::builtin::{Builtin, FromValue};
 use crate::lisp::guard::{MOST_ELEMENTS, Pace, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -20,9 +19,9 @@ type Outcome = Result<Value, Box<Raise>>;
 ///
 /// `(list 1 2 3)` => `(1 2 3)`
 /// `(list)` => `NIL`
-#[builtin(_, "&rest elements")]
-fn list(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::list(args.iter().cloned()))
+#[builtin]
+fn list(elements: &[Value]) -> Outcome {
+    Ok(Value::list(elements.iter().cloned()))
 }
 
 /// A fresh list of all arguments but the last, which becomes its tail.
@@ -30,8 +29,8 @@ fn list(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(list* 1 2 '(3 4))` => `(1 2 3 4)`
 /// `(list* 1 2)` => `(1 . 2)`
 #[builtin("LIST*", "element &rest more")]
-fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(match args.split_last() {
+fn list_star(more: &[Value]) -> Outcome {
+    Ok(match more.split_last() {
         Some((tail, items)) => Value::list_with_tail(items.iter().cloned(), tail.clone()),
         None => Value::NIL,
     })
@@ -40,14 +39,25 @@ fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
 /// A fresh list of `size` equal elements.
 ///
 /// `(make-list 2 :initial-element 'x)` => `(X X)`
-#[builtin(_, "size &key initial-element")]
-fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let [element] = keywords::parse(image, &args[1..], [known::K_INITIAL_ELEMENT])?;
-    let count = size(&args[0])?;
-    Ok(Value::list(vec![element.unwrap_or(Value::NIL); count]))
+#[builtin]
+fn make_list(size: Size, #[key] initial_element: Option<Value>) -> Outcome {
+    let count = size.0;
+    Ok(Value::list(vec![
+        initial_element.unwrap_or(Value::NIL);
+        count
+    ]))
 }
 
 /// A number of elements that fits in memory.
+pub(crate) struct Size(pub(crate) usize);
+
+impl FromValue<'_> for Size {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        size(value).map(Size)
+    }
+}
+
+/// A value as a number of elements that fits in memory.
 pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
     if size > MOST_ELEMENTS {
@@ -65,8 +75,8 @@ pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
 /// `(append '(1) '(2 3) '(4))` => `(1 2 3 4)`
 /// `(append '(1) 2)` => `(1 . 2)`
 #[builtin(_, "&rest lists")]
-fn append(_: &mut Image, args: &[Value]) -> Outcome {
-    let Some((last, lists)) = args.split_last() else {
+fn append(lists_values: &[Value]) -> Outcome {
+    let Some((last, lists)) = lists_values.split_last() else {
         return Ok(Value::NIL);
     };
     let mut builder = ListBuilder::new();
@@ -82,9 +92,9 @@ fn append(_: &mut Image, args: &[Value]) -> Outcome {
 /// Joins lists by changing their last pairs.
 ///
 /// `(nconc (list 1) nil (list 2))` => `(1 2)`
-#[builtin(_, "&rest lists")]
-fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
-    nconc_all(args)
+#[builtin]
+fn nconc(lists: &[Value]) -> Outcome {
+    nconc_all(lists)
 }
 
 /// Joins lists by changing the last pair of each; the last one may be anything.
@@ -123,10 +133,10 @@ pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
 /// Number of elements of a list; `NIL` if it is circular.
 ///
 /// `(list-length '(1 2 3))` => `3`
-#[builtin(_, "list")]
-fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut slow = args[0].clone();
-    let mut fast = args[0].clone();
+#[builtin]
+fn list_length(list: &Value) -> Outcome {
+    let mut slow = list.clone();
+    let mut fast = list.clone();
     let mut count = 0_usize;
     loop {
         for _ in 0..2 {
@@ -147,12 +157,12 @@ fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
 /// A copy of a list; the elements are the same.
 ///
 /// `(copy-list '(1 2 . 3))` => `(1 2 . 3)`
-#[builtin(_, "list")]
-fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
-    if !args[0].is_list() {
-        return Err(Raise::type_error(&args[0], known::LIST));
+#[builtin]
+fn copy_list(list: &Value) -> Outcome {
+    if !list.is_list() {
+        return Err(Raise::type_error(list, known::LIST));
     }
-    let mut iter = args[0].iter_list();
+    let mut iter = list.iter_list();
     let mut builder = ListBuilder::new();
     iter.by_ref().for_each(|item| builder.push(item));
     Ok(builder.finish_with(iter.rest))
@@ -181,8 +191,8 @@ impl PairCount {
 /// A copy of a tree of pairs.
 ///
 /// `(copy-tree '(1 (2 3)))` => `(1 (2 3))`
-#[builtin(_, "tree")]
-fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
+#[builtin]
+fn copy_tree(tree: &Value) -> Outcome {
     let copy_of = |value: &Value, pending: &mut Vec<Rc<Cons>>| match value {
         Value::Cons(cons) => {
             let copy = Cons::shared(cons.car(), cons.cdr());
@@ -193,7 +203,7 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     };
     // Pairs that are copied while their halves are still the old ones.
     let mut pending = Vec::new();
-    let result = copy_of(&args[0], &mut pending);
+    let result = copy_of(tree, &mut pending);
     let mut pairs = PairCount::default();
     while let Some(cons) = pending.pop() {
         pairs.add_one()?;
@@ -206,33 +216,33 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
 /// Is the object a pair?
 ///
 /// `(consp nil)` => `NIL`
-#[builtin("CONSP", "object")]
-fn is_cons(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Cons(_))))
+#[builtin("CONSP")]
+fn is_cons(object: &Value) -> bool {
+    matches!(object, Value::Cons(_))
 }
 
 /// Is the object a list?
 ///
 /// `(listp nil)` => `T`
-#[builtin("LISTP", "object")]
-fn is_list(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].is_list()))
+#[builtin("LISTP")]
+fn is_list(object: &Value) -> bool {
+    object.is_list()
 }
 
 /// Is the object anything but a pair?
 ///
 /// `(atom nil)` => `T`
-#[builtin("ATOM", "object")]
-fn is_atom(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(!matches!(args[0], Value::Cons(_))))
+#[builtin("ATOM")]
+fn is_atom(object: &Value) -> bool {
+    !matches!(object, Value::Cons(_))
 }
 
 /// Is the object `NIL`?
 ///
 /// `(null '())` => `T`
-#[builtin("NULL", "object")]
-fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].is_nil()))
+#[builtin("NULL")]
+fn is_null(object: &Value) -> bool {
+    object.is_nil()
 }
 
 /// Making, copying and joining lists.

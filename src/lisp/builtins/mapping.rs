@@ -104,48 +104,48 @@ fn mapping(
 /// `(mapcar #'1+ '(1 2 3))` => `(2 3 4)`
 /// `(mapcar #'+ '(1 2 3) '(10 20))` => `(11 22)`
 #[builtin(_, "function list &rest lists")]
-fn mapcar(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCAR", false, Collect::List)
+fn mapcar(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCAR", false, Collect::List)
 }
 
 /// Calls a function for the elements of lists; returns the first list.
 ///
 /// `(mapc #'identity '(1 2))` => `(1 2)`
 #[builtin(_, "function list &rest lists")]
-fn mapc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPC", false, Collect::Nothing)
+fn mapc(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPC", false, Collect::Nothing)
 }
 
 /// Like `mapcar`, but joins the results, which must be fresh lists.
 ///
 /// `(mapcan #'list '(1 2) '(a b))` => `(1 A 2 B)`
 #[builtin(_, "function list &rest lists")]
-fn mapcan(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCAN", false, Collect::Joined)
+fn mapcan(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCAN", false, Collect::Joined)
 }
 
 /// Like `mapcar`, but hands out the list, its rest, and so on.
 ///
 /// `(maplist #'length '(a b c))` => `(3 2 1)`
 #[builtin(_, "function list &rest lists")]
-fn maplist(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPLIST", true, Collect::List)
+fn maplist(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPLIST", true, Collect::List)
 }
 
 /// Calls a function for a list, its rest, and so on; returns the list.
 ///
 /// `(mapl #'identity '(1 2))` => `(1 2)`
 #[builtin(_, "function list &rest lists")]
-fn mapl(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPL", true, Collect::Nothing)
+fn mapl(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPL", true, Collect::Nothing)
 }
 
 /// Like `maplist`, but joins the results, which must be fresh lists.
 ///
 /// `(mapcon #'list '(1 2))` => `((1 2) (2))`
 #[builtin(_, "function list &rest lists")]
-fn mapcon(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCON", true, Collect::Joined)
+fn mapcon(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCON", true, Collect::Joined)
 }
 
 /// Mapping over lists.

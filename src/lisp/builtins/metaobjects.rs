@@ -1,8 +1,9 @@
 //! What classes, generic functions and methods consist of.
 
+use crate::lisp::builtins::generic_functions::Generic;
+use crate::lisp::value::generic::Method;
 use std::rc::Rc;
 
-use super::generic_functions::{generic_argument, method_argument};
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::object::method::method_value;
@@ -17,30 +18,30 @@ use crate::lisp::{builtin, builtins};
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The name of a generic function.
-#[builtin("%GENERIC-FUNCTION-NAME", "generic-function")]
-fn generic_function_name(args: &[Value]) -> Outcome {
-    let generic = generic_argument(&args[0])?.as_generic();
+#[builtin("%GENERIC-FUNCTION-NAME")]
+fn generic_function_name(generic_function: Generic<'_>) -> Outcome {
+    let generic = generic_function.0.as_generic();
     Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
 }
 
 /// The methods of a generic function, in order of definition.
-#[builtin("%GENERIC-FUNCTION-METHODS", "generic-function")]
-fn generic_function_methods(args: &[Value]) -> Outcome {
-    let generic = generic_argument(&args[0])?.as_generic();
+#[builtin("%GENERIC-FUNCTION-METHODS")]
+fn generic_function_methods(generic_function: Generic<'_>) -> Outcome {
+    let generic = generic_function.0.as_generic();
     let methods = generic.map(|generic| generic.methods.borrow().clone());
     Ok(Value::list(methods.iter().flatten().map(method_value)))
 }
 
 /// The name of the generic function of a method.
-#[builtin("%METHOD-NAME", "method")]
-fn method_name(args: &[Value]) -> Outcome {
-    Ok(method_argument(&args[0])?.name.clone())
+#[builtin("%METHOD-NAME")]
+fn method_name(method: &Rc<Method>) -> Outcome {
+    Ok(method.name.clone())
 }
 
 /// The specializers of a method: classes and lists (EQL value).
-#[builtin("%METHOD-SPECIALIZERS", "method")]
-fn method_specializers(args: &[Value]) -> Outcome {
-    let specializers = method_argument(&args[0])?.specializers.iter();
+#[builtin("%METHOD-SPECIALIZERS")]
+fn method_specializers(method: &Rc<Method>) -> Outcome {
+    let specializers = method.specializers.iter();
     Ok(Value::list(specializers.map(
         |specializer| match specializer {
             Specializer::Class(class) => Value::Class(class.clone()),
@@ -49,20 +50,12 @@ fn method_specializers(args: &[Value]) -> Outcome {
     )))
 }
 
-fn class_argument(value: &Value) -> Result<&Rc<Class>, Box<Raise>> {
-    match value {
-        Value::Class(class) => Ok(class),
-        other => Err(Raise::type_error(other, known::CLASS)),
-    }
-}
-
 /// The `:superclasses`, `:subclasses` or the `:precedence` list of a class.
 ///
 /// `(length (system::%related-classes (find-class 'integer) :superclasses))` => `1`
 #[builtin("%RELATED-CLASSES", "class relation")]
-fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let relation = args[1].as_symbol().map(|sym| image.name(sym));
+fn related_classes(image: &mut Image, class: &Rc<Class>, relation_value: &Value) -> Outcome {
+    let relation = relation_value.as_symbol().map(|sym| image.name(sym));
     let classes = match relation {
         Some("SUPERCLASSES") => &class.direct_superclasses,
         Some("SUBCLASSES") => &class.direct_subclasses,
@@ -75,10 +68,9 @@ fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
 /// Initargs for the descriptions of the slots of a class, or of those that it defines itself.
 ///
 /// `(system::%slots (find-class 'integer) t)` => `NIL`
-#[builtin("%SLOTS", "class directp")]
-fn slots(image: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let is_direct = args[1].is_true();
+#[builtin("%SLOTS")]
+fn slots(image: &mut Image, class: &Rc<Class>, directp: bool) -> Outcome {
+    let is_direct = directp;
     let slots = if is_direct {
         class.direct_slots.borrow()
     } else {
@@ -145,10 +137,9 @@ fn function(initform: Option<&Initform>) -> Value {
 /// Lists of key, NIL and function for the default initargs of a class.
 ///
 /// `(system::%default-initargs (find-class 'integer) t)` => `NIL`
-#[builtin("%DEFAULT-INITARGS", "class directp")]
-fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let initargs = if args[1].is_true() {
+#[builtin("%DEFAULT-INITARGS")]
+fn default_initargs(class: &Rc<Class>, directp: bool) -> Outcome {
+    let initargs = if directp {
         class.direct_default_initargs.borrow()
     } else {
         class.default_initargs.borrow()

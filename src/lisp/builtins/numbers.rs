@@ -16,18 +16,18 @@ type Outcome = Result<Value, Box<Raise>>;
 /// `(+ 1 2 3)` => `6`
 /// `(+ 1/2 0.5)` => `1.0`
 /// `(+)` => `0`
-#[builtin("+", "&rest numbers")]
-fn add(args: &[Value]) -> Outcome {
-    fold(args, Value::Int(0), number::add)
+#[builtin("+")]
+fn add(numbers: &[Value]) -> Outcome {
+    fold(numbers, Value::Int(0), number::add)
 }
 
 /// The product of the numbers; 1 of none.
 ///
 /// `(* 2 3 4)` => `24`
 /// `(* 1/2 4)` => `2`
-#[builtin("*", "&rest numbers")]
-fn multiply(args: &[Value]) -> Outcome {
-    fold(args, Value::Int(1), number::mul)
+#[builtin("*")]
+fn multiply(numbers: &[Value]) -> Outcome {
+    fold(numbers, Value::Int(1), number::mul)
 }
 
 /// The first number less the others; its negative if it is the only one.
@@ -35,10 +35,10 @@ fn multiply(args: &[Value]) -> Outcome {
 /// `(- 10 1 2)` => `7`
 /// `(- 5)` => `-5`
 #[builtin("-", "number &rest numbers")]
-fn subtract(args: &[Value]) -> Outcome {
-    match args {
+fn subtract(numbers: &[Value]) -> Outcome {
+    match numbers {
         [only] => number::negate(only),
-        _ => reduce(args, number::sub),
+        _ => reduce(numbers, number::sub),
     }
 }
 
@@ -48,27 +48,27 @@ fn subtract(args: &[Value]) -> Outcome {
 /// `(/ 2)` => `1/2`
 /// `(/ 1.0 4)` => `0.25`
 #[builtin("/", "number &rest numbers")]
-fn divide_builtin(args: &[Value]) -> Outcome {
-    match args {
+fn divide_builtin(numbers: &[Value]) -> Outcome {
+    match numbers {
         [only] => number::div(&Value::Int(1), only),
-        _ => reduce(args, number::div),
+        _ => reduce(numbers, number::div),
     }
 }
 
 /// The number plus one.
 ///
 /// `(1+ 5)` => `6`
-#[builtin("1+", "number")]
-fn increment(args: &[Value]) -> Outcome {
-    number::increment(&args[0])
+#[builtin("1+")]
+fn increment(number: &Value) -> Outcome {
+    number::increment(number)
 }
 
 /// The number minus one.
 ///
 /// `(1- 5)` => `4`
-#[builtin("1-", "number")]
-fn decrement(args: &[Value]) -> Outcome {
-    number::decrement(&args[0])
+#[builtin("1-")]
+fn decrement(number: &Value) -> Outcome {
+    number::decrement(number)
 }
 
 /// Are all numbers equal in value?
@@ -76,8 +76,8 @@ fn decrement(args: &[Value]) -> Outcome {
 /// `(= 1 1.0)` => `T`
 /// `(= 1 2)` => `NIL`
 #[builtin("=", "number &rest numbers")]
-fn equal_numbers(args: &[Value]) -> Outcome {
-    chain(args, number::number_equal)
+fn equal_numbers(numbers: &[Value]) -> Outcome {
+    chain(numbers, number::number_equal)
 }
 
 /// Are no two of the numbers equal in value?
@@ -85,10 +85,10 @@ fn equal_numbers(args: &[Value]) -> Outcome {
 /// `(/= 1 2 3)` => `T`
 /// `(/= 1 2 1)` => `NIL`
 #[builtin("/=", "number &rest numbers")]
-fn different_numbers(args: &[Value]) -> Outcome {
-    check_numbers(args)?;
-    for (i, a) in args.iter().enumerate() {
-        for b in args.iter().skip(i + 1) {
+fn different_numbers(numbers: &[Value]) -> Outcome {
+    check_numbers(numbers)?;
+    for (i, a) in numbers.iter().enumerate() {
+        for b in numbers.iter().skip(i + 1) {
             if number::number_equal(a, b)? {
                 return Ok(Value::NIL);
             }
@@ -102,32 +102,32 @@ fn different_numbers(args: &[Value]) -> Outcome {
 /// `(< 1 2 3)` => `T`
 /// `(< 1 1)` => `NIL`
 #[builtin("<", "number &rest numbers")]
-fn less(args: &[Value]) -> Outcome {
-    chain_of_reals(args, number::less)
+fn less(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::less)
 }
 
 /// Does each number come after the next one?
 ///
 /// `(> 3 2 1)` => `T`
 #[builtin(">", "number &rest numbers")]
-fn greater(args: &[Value]) -> Outcome {
-    chain_of_reals(args, number::greater)
+fn greater(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::greater)
 }
 
 /// Is each number at most the next one?
 ///
 /// `(<= 1 1 2)` => `T`
 #[builtin("<=", "number &rest numbers")]
-fn at_most(args: &[Value]) -> Outcome {
-    chain_of_reals(args, number::less_equal)
+fn at_most(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::less_equal)
 }
 
 /// Is each number at least the next one?
 ///
 /// `(>= 3 3 1)` => `T`
 #[builtin(">=", "number &rest numbers")]
-fn at_least(args: &[Value]) -> Outcome {
-    chain_of_reals(args, number::greater_equal)
+fn at_least(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::greater_equal)
 }
 
 /// The largest of the numbers.
@@ -135,129 +135,129 @@ fn at_least(args: &[Value]) -> Outcome {
 /// `(max 1 3 2)` => `3`
 /// `(max 1 2.0)` => `2.0`
 #[builtin(_, "number &rest numbers")]
-fn max(args: &[Value]) -> Outcome {
-    check_reals(args)?;
-    reduce(args, number::maximum)
+fn max(numbers: &[Value]) -> Outcome {
+    check_reals(numbers)?;
+    reduce(numbers, number::maximum)
 }
 
 /// The smallest of the numbers.
 ///
 /// `(min 1 3 2)` => `1`
 #[builtin(_, "number &rest numbers")]
-fn min(args: &[Value]) -> Outcome {
-    check_reals(args)?;
-    reduce(args, number::minimum)
+fn min(numbers: &[Value]) -> Outcome {
+    check_reals(numbers)?;
+    reduce(numbers, number::minimum)
 }
 
 /// The magnitude of the number.
 ///
 /// `(abs -5)` => `5`
 /// `(abs -0.5d0)` => `0.5d0`
-#[builtin(_, "number")]
-fn abs(args: &[Value]) -> Outcome {
-    number::abs(&args[0])
+#[builtin]
+fn abs(number: &Value) -> Outcome {
+    number::abs(number)
 }
 
 /// -1, 0 or 1 with the type of the number.
 ///
 /// `(signum -2.5)` => `-1.0`
 /// `(signum 0)` => `0`
-#[builtin(_, "number")]
-fn signum(args: &[Value]) -> Outcome {
-    number::signum(&args[0])
+#[builtin]
+fn signum(number: &Value) -> Outcome {
+    number::signum(number)
 }
 
 /// Is the number zero?
 ///
 /// `(zerop -0.0)` => `T`
-#[builtin(_, "number")]
-fn zerop(args: &[Value]) -> Outcome {
-    number::is_zero(&args[0]).map(Value::bool)
+#[builtin]
+fn zerop(number: &Value) -> Outcome {
+    number::is_zero(number).map(Value::bool)
 }
 
 /// Is the number greater than zero?
 ///
 /// `(plusp 1)` => `T`
-#[builtin(_, "number")]
-fn plusp(args: &[Value]) -> Outcome {
-    number::is_plus(&args[0]).map(Value::bool)
+#[builtin]
+fn plusp(number: &Value) -> Outcome {
+    number::is_plus(number).map(Value::bool)
 }
 
 /// Is the number less than zero?
 ///
 /// `(minusp -1)` => `T`
-#[builtin(_, "number")]
-fn minusp(args: &[Value]) -> Outcome {
-    number::is_minus(&args[0]).map(Value::bool)
+#[builtin]
+fn minusp(number: &Value) -> Outcome {
+    number::is_minus(number).map(Value::bool)
 }
 
 /// Is the integer even?
 ///
 /// `(evenp 2)` => `T`
-#[builtin(_, "integer")]
-fn evenp(args: &[Value]) -> Outcome {
-    number::is_even(&args[0]).map(Value::bool)
+#[builtin]
+fn evenp(integer: &Value) -> Outcome {
+    number::is_even(integer).map(Value::bool)
 }
 
 /// Is the integer odd?
 ///
 /// `(oddp -3)` => `T`
-#[builtin(_, "integer")]
-fn oddp(args: &[Value]) -> Outcome {
-    number::is_even(&args[0]).map(|even| Value::bool(!even))
+#[builtin]
+fn oddp(integer: &Value) -> Outcome {
+    number::is_even(integer).map(|even| Value::bool(!even))
 }
 
 /// Is the object a number?
 ///
 /// `(numberp 1/2)` => `T`
 /// `(numberp 'a)` => `NIL`
-#[builtin(_, "object")]
-fn numberp(args: &[Value]) -> Outcome {
-    Ok(Value::bool(number::is_number(&args[0])))
+#[builtin]
+fn numberp(object: &Value) -> bool {
+    number::is_number(object)
 }
 
 /// Is the object a real number?
 ///
 /// `(realp 1.5)` => `T`
-#[builtin(_, "object")]
-fn realp(args: &[Value]) -> Outcome {
-    Ok(Value::bool(number::is_real(&args[0])))
+#[builtin]
+fn realp(object: &Value) -> bool {
+    number::is_real(object)
 }
 
 /// Is the object an integer or a ratio?
 ///
 /// `(rationalp 1/2)` => `T`
 /// `(rationalp 0.5)` => `NIL`
-#[builtin(_, "object")]
-fn rationalp(args: &[Value]) -> Outcome {
-    Ok(Value::bool(number::is_rational(&args[0])))
+#[builtin]
+fn rationalp(object: &Value) -> bool {
+    number::is_rational(object)
 }
 
 /// Is the object an integer?
 ///
 /// `(integerp 5)` => `T`
 /// `(integerp 5.0)` => `NIL`
-#[builtin(_, "object")]
-fn integerp(args: &[Value]) -> Outcome {
-    Ok(Value::bool(number::is_integer(&args[0])))
+#[builtin]
+fn integerp(object: &Value) -> bool {
+    number::is_integer(object)
 }
 
 /// Is the object a float?
 ///
 /// `(floatp 1.5)` => `T`
-#[builtin(_, "object")]
-fn floatp(args: &[Value]) -> Outcome {
-    let is_float = matches!(args[0], Value::Single(_) | Value::Double(_));
-    Ok(Value::bool(is_float))
+#[builtin]
+fn floatp(object: &Value) -> bool {
+    let is_float = matches!(object, Value::Single(_) | Value::Double(_));
+    is_float
 }
 
 /// Is the object a complex number that is not real?
 ///
 /// `(complexp #c(1 2))` => `T`
 /// `(complexp 1)` => `NIL`
-#[builtin(_, "object")]
-fn complexp(args: &[Value]) -> Outcome {
-    Ok(Value::bool(number::is_complex(&args[0])))
+#[builtin]
+fn complexp(object: &Value) -> bool {
+    number::is_complex(object)
 }
 
 /// The integer at or below the quotient, and the remainder.
@@ -330,35 +330,35 @@ fn fround(args: &[Value]) -> Outcome {
 ///
 /// `(mod -7 3)` => `2`
 /// `(mod 7 -3)` => `-2`
-#[builtin("MOD", "number divisor")]
-fn lisp_mod(args: &[Value]) -> Outcome {
-    number::modulo(&args[0], &args[1])
+#[builtin("MOD")]
+fn lisp_mod(number: &Value, divisor: &Value) -> Outcome {
+    number::modulo(number, divisor)
 }
 
 /// The remainder with the sign of the number.
 ///
 /// `(rem -7 3)` => `-1`
-#[builtin(_, "number divisor")]
-fn rem(args: &[Value]) -> Outcome {
-    number::remainder(&args[0], &args[1])
+#[builtin]
+fn rem(number: &Value, divisor: &Value) -> Outcome {
+    number::remainder(number, divisor)
 }
 
 /// A random number from zero up to, but not including, the limit.
 ///
 /// `(random 1)` => `0`
-#[builtin(_, "limit &optional random-state")]
-fn random(image: &mut Image, args: &[Value]) -> Outcome {
-    let state = args.get(1).unwrap_or(image.special(known::V_RANDOM_STATE));
+#[builtin]
+fn random(image: &mut Image, limit: &Value, random_state: Option<&Value>) -> Outcome {
+    let state = random_state.unwrap_or(image.special(known::V_RANDOM_STATE));
     let state = state.clone();
-    number::random_from(&mut image.random, &args[0], &state)
+    number::random_from(&mut image.random, limit, &state)
 }
 
 /// A copy of a random state, of the current one, or (T) one of its own.
 ///
 /// `(random-state-p (make-random-state t))` => `T`
 #[builtin(_, "&optional state")]
-fn make_random_state(image: &mut Image, args: &[Value]) -> Outcome {
-    let state = match args.first() {
+fn make_random_state(image: &mut Image, state_value: Option<&Value>) -> Outcome {
+    let state = match state_value {
         Some(state) if state.is_true() => state,
         _ => image.special(known::V_RANDOM_STATE),
     };
@@ -369,10 +369,10 @@ fn make_random_state(image: &mut Image, args: &[Value]) -> Outcome {
 /// Is the object a random state?
 ///
 /// `(random-state-p *random-state*)` => `T`
-#[builtin(_, "object")]
-fn random_state_p(args: &[Value]) -> Outcome {
-    let is_state = args[0].as_foreign::<number::RandomState>().is_some();
-    Ok(Value::bool(is_state))
+#[builtin]
+fn random_state_p(object: &Value) -> bool {
+    let is_state = object.as_foreign::<number::RandomState>().is_some();
+    is_state
 }
 
 fn fold(args: &[Value], start: Value, operate: fn(&Value, &Value) -> Outcome) -> Outcome {

@@ -12,13 +12,13 @@ use crate::lisp::{builtin, builtins};
 ///
 /// `(progn (defclass cup () ((size :initarg :size))) (defmethod print-object ((c cup) stream) (format stream "<cup ~a>" (slot-value c 'size))) (make-instance 'cup :size 3))` => `<cup 3>`
 // Prints the default form of an object.
-#[builtin(_, "object stream")]
-fn print_object(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+#[builtin]
+fn print_object(image: &mut Image, object: &Value, stream: &Value) -> Result<Value, Box<Raise>> {
     let settings = Settings::of(image);
-    let column = stream::column(image, &args[1])?.unwrap_or_default();
-    let text = print::write(image, &args[0], &settings, column, &mut Calls::none());
-    stream::write(image, &args[1], &text)?;
-    Ok(args[0].clone())
+    let column = stream::column(image, stream)?.unwrap_or_default();
+    let text = print::write(image, object, &settings, column, &mut Calls::none());
+    stream::write(image, stream, &text)?;
+    Ok(object.clone())
 }
 
 /// The builtins.

@@ -18,93 +18,111 @@ use crate::lisp::{builtin, builtins};
 ///
 /// `(progn (defclass cup () ((size :initarg :size))) (slot-value (make-instance 'cup :size 3) 'size))` => `3`
 #[builtin(_, "class &rest initargs")]
-fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    instance::make_instance(machine, args)
+fn make_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::make_instance(machine, initargs)
 }
 
 /// Makes an instance whose slots have no values.
 ///
 /// `(progn (defclass tray () ((load :initform 1))) (slot-boundp (allocate-instance (find-class 'tray)) 'load))` => `NIL`
 #[builtin(_, "class &rest initargs")]
-fn allocate_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    instance::allocate_instance(machine, args)
+fn allocate_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::allocate_instance(machine, initargs)
 }
 
 /// Gives the slots of a new instance their values. Add methods to do more.
 ///
 /// `(progn (defclass lamp () ((lit :initarg :lit))) (defmethod initialize-instance :after ((x lamp) &key) (setf (slot-value x 'lit) :off)) (slot-value (make-instance 'lamp :lit :on) 'lit))` => `:OFF`
 #[builtin(_, "instance &rest initargs")]
-fn initialize_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    instance::initialize_instance(machine, args)
+fn initialize_instance(
+    machine: &mut Machine<'_>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    instance::initialize_instance(machine, initargs)
 }
 
 /// Changes slots by their initargs.
 ///
 /// `(progn (defclass cup () ((size :initarg :size))) (slot-value (reinitialize-instance (make-instance 'cup) :size 5) 'size))` => `5`
 #[builtin(_, "instance &rest initargs")]
-fn reinitialize_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    instance::reinitialize_instance(machine, args)
+fn reinitialize_instance(
+    machine: &mut Machine<'_>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    instance::reinitialize_instance(machine, initargs)
 }
 
 /// Sets slots by initargs, and the named ones (all if T) that have no value by their initforms.
 #[builtin(_, "instance slot-names &rest initargs")]
-fn shared_initialize(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    instance::shared_initialize(machine, args)
+fn shared_initialize(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::shared_initialize(machine, initargs)
 }
 
 /// The value of a slot.
 ///
 /// `(progn (defclass cup () ((size :initform 1))) (slot-value (make-instance 'cup) 'size))` => `1`
-#[builtin(_, "object slot-name")]
-fn slot_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    access::slot_value(machine, &args[0], &args[1])
+#[builtin]
+fn slot_value(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_value(machine, object, slot_name)
 }
 
 /// Has the slot a value?
 ///
 /// `(progn (defclass cup () (size)) (slot-boundp (make-instance 'cup) 'size))` => `NIL`
-#[builtin(_, "object slot-name")]
-fn slot_boundp(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    access::slot_boundp(machine, &args[0], &args[1])
+#[builtin]
+fn slot_boundp(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_boundp(machine, object, slot_name)
 }
 
 /// Takes the value of a slot away; returns the object.
 ///
 /// `(progn (defclass jar () ((lid :initform 1))) (slot-boundp (slot-makunbound (make-instance 'jar) 'lid) 'lid))` => `NIL`
-#[builtin(_, "object slot-name")]
-fn slot_makunbound(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    access::slot_makunbound(machine, &args[0], &args[1])
+#[builtin]
+fn slot_makunbound(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_makunbound(machine, object, slot_name)
 }
 
 /// Does the object have a slot of this name?
 ///
 /// `(slot-exists-p 5 'size)` => `NIL`
-#[builtin(_, "object slot-name")]
-fn slot_exists_p(args: &[Value]) -> Result<Value, Box<Raise>> {
-    let slot = access::slot_name(&args[1])?;
-    Ok(Value::bool(access::slot_exists(&args[0], slot)))
+#[builtin]
+fn slot_exists_p(object: &Value, slot_name: &Value) -> Result<Value, Box<Raise>> {
+    let slot = access::slot_name(slot_name)?;
+    Ok(Value::bool(access::slot_exists(object, slot)))
 }
 
 /// Called when a slot without a value is read. Add methods to give it one.
-#[builtin(_, "class object slot-name")]
-fn slot_unbound(args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    Err(access::unbound_slot(&args[1], access::slot_name(&args[2])?))
+#[builtin]
+fn slot_unbound(_class: &Value, object: &Value, slot_name: &Value) -> Result<Step, Box<Raise>> {
+    Err(access::unbound_slot(object, access::slot_name(slot_name)?))
 }
 
 /// The class of an object.
 ///
 /// `(class-name (class-of '(1)))` => `CONS`
-#[builtin("CLASS-OF", "object")]
-fn class_of_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    Ok(Value::Class(class_of(image, &args[0])))
+#[builtin("CLASS-OF")]
+fn class_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::Class(class_of(image, object)))
 }
 
 /// The name of a class.
 ///
 /// `(class-name (find-class 'list))` => `LIST`
 #[builtin(_, "class")]
-fn class_name(args: &[Value]) -> Result<Value, Box<Raise>> {
-    match &args[0] {
+fn class_name(class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
         Value::Class(class) => Ok(class.class_name()),
         other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
@@ -114,17 +132,17 @@ fn class_name(args: &[Value]) -> Result<Value, Box<Raise>> {
 #[builtin(_, "instance added-slots discarded-slots property-list &rest initargs")]
 fn update_instance_for_redefined_class(
     machine: &mut Machine<'_>,
-    args: Vec<Value>,
+    initargs: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
-    let mut rest = args;
+    let mut rest = initargs;
     rest.drain(2..4.min(rest.len()));
     instance::shared_initialize(machine, rest)
 }
 
 /// The names of the slots that instances of a class have.
 #[builtin("%SLOT-NAMES", "class")]
-fn slot_names(args: &[Value]) -> Result<Value, Box<Raise>> {
-    match &args[0] {
+fn slot_names(class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
         Value::Class(class) => {
             let names: Vec<Value> = class.slots.borrow().iter().map(|s| s.name.into()).collect();
             Ok(Value::list(names))
@@ -174,31 +192,48 @@ pub(crate) static OPERATORS: &[Operator] = &[
 ];
 
 /// Stores a value in a slot.
-#[builtin("SLOT-VALUE", "value object slot-name")]
-fn set_slot_value_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    set_slot_value(machine, args)
+#[builtin("SLOT-VALUE")]
+fn set_slot_value_builtin(
+    machine: &mut Machine<'_>,
+    value: Value,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    set_slot_value(machine, value, object, slot_name)
 }
 
 /// Stores a value in a slot: the function of `(setf slot-value)`.
-#[builtin(_, "value object slot-name")]
-fn set_slot_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    access::set_slot_value(machine, args[0].clone(), &args[1], &args[2])
+#[builtin]
+fn set_slot_value(
+    machine: &mut Machine<'_>,
+    value: Value,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::set_slot_value(machine, value, object, slot_name)
 }
 
 /// Called when a slot that the object does not have is used.
 #[builtin(_, "class object slot-name operation &optional new-value")]
-fn slot_missing(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let slot = access::slot_name(&args[2])?;
-    let operation = match args[3].as_symbol() {
+fn slot_missing(
+    machine: &mut Machine<'_>,
+    _class: &Value,
+    object: &Value,
+    slot_name: &Value,
+    operation_value: &Value,
+    new_value: Option<&Value>,
+) -> Result<Step, Box<Raise>> {
+    let slot = access::slot_name(slot_name)?;
+    let operation = match operation_value.as_symbol() {
         Some(known::SETF) => access::Access::Write,
         Some(known::SLOT_BOUNDP) => access::Access::IsBound,
         Some(known::SLOT_MAKUNBOUND) => access::Access::MakeUnbound,
         _ => access::Access::Read,
     };
-    let value = args.get(4);
+    let value = new_value;
     Err(access::missing_slot(
         machine.image,
-        &args[1],
+        object,
         slot,
         operation,
         value,
@@ -210,8 +245,8 @@ fn slot_missing(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
 ///
 /// `(progn (defclass keg () ()) (make-instances-obsolete 'keg))` => `KEG`
 #[builtin(_, "class")]
-fn make_instances_obsolete(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let class = match &args[0] {
+fn make_instances_obsolete(image: &mut Image, class_value: &Value) -> Result<Value, Box<Raise>> {
+    let class = match class_value {
         Value::Class(class) => class.clone(),
         Value::Symbol(name, ..) => {
             let class = image.class(*name).cloned();
@@ -220,7 +255,7 @@ fn make_instances_obsolete(image: &mut Image, args: &[Value]) -> Result<Value, B
         other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     };
     define::make_obsolete(&class);
-    Ok(args[0].clone())
+    Ok(class_value.clone())
 }
 
 /// The class of that name; without one an error, or NIL if the second argument is NIL.
@@ -240,11 +275,11 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
 
 /// Changes what `class-name` returns; `find-class` goes on finding the class under its old name.
 #[builtin("CLASS-NAME", "name class")]
-fn set_class_name(_: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    match &args[1] {
+fn set_class_name(name: &Value, class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
         Value::Class(class) => {
-            *class.given_name.borrow_mut() = Some(args[0].clone());
-            Ok(args[0].clone())
+            *class.given_name.borrow_mut() = Some(name.clone());
+            Ok(name.clone())
         }
         other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
@@ -252,11 +287,17 @@ fn set_class_name(_: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
 
 /// Gives a class a name.
 #[builtin("FIND-CLASS", "class symbol &optional errorp environment")]
-fn set_find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some(name) = args[1].as_symbol() else {
-        return Err(Raise::type_error(&args[1], Value::symbol(known::SYMBOL)));
+fn set_find_class(
+    image: &mut Image,
+    class_value: &Value,
+    symbol: &Value,
+    _errorp: Option<&Value>,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let Some(name) = symbol.as_symbol() else {
+        return Err(Raise::type_error(symbol, Value::symbol(known::SYMBOL)));
     };
-    match &args[0] {
+    match class_value {
         Value::Class(class) => {
             image.classes.insert(name, class.clone());
         }
@@ -265,7 +306,7 @@ fn set_find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>
         }
         other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
-    Ok(args[0].clone())
+    Ok(class_value.clone())
 }
 
 fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {

@@ -32,10 +32,9 @@ fn texts(image: &Image, items: &[Value]) -> Result<Vec<String>, Box<Raise>> {
 /// `(system::%define-package "DEFINED-AS-EXAMPLE" '((:use :cl)))` => `#<PACKAGE "DEFINED-AS-EXAMPLE">`
 // Carries out a `defpackage`: arguments are the name and the options.
 #[builtin("%DEFINE-PACKAGE", "name options")]
-fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = strings::designated(image, &args[0])?;
+fn define_package(image: &mut Image, name: String, options_value: &Value) -> Outcome {
     let mut options: Vec<(Sym, Vec<Value>)> = Vec::new();
-    for option in list_items(&args[1])? {
+    for option in list_items(options_value)? {
         let parts = list_items(&option)?;
         match parts.split_first() {
             Some((Value::Symbol(key, ..), rest)) => options.push((*key, rest.to_vec())),
@@ -202,9 +201,9 @@ fn imported(
 /// The package of a name; an error if there is none.
 ///
 /// `(system::%existing-package :cl)` => `#<PACKAGE "COMMON-LISP">`
-#[builtin("%EXISTING-PACKAGE", "designator")]
-fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
-    designated(image, &args[0]).map(Value::Package)
+#[builtin("%EXISTING-PACKAGE")]
+fn existing_package(image: &mut Image, designator: &Value) -> Outcome {
+    designated(image, designator).map(Value::Package)
 }
 
 /// The symbols of a package.
@@ -213,8 +212,8 @@ fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
 // The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
 // ones, `:EXTERNAL` the exported ones, `T` those of all packages.
 #[builtin("%PACKAGE-SYMBOLS", "package kind")]
-fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let symbols: Vec<Sym> = match &args[1] {
+fn package_symbols(image: &mut Image, package: &Value, kind_value: &Value) -> Outcome {
+    let symbols: Vec<Sym> = match kind_value {
         Value::Symbol(known::T, ..) => {
             let mut all: Vec<Sym> = image
                 .packages
@@ -227,11 +226,11 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
             all
         }
         Value::Symbol(known::K_INHERITED, ..) => {
-            let id = designated(image, &args[0])?;
+            let id = designated(image, package)?;
             accessible(image, id)
         }
         kind => {
-            let id = designated(image, &args[0])?;
+            let id = designated(image, package)?;
             let all = kind.as_symbol() == Some(known::K_INTERNAL);
             let present = image.packages.get(id).symbols.values();
             let chosen = present.filter(|(_, external)| all || *external);
@@ -246,10 +245,10 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(system::%package-iterator :cl nil)` => `(NIL)`
 // The state of a package iterator: a pair whose car lists what is still to come.
 #[builtin("%PACKAGE-ITERATOR", "packages kinds")]
-fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
-    let kinds = list_items(&args[1])?;
+fn package_iterator(image: &mut Image, packages: &Value, kinds_value: &Value) -> Outcome {
+    let kinds = list_items(kinds_value)?;
     let mut entries = Vec::new();
-    for package in one_or_more(&args[0])? {
+    for package in one_or_more(packages)? {
         let id = designated(image, &package)?;
         for sym in accessible(image, id) {
             let access: Option<Access> = image

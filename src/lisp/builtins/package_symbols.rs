@@ -40,9 +40,9 @@ pub(crate) fn import_one(
 ///
 /// `(import 'cl:car)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+fn import(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for sym in symbols(symbols_value)? {
         import_one(image, package, sym)?;
     }
     Ok(Value::T)
@@ -57,9 +57,13 @@ fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
 ///
 /// `(shadowing-import nil)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+fn shadowing_import(
+    image: &mut Image,
+    symbols_value: &Value,
+    package_value: Option<&Value>,
+) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for sym in symbols(symbols_value)? {
         image
             .packages
             .shadowing_import(&mut image.symbols, package, sym);
@@ -72,9 +76,9 @@ fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(unintern (make-symbol "X"))` => `NIL`
 // Removes a symbol from a package, unless two different symbols that it shadows would get its name.
 #[builtin(_, "symbol &optional package")]
-fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let package = or_current(image, args.get(1))?;
+fn unintern(image: &mut Image, symbol: Sym, package_value: Option<&Value>) -> Outcome {
+    let sym = symbol;
+    let package = or_current(image, package_value)?;
     let name = image.name(sym).to_owned();
     let this = image.packages.get(package);
     let is_present = this
@@ -135,9 +139,9 @@ fn must_be_accessible(
 ///
 /// `(export 'exported-as-example)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn export(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+fn export(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "exported", "; import it first")?;
         no_conflict_in_users(image, package, sym)?;
         image.packages.export(&mut image.symbols, package, sym);
@@ -179,9 +183,9 @@ fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(
 ///
 /// `(unexport 'exported-as-example)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+fn unexport(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "unexported", "")?;
         image.packages.unexport(&image.symbols, package, sym);
     }
@@ -218,9 +222,9 @@ pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
 ///
 /// `(shadow "OWN-SYMBOL")` => `T`
 #[builtin(_, "names &optional package")]
-fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for name in names(image, Some(&args[0]))? {
+fn shadow(image: &mut Image, names_value: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for name in names(image, Some(names_value))? {
         shadow_one(image, package, &name);
     }
     Ok(Value::T)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::Builtin;
+use crate::lisp::builtin::{Builtin, FromValue};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -32,6 +32,13 @@ pub(crate) fn find(image: &Image, designator: &Value) -> Result<Option<PackageId
 }
 
 /// The package that a designator denotes.
+/// A package designator.
+impl FromValue<'_> for PackageId {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        designated(image, value)
+    }
+}
+
 pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
     match find(image, designator)? {
         Some(id) if !image.packages.is_deleted(id) => Ok(id),
@@ -98,39 +105,39 @@ pub(crate) fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
 /// Is the object a package?
 ///
 /// `(packagep *package*)` => `T`
-#[builtin(_, "object")]
-fn packagep(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Package(_))))
+#[builtin]
+fn packagep(object: &Value) -> bool {
+    matches!(object, Value::Package(_))
 }
 
 /// The package of a name or nickname, or `NIL`.
 ///
 /// `(find-package :cl)` => `#<PACKAGE "COMMON-LISP">`
-#[builtin(_, "name")]
-fn find_package(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(find(image, &args[0])?.map_or(Value::NIL, Value::Package))
+#[builtin]
+fn find_package(image: &mut Image, name: &Value) -> Outcome {
+    Ok(find(image, name)?.map_or(Value::NIL, Value::Package))
 }
 
 /// A package's name.
 ///
 /// `(package-name :cl)` => `"COMMON-LISP"`
-#[builtin(_, "package")]
-fn package_name(image: &mut Image, args: &[Value]) -> Outcome {
-    if let Value::Package(id) = &args[0]
+#[builtin]
+fn package_name(image: &mut Image, package: &Value) -> Outcome {
+    if let Value::Package(id) = package
         && image.packages.is_deleted(*id)
     {
         return Ok(Value::NIL);
     }
-    let id = designated(image, &args[0])?;
+    let id = designated(image, package)?;
     Ok(Value::string(image.packages.get(id).name.as_ref()))
 }
 
 /// A package's other names.
 ///
 /// `(package-nicknames :keyword)` => `NIL`
-#[builtin(_, "package")]
-fn package_nicknames(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+#[builtin]
+fn package_nicknames(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let names = &image.packages.get(id).nicknames;
     Ok(Value::list(names.iter().map(|n| Value::string(n.as_ref()))))
 }
@@ -142,18 +149,18 @@ fn package_list(ids: impl IntoIterator<Item = PackageId>) -> Value {
 /// The packages that a package uses.
 ///
 /// `(package-use-list :keyword)` => `NIL`
-#[builtin(_, "package")]
-fn package_use_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+#[builtin]
+fn package_use_list(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     Ok(package_list(image.packages.get(id).uses.iter().copied()))
 }
 
 /// The packages that use a package.
 ///
 /// `(package-used-by-list :keyword)` => `NIL`
-#[builtin(_, "package")]
-fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+#[builtin]
+fn package_used_by_list(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let users = image.packages.ids();
     Ok(package_list(users.filter(|user| {
         !image.packages.is_deleted(*user) && image.packages.get(*user).uses.contains(&id)
@@ -163,9 +170,9 @@ fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
 /// The symbols that a package shadows.
 ///
 /// `(package-shadowing-symbols :cl)` => `NIL`
-#[builtin(_, "package")]
-fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+#[builtin]
+fn package_shadowing_symbols(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let this = image.packages.get(id);
     let symbols = this.shadowing.iter().filter_map(|n| this.symbols.get(n));
     Ok(Value::list(
@@ -189,9 +196,8 @@ fn list_all_packages(image: &mut Image) -> Outcome {
 /// All symbols of a name.
 ///
 /// `(find-all-symbols "CADDDR")` => `(CADDDR)`
-#[builtin(_, "name")]
-fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = super::strings::designated(image, &args[0])?;
+#[builtin]
+fn find_all_symbols(image: &mut Image, name: String) -> Outcome {
     let mut found: Vec<Sym> = Vec::new();
     for id in image.packages.ids() {
         if let Some((sym, _)) = image.packages.get(id).symbols.get(name.as_str())
@@ -254,10 +260,14 @@ pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(progn (make-package :old-name) (package-name (rename-package :old-name :new-name)))` => `"NEW-NAME"`
 #[builtin(_, "package name &optional nicknames")]
-fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
-    let name = super::strings::designated(image, &args[1])?;
-    let nicknames: Vec<Rc<str>> = names(image, args.get(2))?
+fn rename_package(
+    image: &mut Image,
+    package: &Value,
+    name: String,
+    nicknames_value: Option<&Value>,
+) -> Outcome {
+    let id = designated(image, package)?;
+    let nicknames: Vec<Rc<str>> = names(image, nicknames_value)?
         .iter()
         .map(|n| n.as_str().into())
         .collect();
@@ -266,7 +276,7 @@ fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
     } else {
         Err(package_error(
             format!("\"{name}\" or one of the nicknames is the name of another package."),
-            &args[0],
+            package,
         ))
     }
 }
@@ -343,9 +353,9 @@ pub(crate) fn use_one(
 ///
 /// `(use-package :cl)` => `T`
 #[builtin(_, "packages &optional package")]
-fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for used in one_or_more(&args[0])? {
+fn use_package(image: &mut Image, packages: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         use_one(image, package, used)?;
     }
@@ -356,9 +366,9 @@ fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(unuse-package :keyword)` => `T`
 #[builtin(_, "packages &optional package")]
-fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for used in one_or_more(&args[0])? {
+fn unuse_package(image: &mut Image, packages: &Value, package_value: Option<&Value>) -> Outcome {
+    let package = or_current(image, package_value)?;
+    for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         image.packages.unuse_package(package, used);
     }

@@ -117,9 +117,9 @@ fn set_ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(cons 1 '(2))` => `(1 2)`
 /// `(cons 1 2)` => `(1 . 2)`
-#[builtin(_, "car cdr")]
-fn cons(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::cons(args[0].clone(), args[1].clone()))
+#[builtin]
+fn cons(car: Value, cdr: Value) -> Outcome {
+    Ok(Value::cons(car, cdr))
 }
 
 fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
@@ -131,45 +131,45 @@ fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
 /// Replaces the car of a pair; returns the pair.
 ///
 /// `(rplaca (list 1 2) 'a)` => `(A 2)`
-#[builtin(_, "cons value")]
-fn rplaca(_: &mut Image, args: &[Value]) -> Outcome {
-    let pair = pair(&args[0])?;
-    cycles::note(pair, &args[1]);
-    pair.set_car(args[1].clone());
-    Ok(args[0].clone())
+#[builtin]
+fn rplaca(cons: &Value, value: &Value) -> Outcome {
+    let pair = pair(cons)?;
+    cycles::note(pair, value);
+    pair.set_car(value.clone());
+    Ok(cons.clone())
 }
 
 /// Replaces the cdr of a pair; returns the pair.
 ///
 /// `(rplacd (list 1 2) '(b))` => `(1 B)`
-#[builtin(_, "cons value")]
-fn rplacd(_: &mut Image, args: &[Value]) -> Outcome {
-    let pair = pair(&args[0])?;
-    cycles::note(pair, &args[1]);
-    pair.set_cdr(args[1].clone());
-    Ok(args[0].clone())
+#[builtin]
+fn rplacd(cons: &Value, value: &Value) -> Outcome {
+    let pair = pair(cons)?;
+    cycles::note(pair, value);
+    pair.set_cdr(value.clone());
+    Ok(cons.clone())
 }
 
 /// The element of a list at an index from 0, or `NIL` beyond the end.
 ///
 /// `(nth 1 '(a b c))` => `B`
-#[builtin(_, "n list")]
-fn nth(_: &mut Image, args: &[Value]) -> Outcome {
-    car_of(&nth_cdr(sequence::index(&args[0])?, &args[1])?)
+#[builtin]
+fn nth(n: usize, list: &Value) -> Outcome {
+    car_of(&nth_cdr(n, list)?)
 }
 
 /// Replaces the element of a list at an index from 0.
-#[builtin("NTH", "value n list")]
-fn set_nth(_: &mut Image, args: &[Value]) -> Outcome {
-    set_nth_of(sequence::index(&args[1])?, &args[2], &args[0])
+#[builtin("NTH")]
+fn set_nth(value: &Value, n: usize, list: &Value) -> Outcome {
+    set_nth_of(n, list, value)
 }
 
 /// The list without its first `n` elements.
 ///
 /// `(nthcdr 2 '(a b c))` => `(C)`
-#[builtin(_, "n list")]
-fn nthcdr(_: &mut Image, args: &[Value]) -> Outcome {
-    nth_cdr(sequence::index(&args[0])?, &args[1])
+#[builtin]
+fn nthcdr(n: usize, list: &Value) -> Outcome {
+    nth_cdr(n, list)
 }
 
 /// The last `n` (1) pairs of a list.
@@ -178,10 +178,9 @@ fn nthcdr(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(last '(1 2 3) 2)` => `(2 3)`
 // Walks to the end of a list that may be dotted, with a second pointer `count` pairs
 // behind.
-#[builtin(_, "list &optional n")]
-fn last(_: &mut Image, args: &[Value]) -> Outcome {
-    let count = args.get(1).map_or(Ok(1), sequence::index)?;
-    let list = &args[0];
+#[builtin]
+fn last(list: &Value, #[default(1)] n: usize) -> Outcome {
+    let count = n;
     if !list.is_list() {
         return Err(Raise::type_error(list, known::LIST));
     }
@@ -215,10 +214,10 @@ fn elements(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
 /// A copy of a list without its last `n` (1) elements.
 ///
 /// `(butlast '(1 2 3))` => `(1 2)`
-#[builtin(_, "list &optional n")]
-fn butlast(_: &mut Image, args: &[Value]) -> Outcome {
-    let count = args.get(1).map_or(Ok(1), sequence::index)?;
-    let mut items = elements(&args[0])?;
+#[builtin]
+fn butlast(list: &Value, #[default(1)] n: usize) -> Outcome {
+    let count = n;
+    let mut items = elements(list)?;
     items.truncate(items.len().saturating_sub(count));
     Ok(Value::list(items))
 }
@@ -226,9 +225,9 @@ fn butlast(_: &mut Image, args: &[Value]) -> Outcome {
 /// Is the list at its end? An error for anything but a list.
 ///
 /// `(endp nil)` => `T`
-#[builtin(_, "list")]
-fn endp(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+#[builtin]
+fn endp(list: &Value) -> Outcome {
+    match list {
         Value::Cons(_) => Ok(Value::NIL),
         Value::Symbol(known::NIL, ..) => Ok(Value::T),
         other => Err(Raise::type_error(other, known::LIST)),

@@ -1,13 +1,13 @@
 //! Pathnames: taking them apart and putting them together. All else is written in Lisp.
 
-use super::strings::string;
 use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::pathname::Pathname;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::string::LispString;
 use crate::lisp::{builtin, builtins};
+use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -15,17 +15,17 @@ type Outcome = Result<Value, Box<Raise>>;
 ///
 /// `(pathnamep #P"a.lisp")` => `T`
 /// `(pathnamep "a.lisp")` => `NIL`
-#[builtin(_, "object")]
-fn pathnamep(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].as_foreign::<Pathname>().is_some()))
+#[builtin]
+fn pathnamep(object: &Value) -> bool {
+    object.as_foreign::<Pathname>().is_some()
 }
 
 /// The pathname of a name.
 ///
 /// `(system::%parse-pathname "plans/a.lisp")` => `#P"plans/a.lisp"`
 #[builtin("%PARSE-PATHNAME", "name")]
-fn parse(_: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
+fn parse(name_argument: &Rc<LispString>) -> Outcome {
+    let name = name_argument.text();
     Ok(Value::foreign(Pathname::parse(&name)))
 }
 
@@ -33,13 +33,19 @@ fn parse(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%pathname-of-parts '(:relative "plans") "a" nil nil)` => `#P"plans/a"`
 #[builtin("%PATHNAME-OF-PARTS", "directory name type version &optional host")]
-fn assemble(_: &mut Image, args: &[Value]) -> Outcome {
+fn assemble(
+    directory_value: Value,
+    name_value: Value,
+    type_: Value,
+    version_value: Value,
+    host_value: Option<&Value>,
+) -> Outcome {
     Ok(Value::foreign(Pathname {
-        host: args.get(4).cloned().unwrap_or(Value::NIL),
-        directory: args[0].clone(),
-        name: args[1].clone(),
-        kind: args[2].clone(),
-        version: args[3].clone(),
+        host: host_value.cloned().unwrap_or(Value::NIL),
+        directory: directory_value,
+        name: name_value,
+        kind: type_,
+        version: version_value,
     }))
 }
 
@@ -47,8 +53,8 @@ fn assemble(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%pathname-parts #P"plans/a.lisp")` => `(:RELATIVE "plans") ; "a" ; "lisp" ; NIL ; NIL`
 #[builtin("%PATHNAME-PARTS", "pathname")]
-fn parts(_: &mut Image, args: &[Value]) -> Outcome {
-    match args[0].as_foreign::<Pathname>() {
+fn parts(pathname_value: &Value) -> Outcome {
+    match pathname_value.as_foreign::<Pathname>() {
         Some(pathname) => Ok(Value::values(vec![
             pathname.directory.clone(),
             pathname.name.clone(),
@@ -56,7 +62,7 @@ fn parts(_: &mut Image, args: &[Value]) -> Outcome {
             pathname.version.clone(),
             pathname.host.clone(),
         ])),
-        None => Err(Raise::type_error(&args[0], known::PATHNAME)),
+        None => Err(Raise::type_error(pathname_value, known::PATHNAME)),
     }
 }
 
@@ -64,10 +70,10 @@ fn parts(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(system::%namestring #P"plans/a.lisp")` => `"plans/a.lisp"`
 #[builtin("%NAMESTRING", "pathname")]
-fn namestring(_: &mut Image, args: &[Value]) -> Outcome {
-    match args[0].as_foreign::<Pathname>() {
+fn namestring(pathname_value: &Value) -> Outcome {
+    match pathname_value.as_foreign::<Pathname>() {
         Some(pathname) => Ok(Value::string(pathname.namestring())),
-        None => Err(Raise::type_error(&args[0], known::PATHNAME)),
+        None => Err(Raise::type_error(pathname_value, known::PATHNAME)),
     }
 }
 

@@ -86,25 +86,25 @@ fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>>
 ///
 /// `(getf '(:a 1 :b 2) :b)` => `2`
 /// `(getf '(:a 1) :z :none)` => `:NONE`
-#[builtin(_, "plist indicator &optional default")]
-fn getf(_: &mut Image, args: &[Value]) -> Outcome {
-    lookup(&args[0], &args[1], args.get(2))
+#[builtin]
+fn getf(plist: &Value, indicator: &Value, default: Option<&Value>) -> Outcome {
+    lookup(plist, indicator, default)
 }
 
 /// The property list with a value for an indicator; an existing entry is changed.
 ///
 /// `(system::putf '(:a 1) :b 2)` => `(:B 2 :A 1)`
-#[builtin(_, "plist indicator value")]
-fn putf(_: &mut Image, args: &[Value]) -> Outcome {
-    put(&args[0], &args[1], &args[2])
+#[builtin]
+fn putf(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
+    put(plist, indicator, value)
 }
 
 /// The property list without an indicator, and whether it was there.
 ///
 /// `(system::remove-property (list :a 1 :b 2) :b)` => `(:A 1) ; T`
 #[builtin("REMOVE-PROPERTY", "plist indicator")]
-fn removef(_: &mut Image, args: &[Value]) -> Outcome {
-    let (plist, found) = remove(&args[0], &args[1])?;
+fn removef(plist_value: &Value, indicator: &Value) -> Outcome {
+    let (plist, found) = remove(plist_value, indicator)?;
     Ok(Value::values(vec![plist, found.into()]))
 }
 
@@ -113,13 +113,13 @@ fn removef(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(get-properties '(:a 1 :b 2) '(:b :c))` => `:B ; 2 ; (:B 2)`
 #[builtin(_, "plist indicators")]
-fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut walk = ListWalk::new(args[0].clone());
+fn get_properties(plist: &Value, indicators_value: &Value) -> Outcome {
+    let mut walk = ListWalk::new(plist.clone());
     while let Some(cons) = walk.next_cons()? {
         let Some(value) = walk.next()? else {
-            return Err(malformed(&args[0]));
+            return Err(malformed(plist));
         };
-        let mut indicators = args[1].iter_list();
+        let mut indicators = indicators_value.iter_list();
         let is_among = indicators.any(|i| i.is_eq(&cons.car()));
         if !is_among && !indicators.rest.is_nil() {
             return Err(Raise::type_error(&indicators.rest, known::LIST));
@@ -141,28 +141,34 @@ pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
 /// The value of an indicator in a symbol's property list.
 ///
 /// `(get 'no-such-thing 'color 'grey)` => `GREY`
-#[builtin(_, "symbol indicator &optional default")]
-fn get(image: &mut Image, args: &[Value]) -> Outcome {
-    let plist = &image.symbol(symbol(&args[0])?).plist;
-    lookup(plist, &args[1], args.get(2))
+#[builtin]
+fn get(image: &mut Image, symbol: Sym, indicator: &Value, default: Option<&Value>) -> Outcome {
+    let plist = &image.symbol(symbol).plist;
+    lookup(plist, indicator, default)
 }
 
 /// Sets an indicator in a symbol's property list.
-#[builtin("GET", "value symbol indicator &optional default")]
-fn set_get(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[1])?;
-    let plist = put(&image.symbol(sym).plist, &args[2], &args[0])?;
+#[builtin("GET")]
+fn set_get(
+    image: &mut Image,
+    value: &Value,
+    symbol: Sym,
+    indicator: &Value,
+    _default: Option<&Value>,
+) -> Outcome {
+    let sym = symbol;
+    let plist = put(&image.symbol(sym).plist, indicator, value)?;
     image.symbols.get_mut(sym).plist = plist;
-    Ok(args[0].clone())
+    Ok(value.clone())
 }
 
 /// Takes an indicator out of a symbol's property list.
 ///
 /// `(remprop 'no-such-thing 'color)` => `NIL`
-#[builtin(_, "symbol indicator")]
-fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let (plist, found) = remove(&image.symbol(sym).plist, &args[1])?;
+#[builtin]
+fn remprop(image: &mut Image, symbol: Sym, indicator: &Value) -> Outcome {
+    let sym = symbol;
+    let (plist, found) = remove(&image.symbol(sym).plist, indicator)?;
     image.symbols.get_mut(sym).plist = plist;
     Ok(found.into())
 }
@@ -170,17 +176,17 @@ fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
 /// A symbol's property list.
 ///
 /// `(symbol-plist 'no-such-thing)` => `NIL`
-#[builtin(_, "symbol")]
-fn symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(image.symbol(symbol(&args[0])?).plist.clone())
+#[builtin]
+fn symbol_plist(image: &mut Image, symbol: Sym) -> Outcome {
+    Ok(image.symbol(symbol).plist.clone())
 }
 
 /// Replaces a symbol's property list.
-#[builtin("SYMBOL-PLIST", "value symbol")]
-fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[1])?;
-    image.symbols.get_mut(sym).plist = args[0].clone();
-    Ok(args[0].clone())
+#[builtin("SYMBOL-PLIST")]
+fn set_symbol_plist(image: &mut Image, value: &Value, symbol: Sym) -> Outcome {
+    let sym = symbol;
+    image.symbols.get_mut(sym).plist = value.clone();
+    Ok(value.clone())
 }
 
 /// Property lists.

@@ -40,9 +40,9 @@ fn read_preserving_whitespace(m: &mut Machine<'_>, args: Vec<Value>) -> Result<S
 /// Is the object a readtable?
 ///
 /// `(readtablep 1)` => `NIL`
-#[builtin(_, "object")]
-fn readtablep(args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].as_foreign::<Readtable>().is_some()))
+#[builtin]
+fn readtablep(object: &Value) -> bool {
+    object.as_foreign::<Readtable>().is_some()
 }
 
 /// What the reader does with letters that are not escaped: `:upcase`, `:downcase`, `:preserve` or
@@ -50,11 +50,11 @@ fn readtablep(args: &[Value]) -> Outcome {
 ///
 /// `(readtable-case *readtable*)` => `:UPCASE`
 /// `(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :preserve) (symbol-name (read-from-string "Cup")))` => `"Cup"`
-#[builtin(_, "readtable")]
-fn readtable_case(args: &[Value]) -> Outcome {
-    match args[0].as_foreign::<Readtable>() {
+#[builtin]
+fn readtable_case(readtable: &Value) -> Outcome {
+    match readtable.as_foreign::<Readtable>() {
         Some(table) => Ok(table.case.get().keyword().into()),
-        None => Err(Raise::type_error(&args[0], known::READTABLE)),
+        None => Err(Raise::type_error(readtable, known::READTABLE)),
     }
 }
 
@@ -62,10 +62,10 @@ fn readtable_case(args: &[Value]) -> Outcome {
 ///
 /// `(system::%whole-form-p "(a")` => `NIL`
 #[builtin("%WHOLE-FORM-P", "text")]
-fn whole_form_p(args: &[Value]) -> Outcome {
-    let text = args[0].as_text().unwrap_or_default();
+fn whole_form_p(text_value: &Value) -> bool {
+    let text = text_value.as_text().unwrap_or_default();
     let is_open = matches!(is_complete(&text), Completeness::Incomplete { .. });
-    Ok(Value::bool(!is_open))
+    !is_open
 }
 
 /// Lets a character mean what it means in the standard syntax.
@@ -117,11 +117,11 @@ fn set_dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
 
 /// Sets what the reader does with letters.
 #[builtin("READTABLE-CASE", "case readtable")]
-fn set_readtable_case(args: &[Value]) -> Outcome {
-    let Some(table) = args[1].as_foreign::<Readtable>() else {
-        return Err(Raise::type_error(&args[1], known::READTABLE));
+fn set_readtable_case(case_value: &Value, readtable: &Value) -> Outcome {
+    let Some(table) = readtable.as_foreign::<Readtable>() else {
+        return Err(Raise::type_error(readtable, known::READTABLE));
     };
-    let Some(case) = args[0].as_symbol().and_then(LetterCase::named) else {
+    let Some(case) = case_value.as_symbol().and_then(LetterCase::named) else {
         let names = [
             known::K_UPCASE,
             known::K_DOWNCASE,
@@ -130,12 +130,12 @@ fn set_readtable_case(args: &[Value]) -> Outcome {
         ];
         let expected = [known::MEMBER].into_iter().chain(names).map(Value::symbol);
         return Err(Raise::type_error(
-            &args[0],
+            case_value,
             Value::list(expected.collect::<Vec<_>>()),
         ));
     };
     table.case.set(case);
-    Ok(args[0].clone())
+    Ok(case_value.clone())
 }
 
 /// Gives `*readtable*` its value.
@@ -487,13 +487,17 @@ fn with_readtable<R>(
 ///
 /// `(readtablep (copy-readtable nil))` => `T`
 #[builtin(_, "&optional readtable to")]
-fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
-    let copy = if args.first().is_some_and(Value::is_nil) {
+fn copy_readtable(
+    image: &mut Image,
+    readtable: Option<&Value>,
+    to_value: Option<&Value>,
+) -> Outcome {
+    let copy = if readtable.is_some_and(Value::is_nil) {
         Readtable::default()
     } else {
-        with_readtable(image, args.first(), Readtable::clone)?
+        with_readtable(image, readtable, Readtable::clone)?
     };
-    match args.get(1).filter(|to| to.is_true()) {
+    match to_value.filter(|to| to.is_true()) {
         Some(to) => with_readtable(image, Some(to), |table| {
             table.become_like(copy);
             to.clone()
@@ -503,12 +507,18 @@ fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Lets a function of stream and character read what begins with the character.
-#[builtin(_, "character function &optional non-terminating-p readtable")]
-fn set_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    let inside = args.get(2).is_some_and(Value::is_true);
-    with_readtable(image, args.get(3), |table| {
-        let entry = (args[1].clone(), inside);
+#[builtin]
+fn set_macro_character(
+    image: &mut Image,
+    character: char,
+    function: Value,
+    #[default(false)] non_terminating_p: bool,
+    readtable: Option<&Value>,
+) -> Outcome {
+    let c = character;
+    let inside = non_terminating_p;
+    with_readtable(image, readtable, |table| {
+        let entry = (function, inside);
         table.macros.borrow_mut().insert(c, entry);
         Value::T
     })

@@ -151,10 +151,10 @@ fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
 ///
 /// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
 #[builtin(_, "restart")]
-fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
-    match args[0].as_foreign::<Restart>() {
+fn restart_name(restart_value: &Value) -> Result<Value> {
+    match restart_value.as_foreign::<Restart>() {
         Some(restart) => Ok(restart.name.into()),
-        None => Err(Raise::type_error(&args[0], known::RESTART)),
+        None => Err(Raise::type_error(restart_value, known::RESTART)),
     }
 }
 

@@ -1,17 +1,16 @@
 //! Parts of sequences: length, elements, subsequences, copies, filling, joining.
 
+use crate::lisp::builtins::lists::Size;
 use std::rc::Rc;
 
 use super::array_index;
-use super::keywords;
-use super::lists::{nreverse_onto, size};
+use super::lists::nreverse_onto;
 use super::settled_types::sequence_type;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::guard::reserve;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
-use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
 use crate::lisp::{builtin, builtins};
@@ -22,9 +21,9 @@ type Outcome = Result<Value, Box<Raise>>;
 ///
 /// `(length '(1 2 3))` => `3`
 /// `(length "naïve")` => `5`
-#[builtin(_, "sequence")]
-fn length(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Sequence::of(&args[0])?.len()?.into())
+#[builtin]
+fn length(sequence: Sequence) -> Outcome {
+    Ok(sequence.len()?.into())
 }
 
 /// The element of a sequence at an index from 0.
@@ -32,26 +31,34 @@ fn length(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(elt '(a b c) 1)` => `B`
 /// `(elt "abc" 1)` => `#\b`
 #[builtin(_, "sequence index")]
-fn elt(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
-    let at = index(&args[1])?;
+fn elt(sequence_value: &Value, index_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
+    let at = index(index_value)?;
     match &sequence {
         Sequence::List(_) => sequence.get(at),
         _ if at < sequence.len()? => sequence.get(at),
-        _ => Err(array_index::invalid(&args[0], &args[1], sequence.len()?)),
+        _ => Err(array_index::invalid(
+            sequence_value,
+            index_value,
+            sequence.len()?,
+        )),
     }
 }
 
 /// Replaces an element of a sequence.
 #[builtin("ELT", "value sequence index")]
-fn set_elt(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[1])?;
-    let at = index(&args[2])?;
+fn set_elt(value: &Value, sequence_value: &Value, index_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
+    let at = index(index_value)?;
     if !matches!(sequence, Sequence::List(_)) && at >= sequence.len()? {
-        return Err(array_index::invalid(&args[1], &args[2], sequence.len()?));
+        return Err(array_index::invalid(
+            sequence_value,
+            index_value,
+            sequence.len()?,
+        ));
     }
-    sequence.set(at, args[0].clone())?;
-    Ok(args[0].clone())
+    sequence.set(at, value.clone())?;
+    Ok(value.clone())
 }
 
 /// A copy of a part of a sequence.
@@ -112,9 +119,8 @@ fn overwrite(target: &Sequence, bounds: Bounds, items: Vec<Value>) -> Result<(),
 /// A copy of a sequence; the elements are the same.
 ///
 /// `(copy-seq #(1 2))` => `#(1 2)`
-#[builtin(_, "sequence")]
-fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+#[builtin]
+fn copy_seq(sequence: Sequence) -> Outcome {
     match &sequence {
         Sequence::Str(string) => Ok(Value::string(string.text())),
         _ => sequence.kind().make(sequence.all()?),
@@ -125,9 +131,8 @@ fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(reverse '(1 2 3))` => `(3 2 1)`
 /// `(reverse "abc")` => `"cba"`
-#[builtin(_, "sequence")]
-fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+#[builtin]
+fn reverse(sequence: Sequence) -> Outcome {
     let mut items = sequence.all()?;
     items.reverse();
     sequence.kind().make(items)
@@ -137,51 +142,52 @@ fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(nreverse (list 1 2 3))` => `(3 2 1)`
 #[builtin(_, "sequence")]
-fn nreverse(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+fn nreverse(sequence_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
     if let Sequence::List(list) = &sequence {
         return nreverse_onto(list, Value::NIL);
     }
     let mut items = sequence.all()?;
     items.reverse();
     sequence.set_all(&items)?;
-    Ok(args[0].clone())
+    Ok(sequence_value.clone())
 }
 
 /// Replaces all elements of a sequence by an item.
 ///
 /// `(fill (list 1 2 3) 0 :start 1)` => `(1 0 0)`
 #[builtin(_, "sequence item &key start end")]
-fn fill(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let sequence = Sequence::of(&args[0])?;
+fn fill(
+    sequence_value: &Value,
+    item: Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
     let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let count = bounds.end_of(sequence.len()?) - bounds.start;
-    overwrite(&sequence, bounds, vec![args[1].clone(); count])?;
-    Ok(args[0].clone())
+    overwrite(&sequence, bounds, vec![item; count])?;
+    Ok(sequence_value.clone())
 }
 
 /// Copies elements of one sequence over those of another.
 ///
 /// `(replace (list 1 2 3 4) '(a b) :start1 1)` => `(1 A B 4)`
 #[builtin(_, "target source &key start1 end1 start2 end2")]
-fn replace(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start1, end1, start2, end2] = keywords::parse(
-        image,
-        &args[2..],
-        [
-            known::K_START1,
-            known::K_END1,
-            known::K_START2,
-            known::K_END2,
-        ],
-    )?;
-    let target = Sequence::of(&args[0])?;
-    let source = Sequence::of(&args[1])?;
+fn replace(
+    _image: &mut Image,
+    target_value: &Value,
+    source: Sequence,
+    #[key] start1: Option<Value>,
+    #[key] end1: Option<Value>,
+    #[key] start2: Option<Value>,
+    #[key] end2: Option<Value>,
+) -> Outcome {
+    let target = Sequence::of(target_value)?;
     let to = Bounds::new(&target, start1.as_ref(), end1.as_ref())?;
     let from = Bounds::new(&source, start2.as_ref(), end2.as_ref())?;
     overwrite(&target, to, source.items(from)?)?;
-    Ok(args[0].clone())
+    Ok(target_value.clone())
 }
 
 /// A sequence of the elements of all sequences.
@@ -212,13 +218,17 @@ fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
 /// A sequence of equal elements.
 ///
 /// `(make-sequence 'list 2 :initial-element 0)` => `(0 0)`
-#[builtin(_, "result-type size &key initial-element")]
-fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [element] = keywords::parse(image, &args[2..], [known::K_INITIAL_ELEMENT])?;
-    let result = sequence_type(image, &args[0])?;
-    let count = size(&args[1])?;
-    let element = element.unwrap_or_else(|| default_element(result.kind));
-    result.make(vec![element; count])
+#[builtin]
+fn make_sequence(
+    image: &mut Image,
+    result_type: &Value,
+    size: Size,
+    #[key] initial_element: Option<Value>,
+) -> Outcome {
+    let result = sequence_type(image, result_type)?;
+    let count = size.0;
+    let initial_element = initial_element.unwrap_or_else(|| default_element(result.kind));
+    result.make(vec![initial_element; count])
 }
 
 /// The default element of a sequence that is made without elements.
@@ -233,9 +243,9 @@ pub(crate) fn default_element(kind: Kind) -> Value {
 /// A fresh vector of the arguments.
 ///
 /// `(vector 1 2)` => `#(1 2)`
-#[builtin(_, "&rest elements")]
-fn vector(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Vector(Rc::new(Vector::simple(args.to_vec()))))
+#[builtin]
+fn vector(elements: &[Value]) -> Outcome {
+    Ok(Value::Vector(Rc::new(Vector::simple(elements.to_vec()))))
 }
 
 /// Parts of sequences.

@@ -294,11 +294,6 @@ fn nsubstitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Ste
     replace_by(machine, &args, "NSUBSTITUTE-IF-NOT", IF_NOT, true)
 }
 
-const REMOVE_ITEM: &str = "item sequence &key key start end from-end count test test-not";
-const REMOVE_IF: &str = "predicate sequence &key key start end from-end count";
-const REPLACE_ITEM: &str = "new old sequence &key key start end from-end count test test-not";
-const REPLACE_IF: &str = "new predicate sequence &key key start end from-end count";
-
 /// Removing and replacing elements.
 pub(crate) static TABLE: &[Builtin] = builtins![
     remove,

@@ -139,7 +139,5 @@ fn delete_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
     duplicates(machine, &args, "DELETE-DUPLICATES", true)
 }
 
-const LAMBDA_LIST: &str = "sequence &key key start end from-end test test-not";
-
 /// Removing duplicates.
 pub(crate) static TABLE: &[Builtin] = builtins![remove_duplicates, delete_duplicates,];

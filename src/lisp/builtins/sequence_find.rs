@@ -205,9 +205,6 @@ fn count_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
     })
 }
 
-const BY_ITEM: &str = "item sequence &key key start end from-end test test-not";
-const BY_PREDICATE: &str = "predicate sequence &key key start end from-end";
-
 /// Finding and counting elements.
 pub(crate) static TABLE: &[Builtin] = builtins![
     find,

@@ -2,7 +2,6 @@
 //! `notevery`, `reduce`.
 
 use super::criterion::Key;
-use super::keywords;
 use super::settled_types::sequence_type;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
@@ -162,32 +161,32 @@ fn quantify(
 ///
 /// `(every #'evenp '(2 4))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn every(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "EVERY", Quantifier::Every)
+fn every(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "EVERY", Quantifier::Every)
 }
 
 /// The first true result of a predicate for the elements, or `NIL`.
 ///
 /// `(some #'evenp '(1 2))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn some(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "SOME", Quantifier::Some)
+fn some(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "SOME", Quantifier::Some)
 }
 
 /// Does no element satisfy a predicate?
 ///
 /// `(notany #'evenp '(1 3))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn notany(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "NOTANY", Quantifier::NotAny)
+fn notany(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "NOTANY", Quantifier::NotAny)
 }
 
 /// Is there an element that does not satisfy a predicate?
 ///
 /// `(notevery #'evenp '(2 3))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn notevery(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "NOTEVERY", Quantifier::NotEvery)
+fn notevery(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "NOTEVERY", Quantifier::NotEvery)
 }
 
 /// Combines the elements of a sequence two by two.
@@ -195,26 +194,23 @@ fn notevery(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
 /// `(reduce #'+ '(1 2 3 4))` => `10`
 /// `(reduce #'list '(1 2 3) :from-end t)` => `(1 (2 3))`
 #[builtin(_, "function sequence &key key from-end start end initial-value")]
-fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+fn reduce(
+    machine: &mut Machine<'_>,
+    function_value: Value,
+    sequence: Sequence,
+    #[key] key: Option<Value>,
+    #[key] from_end: Option<Value>,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+    #[key] initial_value: Option<Value>,
+) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let [key, start, end, from_end, initial] = keywords::parse(
-        image,
-        &args[2..],
-        [
-            known::K_KEY,
-            known::K_START,
-            known::K_END,
-            known::K_FROM_END,
-            known::K_INITIAL_VALUE,
-        ],
-    )?;
-    let function = callable(image, &args[0])?;
+    let function = callable(image, &function_value)?;
     let key = Key::new(image, key)?;
-    let sequence = Sequence::of(&args[1])?;
     let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let from_end = from_end.is_some_and(|v| v.is_true());
     run(machine, "REDUCE", |calls| async move {
-        let mut result = initial;
+        let mut result = initial_value;
         if from_end {
             for item in sequence.items(bounds)?.into_iter().rev() {
                 let item = key.of(&calls, item).await;

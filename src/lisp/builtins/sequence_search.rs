@@ -138,8 +138,5 @@ fn mismatch(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     run(machine, "MISMATCH", |calls| pair.mismatch(calls))
 }
 
-const LAMBDA_LIST: &str =
-    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2";
-
 /// Comparing sequences.
 pub(crate) static TABLE: &[Builtin] = builtins![search, mismatch,];

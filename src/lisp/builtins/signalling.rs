@@ -19,8 +19,8 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 ///
 /// `(signal "nothing happens")` => `NIL`
 #[builtin(_, "datum &rest arguments")]
-fn signal(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return)
+fn signal(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(m, arguments, known::SIMPLE_CONDITION, Declined::Return)
 }
 
 /// Signals an error: a condition object, the name of a class with initargs, or a format control
@@ -28,20 +28,20 @@ fn signal(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 ///
 /// `(handler-case (error "no ~a" 1) (error (e) (princ-to-string e)))` => `"no 1"`
 #[builtin(_, "datum &rest arguments")]
-fn error(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop)
+fn error(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(m, arguments, known::SIMPLE_ERROR, Declined::Stop)
 }
 
 /// Stops with a condition.
-#[builtin(_, "condition")]
-fn invoke_debugger(args: Vec<Value>) -> Result<Step> {
-    Ok(Step::Unhandled(args[0].clone()))
+#[builtin]
+fn invoke_debugger(condition: Value) -> Result<Step> {
+    Ok(Step::Unhandled(condition))
 }
 
 /// Stops with a text.
 #[builtin("BREAK", "&optional control &rest arguments")]
-fn lisp_break(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    signal_break(m, &args)
+fn lisp_break(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_break(m, &arguments)
 }
 
 /// The condition that a datum and arguments designate.
@@ -117,43 +117,54 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
 }
 
 /// The error of ECASE and its kin.
-#[builtin(_, "key operator wanted")]
-fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+#[builtin]
+fn case_failed(
+    machine: &mut Machine<'_>,
+    key: &Value,
+    operator: &Value,
+    wanted: &Value,
+) -> Result<Step> {
     let image = &mut *machine.image;
     let show = |v: &Value| print::to_string(image, v, true);
     let report = format!(
         "{} fell through {} expression.\nWanted one of {}.",
-        show(&args[0]),
-        show(&args[1]),
-        show(&args[2])
+        show(key),
+        show(operator),
+        show(wanted)
     );
     let is_by_type = matches!(
-        args[1].as_symbol(),
+        operator.as_symbol(),
         Some(known::ETYPECASE | known::CTYPECASE)
     );
     let kind = if is_by_type { known::OR } else { known::MEMBER };
-    let expected = Value::cons(kind.into(), args[2].clone());
+    let expected = Value::cons(kind.into(), wanted.clone());
     Err(Raise::new(known::TYPE_ERROR, report)
-        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_DATUM, key.clone())
         .with(known::K_EXPECTED_TYPE, expected))
 }
 
 /// The error of CHECK-TYPE.
-#[builtin(_, "value place type string")]
-fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
+#[builtin]
+fn check_type_failed(
+    image: &mut Image,
+    value: &Value,
+    place: &Value,
+    type_: &Value,
+    string: &Value,
+) -> Result<Value> {
     let show = |v: &Value| print::to_string(image, v, true);
-    let wanted = match args[3].as_text() {
+    let wanted = match string.as_text() {
         Some(text) => text,
-        None => format!("of type {}", show(&args[2])),
+        None => format!("of type {}", show(type_)),
     };
     let report = format!(
         "The value of {} is {}, which is not {wanted}.",
-        show(&args[1]),
-        show(&args[0])
+        show(place),
+        show(value)
     );
     Err(Raise::new(known::SIMPLE_TYPE_ERROR, report)
-        .with(known::K_DATUM, args[0].clone())
-        .with(known::K_EXPECTED_TYPE, args[2].clone()))
+        .with(known::K_DATUM, value.clone())
+        .with(known::K_EXPECTED_TYPE, type_.clone()))
 }
 
 /// Builtins of package `COMMON-LISP`.

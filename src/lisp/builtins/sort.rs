@@ -176,14 +176,20 @@ fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
 /// Merges two sorted sequences into one.
 ///
 /// `(merge 'list (list 1 3 5) (list 2 4) #'<)` => `(1 2 3 4 5)`
-#[builtin(_, "result-type sequence-1 sequence-2 predicate &key key")]
-fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let result = sequence_type(machine.image, &args[0])?;
+#[builtin]
+fn merge(
+    machine: &mut Machine<'_>,
+    result_type: Value,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    predicate: Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let result = sequence_type(machine.image, &result_type)?;
     let image = &machine.image;
-    let [key] = keywords::parse(image, &args[4..], [known::K_KEY])?;
-    let left = Sequence::of(&args[1])?.all()?;
-    let right = Sequence::of(&args[2])?.all()?;
-    let before = callable(image, &args[3])?;
+    let left = sequence_1.all()?;
+    let right = sequence_2.all()?;
+    let before = callable(image, &predicate)?;
     let key = Key::new(image, key)?;
     run(machine, "MERGE", |calls| async move {
         let left = left.into_iter().map(|v| (v.clone(), v)).collect();

@@ -3,7 +3,6 @@
 use std::io::{Seek as _, SeekFrom};
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::{at_end, stream_of};
 use super::strings::string;
 use crate::lisp::builtin::Builtin;
@@ -20,17 +19,22 @@ type Outcome = Result<Value, Box<Raise>>;
 /// Reads characters or bytes into a sequence; the index after the last one.
 ///
 /// `(read-sequence (make-string 2) (make-string-input-stream "abc"))` => `2`
-#[builtin(_, "sequence stream &key start end")]
-fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let target = Sequence::of(&args[0])?;
+#[builtin]
+fn read_sequence(
+    image: &mut Image,
+    sequence: Sequence,
+    stream: &Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let target = sequence;
     let bounds = Bounds::new(&target, start.as_ref(), end.as_ref())?;
     let end = bounds.end_of(target.len()?);
-    let source = stream::input_stream(image, &args[1])?;
+    let source = stream::input_stream(image, stream)?;
     let reads_bytes = stream::has_integers(image, &source)?;
     let read = |image: &mut Image| match reads_bytes {
         true => stream::read_byte(image, &source),
-        false => Ok(stream::read_char(image, &args[1])?.map(Value::Char)),
+        false => Ok(stream::read_char(image, stream)?.map(Value::Char)),
     };
     let mut at = bounds.start;
     while at < end
@@ -45,21 +49,26 @@ fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
 /// Writes the characters or bytes of a sequence.
 ///
 /// `(with-output-to-string (s) (write-sequence "hello" s :start 1 :end 3))` => `"el"`
-#[builtin(_, "sequence stream &key start end")]
-fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let source = Sequence::of(&args[0])?;
+#[builtin]
+fn write_sequence(
+    image: &mut Image,
+    sequence: &Value,
+    stream: &Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let source = Sequence::of(sequence)?;
     let bounds = Bounds::new(&source, start.as_ref(), end.as_ref())?;
     let items = source.items(bounds)?;
-    let target = stream::output_stream(image, &args[1])?;
+    let target = stream::output_stream(image, stream)?;
     if stream::has_integers(image, &target)? {
         for item in &items {
             stream::write_byte(image, &target, item)?;
         }
     } else {
-        stream::write(image, &args[1], &text_of(&items)?)?;
+        stream::write(image, stream, &text_of(&items)?)?;
     }
-    Ok(args[0].clone())
+    Ok(sequence.clone())
 }
 
 /// Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.
@@ -77,10 +86,10 @@ fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
 /// Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.
 ///
 /// `(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters))` => `CHARACTERS`
-#[builtin(_, "integer stream")]
-fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::write_byte(image, stream_of(&args[1])?, &args[0])?;
-    Ok(args[0].clone())
+#[builtin]
+fn write_byte(image: &mut Image, integer: &Value, stream: &Rc<Stream>) -> Outcome {
+    stream::write_byte(image, stream, integer)?;
+    Ok(integer.clone())
 }
 
 /// How many bytes a character or string would take in a file.
@@ -88,13 +97,13 @@ fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(file-string-length *standard-output* "naïve")` => `6`
 // How many bytes a character or a string takes in a file.
 #[builtin(_, "stream object")]
-fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::output_stream(image, &args[0])?;
+fn file_string_length(image: &mut Image, stream_value: &Value, object: &Value) -> Outcome {
+    let stream = stream::output_stream(image, stream_value)?;
     // A stream that writes nowhere takes no more than one element.
     if matches!(&*stream.kind.borrow(), StreamKind::Broadcast { targets } if targets.is_empty()) {
         return Ok(Value::Int(1));
     }
-    Ok(match &args[1] {
+    Ok(match object {
         Value::Char(c) => c.len_utf8(),
         other => string(other)?.borrow().len(),
     }
@@ -106,9 +115,8 @@ fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(file-position (make-string-input-stream "x"))` => `0`
 // The position in a stream: in characters, or in bytes for a stream that writes a file.
 #[builtin(_, "stream &optional position")]
-fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream_of(&args[0])?;
-    match (&mut *stream.kind.borrow_mut(), args.get(1)) {
+fn file_position(stream: &Rc<Stream>, position_value: Option<&Value>) -> Outcome {
+    match (&mut *stream.kind.borrow_mut(), position_value) {
         (StreamKind::StringInput { text, position }, None) => {
             let before = text.get(..*position).unwrap_or("");
             Ok(before.chars().count().into())
@@ -181,8 +189,8 @@ fn measured(stream: &Rc<Stream>) -> Option<Rc<Stream>> {
 ///
 /// `(file-length (make-broadcast-stream))` => `0`
 #[builtin(_, "stream")]
-fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+fn file_length(image: &mut Image, stream_value: &Value) -> Outcome {
+    let stream = stream::followed(image, stream_of(stream_value)?)?;
     let Some(stream) = measured(&stream) else {
         return Ok(Value::Int(0));
     };
@@ -194,7 +202,7 @@ fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
             let written = file.get_ref().metadata().map_or(0, |data| data.len());
             usize::try_from(written).unwrap_or(usize::MAX) + buffered
         }
-        _ => return Err(Raise::type_error(&args[0], known::FILE_STREAM)),
+        _ => return Err(Raise::type_error(stream_value, known::FILE_STREAM)),
     };
     Ok((bytes / stream.width()).into())
 }

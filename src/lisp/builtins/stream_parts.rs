@@ -1,10 +1,11 @@
 //! Making streams, combining them, and what they are made of.
 
+use crate::lisp::value::string::LispString;
+use crate::lisp::value::symbol::Sym;
 use std::rc::Rc;
 
 use super::keywords;
 use super::streams::stream_of;
-use super::strings::string;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::stream::{self, Stream, StreamKind};
@@ -32,11 +33,11 @@ fn make_string_output_stream(image: &mut Image, args: &[Value]) -> Outcome {
 /// Takes the text that a string output stream has collected.
 ///
 /// `(get-output-stream-string (make-string-output-stream))` => `""`
-#[builtin(_, "stream")]
-fn get_output_stream_string(_: &mut Image, args: &[Value]) -> Outcome {
-    match stream_of(&args[0])?.take_text() {
+#[builtin]
+fn get_output_stream_string(stream: &Value) -> Outcome {
+    match stream_of(stream)?.take_text() {
         Some(text) => Ok(Value::string(text)),
-        None => Err(Raise::type_error(&args[0], known::STRING_STREAM)),
+        None => Err(Raise::type_error(stream, known::STRING_STREAM)),
     }
 }
 
@@ -44,10 +45,14 @@ fn get_output_stream_string(_: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(read-char (make-string-input-stream "abc" 1))` => `#\b`
 #[builtin(_, "string &optional start end")]
-fn make_string_input_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let string = string(&args[0])?.clone();
+fn make_string_input_stream(
+    string_argument: &Rc<LispString>,
+    start: Option<&Value>,
+    end: Option<&Value>,
+) -> Outcome {
+    let string = string_argument.clone();
     let sequence = Sequence::Str(string.clone());
-    let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
+    let bounds = Bounds::new(&sequence, start, end)?;
     Ok(made(Stream::from_text(
         string.slice(bounds.start, bounds.end),
     )))
@@ -58,8 +63,8 @@ fn make_string_input_stream(_: &mut Image, args: &[Value]) -> Outcome {
 /// `(streamp (system::%make-fill-pointer-stream (make-array 0 :element-type 'character :fill-pointer 0)))` => `T`
 // A stream that appends to a string with a fill pointer.
 #[builtin("%MAKE-FILL-POINTER-STREAM", "string")]
-fn make_fill_pointer_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let target = string(&args[0])?.clone();
+fn make_fill_pointer_stream(string_argument: &Rc<LispString>) -> Outcome {
+    let target = string_argument.clone();
     if !target.has_fill_pointer.get() {
         return Err(Raise::simple(
             "The string has no fill pointer, so nothing can be appended to it.",
@@ -99,9 +104,9 @@ fn outputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>>
 /// A stream that writes to several others.
 ///
 /// `(princ 1 (make-broadcast-stream))` => `1`
-#[builtin(_, "&rest streams")]
-fn make_broadcast_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    let targets = outputs(image, args)?;
+#[builtin]
+fn make_broadcast_stream(image: &mut Image, streams: &[Value]) -> Outcome {
+    let targets = outputs(image, streams)?;
     let kind = StreamKind::Broadcast {
         targets: targets.clone(),
     };
@@ -111,9 +116,9 @@ fn make_broadcast_stream(image: &mut Image, args: &[Value]) -> Outcome {
 /// A stream that reads several others one after the other.
 ///
 /// `(read-line (make-concatenated-stream (make-string-input-stream "a") (make-string-input-stream "b")))` => `"ab" ; T`
-#[builtin(_, "&rest streams")]
-fn make_concatenated_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    let inputs = inputs(image, args)?;
+#[builtin]
+fn make_concatenated_stream(image: &mut Image, streams: &[Value]) -> Outcome {
+    let inputs = inputs(image, streams)?;
     let kind = StreamKind::Concatenated {
         inputs: inputs.clone(),
         unread: None,
@@ -155,9 +160,8 @@ fn make_echo_stream(image: &mut Image, args: &[Value]) -> Outcome {
 /// A stream that stands for the value of a variable.
 ///
 /// `(streamp (make-synonym-stream '*standard-output*))` => `T`
-#[builtin(_, "symbol")]
-fn make_synonym_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let symbol = super::property_lists::symbol(&args[0])?;
+#[builtin]
+fn make_synonym_stream(symbol: Sym) -> Outcome {
     Ok(made(Stream::new(StreamKind::Synonym { symbol })))
 }
 
@@ -181,66 +185,66 @@ fn components(value: &Value) -> Outcome {
 /// The streams that a broadcast stream writes to.
 ///
 /// `(broadcast-stream-streams (make-broadcast-stream))` => `NIL`
-#[builtin("BROADCAST-STREAM-STREAMS", "stream")]
-fn all_components(_: &mut Image, args: &[Value]) -> Outcome {
-    components(&args[0])
+#[builtin("BROADCAST-STREAM-STREAMS")]
+fn all_components(stream: &Value) -> Outcome {
+    components(stream)
 }
 
 /// The stream that is read.
 ///
 /// `(streamp (two-way-stream-input-stream *terminal-io*))` => `T`
-#[builtin("TWO-WAY-STREAM-INPUT-STREAM", "stream")]
-fn first_component(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(components(&args[0])?.car_or_nil())
+#[builtin("TWO-WAY-STREAM-INPUT-STREAM")]
+fn first_component(stream: &Value) -> Outcome {
+    Ok(components(stream)?.car_or_nil())
 }
 
 /// The stream that is written.
 ///
 /// `(streamp (two-way-stream-output-stream *terminal-io*))` => `T`
-#[builtin("TWO-WAY-STREAM-OUTPUT-STREAM", "stream")]
-fn second_component(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(components(&args[0])?.cdr_or_nil().car_or_nil())
+#[builtin("TWO-WAY-STREAM-OUTPUT-STREAM")]
+fn second_component(stream: &Value) -> Outcome {
+    Ok(components(stream)?.cdr_or_nil().car_or_nil())
 }
 
 /// The name of the file that a stream reads or writes, or `NIL`.
 ///
 /// `(system::%stream-file *standard-input*)` => `NIL`
-#[builtin("%STREAM-FILE", "stream")]
-fn stream_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let file = &stream_of(&args[0])?.file;
+#[builtin("%STREAM-FILE")]
+fn stream_file(stream: &Rc<Stream>) -> Outcome {
+    let file = &stream.file;
     Ok(file.as_deref().map_or(Value::NIL, Value::string))
 }
 
 /// The streams that a concatenated stream has still to read.
 ///
 /// `(concatenated-stream-streams (make-concatenated-stream))` => `NIL`
-#[builtin(_, "stream")]
-fn concatenated_stream_streams(image: &mut Image, args: &[Value]) -> Outcome {
-    all_components(image, args)
+#[builtin]
+fn concatenated_stream_streams(stream: &Value) -> Outcome {
+    all_components(stream)
 }
 
 /// The stream that is read.
 ///
 /// `(streamp (echo-stream-input-stream (make-echo-stream *standard-input* *standard-output*)))` => `T`
-#[builtin(_, "stream")]
-fn echo_stream_input_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    first_component(image, args)
+#[builtin]
+fn echo_stream_input_stream(stream: &Value) -> Outcome {
+    first_component(stream)
 }
 
 /// The stream that is written.
 ///
 /// `(streamp (echo-stream-output-stream (make-echo-stream *standard-input* *standard-output*)))` => `T`
-#[builtin(_, "stream")]
-fn echo_stream_output_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    second_component(image, args)
+#[builtin]
+fn echo_stream_output_stream(stream: &Value) -> Outcome {
+    second_component(stream)
 }
 
 /// The variable that a synonym stream stands for.
 ///
 /// `(synonym-stream-symbol (make-synonym-stream '*x*))` => `*X*`
-#[builtin(_, "stream")]
-fn synonym_stream_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    first_component(image, args)
+#[builtin]
+fn synonym_stream_symbol(stream: &Value) -> Outcome {
+    first_component(stream)
 }
 
 /// Making and combining streams.

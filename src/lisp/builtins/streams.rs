@@ -9,7 +9,6 @@ use crate::lisp::stream::{self, Elements, Stream, StreamKind};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::character;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::step::Step;
 use crate::lisp::{builtin, builtins};
@@ -42,21 +41,21 @@ pub(crate) fn or_method(
 /// Is the object a stream?
 ///
 /// `(streamp *standard-output*)` => `T`
-#[builtin(_, "object")]
-fn streamp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(match &args[0] {
+#[builtin]
+fn streamp(object: &Value) -> bool {
+    match object {
         Value::Stream(_) => true,
         Value::Instance(instance) => instance.is_a(known::STREAM),
         _ => false,
-    }))
+    }
 }
 
 /// Can the stream be read?
 ///
 /// `(input-stream-p (make-string-input-stream "x"))` => `T`
 #[builtin(_, "stream")]
-fn input_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+fn input_stream_p(image: &mut Image, stream_argument: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream_argument)?;
     Ok(Value::bool(stream.is_input()))
 }
 
@@ -64,35 +63,34 @@ fn input_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(output-stream-p (make-string-input-stream "x"))` => `NIL`
 #[builtin(_, "stream")]
-fn output_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+fn output_stream_p(image: &mut Image, stream_argument: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream_argument)?;
     Ok(Value::bool(stream.is_output()))
 }
 
 /// Is somebody at the other end?
 ///
 /// `(interactive-stream-p *standard-input*)` => `NIL`
-#[builtin(_, "stream")]
-fn interactive_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
-    stream_of(&args[0]).map(|_| Value::NIL)
+#[builtin]
+fn interactive_stream_p(stream: &Value) -> Outcome {
+    stream_of(stream).map(|_| Value::NIL)
 }
 
 /// Is the stream open?
 ///
 /// `(open-stream-p (make-string-input-stream "x"))` => `T`
-#[builtin(_, "stream")]
-fn open_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream_of(&args[0])?;
+#[builtin]
+fn open_stream_p(stream: &Rc<Stream>) -> bool {
     let open = !matches!(&*stream.kind.borrow(), StreamKind::Closed);
-    Ok(Value::bool(open))
+    open
 }
 
 /// The type of what the stream carries.
 ///
 /// `(stream-element-type (make-string-input-stream "x"))` => `CHARACTER`
-#[builtin(_, "stream")]
-fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(match stream_of(&args[0])?.elements {
+#[builtin]
+fn stream_element_type(stream: &Rc<Stream>) -> Outcome {
+    Ok(match stream.elements {
         Elements::Characters => known::CHARACTER.into(),
         Elements::Integers { bits, signed } => {
             let name = if signed {
@@ -108,9 +106,8 @@ fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
 /// How characters are encoded in files: UTF-8.
 ///
 /// `(stream-external-format (make-string-input-stream "x"))` => `:DEFAULT`
-#[builtin("STREAM-EXTERNAL-FORMAT", "stream")]
-fn external_format(image: &mut Image, args: &[Value]) -> Outcome {
-    stream_of(&args[0])?;
+#[builtin("STREAM-EXTERNAL-FORMAT")]
+fn external_format(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
     Ok(image.keyword("DEFAULT").into())
 }
 
@@ -128,8 +125,8 @@ fn close(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(finish-output)` => `NIL`
 // Flushes the buffer of a file stream.
 #[builtin(_, "&optional stream")]
-fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
-    let target = args.first().unwrap_or(&Value::NIL);
+fn finish_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
+    let target = stream_value.unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
     stream::flush(&stream)?;
     image.output.finish();
@@ -139,9 +136,9 @@ fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
 /// Does nothing: no input waits.
 ///
 /// `(clear-input)` => `NIL`
-#[builtin(_, "&optional stream")]
-fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::input_stream(image, args.first().unwrap_or(&Value::NIL))?;
+#[builtin]
+fn clear_input(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    stream::input_stream(image, stream.unwrap_or(&Value::NIL))?;
     Ok(Value::NIL)
 }
 
@@ -167,12 +164,18 @@ pub(crate) fn at_end(
 /// Reads a character.
 ///
 /// `(read-char (make-string-input-stream "abc"))` => `#\a`
-#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
-fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+#[builtin]
+fn read_char(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     match stream::read_char(image, source)? {
         Some(c) => Ok(Value::Char(c)),
-        None => at_end(image, args.first(), args.get(1), args.get(2)),
+        None => at_end(image, stream, eof_error_p, eof_value),
     }
 }
 
@@ -182,11 +185,18 @@ fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(peek-char t (make-string-input-stream "  x"))` => `#\x`
 // `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
 // before it.
-#[builtin(_, "&optional type stream eof-error-p eof-value recursive-p")]
-fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.get(1).unwrap_or(&Value::NIL);
+#[builtin]
+fn peek_char(
+    image: &mut Image,
+    type_: Option<&Value>,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     while let Some(c) = stream::peek_char(image, source)? {
-        let skipped = match args.first() {
+        let skipped = match type_ {
             Some(Value::Symbol(known::T, ..)) => c.is_whitespace(),
             Some(Value::Char(wanted)) => c != *wanted,
             _ => false,
@@ -196,25 +206,25 @@ fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
         }
         stream::advance(image, source, c.len_utf8())?;
     }
-    at_end(image, args.get(1), args.get(2), args.get(3))
+    at_end(image, stream, eof_error_p, eof_value)
 }
 
 /// Gives the character back that was read last.
 ///
 /// `(let ((s (make-string-input-stream "ab"))) (unread-char (read-char s) s) (read-char s))` => `#\a`
-#[builtin(_, "character &optional stream")]
-fn unread_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    stream::unread_char(image, args.get(1).unwrap_or(&Value::NIL), c)?;
+#[builtin]
+fn unread_char(image: &mut Image, character: char, stream: Option<&Value>) -> Outcome {
+    let c = character;
+    stream::unread_char(image, stream.unwrap_or(&Value::NIL), c)?;
     Ok(Value::NIL)
 }
 
 /// Is there a character to read?
 ///
 /// `(listen (make-string-input-stream ""))` => `NIL`
-#[builtin(_, "&optional stream")]
-fn listen(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+#[builtin]
+fn listen(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     // Nobody is asked.
     if stream::is_standard_input(image, source) {
         return Ok(Value::bool(!image.input.unread().is_empty()));
@@ -225,13 +235,19 @@ fn listen(image: &mut Image, args: &[Value]) -> Outcome {
 /// Reads a line; the second value tells whether it ended without a newline.
 ///
 /// `(read-line (make-string-input-stream "only"))` => `"only" ; T`
-#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
-fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+#[builtin]
+fn read_line(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     let (text, from) = stream::rest(image, source)?;
     let rest = text.get(from..).unwrap_or("");
     if rest.is_empty() {
-        let value = at_end(image, args.first(), args.get(1), args.get(2))?;
+        let value = at_end(image, stream, eof_error_p, eof_value)?;
         return Ok(Value::values(vec![value, Value::T]));
     }
     let (line, ended) = match rest.split_once('\n') {
@@ -249,24 +265,30 @@ fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(force-output)` => `NIL`
 #[builtin(_, "&optional stream")]
-fn force_output(image: &mut Image, args: &[Value]) -> Outcome {
-    finish_output(image, args)
+fn force_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
+    finish_output(image, stream_value)
 }
 
 /// Does nothing: all output is written.
 ///
 /// `(clear-output)` => `NIL`
 #[builtin(_, "&optional stream")]
-fn clear_output(image: &mut Image, args: &[Value]) -> Outcome {
-    finish_output(image, args)
+fn clear_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
+    finish_output(image, stream_value)
 }
 
 /// Reads a character.
 ///
 /// `(read-char-no-hang (make-string-input-stream "abc"))` => `#\a`
-#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
-fn read_char_no_hang(image: &mut Image, args: &[Value]) -> Outcome {
-    read_char(image, args)
+#[builtin]
+fn read_char_no_hang(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    recursive_p: Option<&Value>,
+) -> Outcome {
+    read_char(image, stream, eof_error_p, eof_value, recursive_p)
 }
 
 /// Streams.

@@ -1,11 +1,11 @@
 //! Strings: case, trimming, characters, making.
 
+use crate::lisp::builtins::lists::Size;
 use std::rc::Rc;
 
 use super::array_index;
 use super::characters::{downcase, upcase};
 use super::keywords;
-use super::lists::size;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -46,10 +46,10 @@ pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
 /// The string that a string, a symbol or a character means.
 ///
 /// `(string 'foo)` => `"FOO"`
-#[builtin("STRING", "designator")]
-fn to_string(image: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
-        Value::Str(_) => Ok(args[0].clone()),
+#[builtin("STRING")]
+fn to_string(image: &mut Image, designator: &Value) -> Outcome {
+    match designator {
+        Value::Str(_) => Ok(designator.clone()),
         other => designated(image, other).map(Value::string),
     }
 }
@@ -57,57 +57,62 @@ fn to_string(image: &mut Image, args: &[Value]) -> Outcome {
 /// Is the object a string?
 ///
 /// `(stringp "a")` => `T`
-#[builtin(_, "object")]
-fn stringp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Str(_))))
+#[builtin]
+fn stringp(object: &Value) -> bool {
+    matches!(object, Value::Str(_))
 }
 
 /// Is the object a string without a fill pointer?
 ///
 /// `(simple-string-p "a")` => `T`
-#[builtin(_, "object")]
-fn simple_string_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(
-        matches!(&args[0], Value::Str(s) if s.is_simple()),
-    ))
+#[builtin]
+fn simple_string_p(object: &Value) -> bool {
+    matches!(object, Value::Str(s) if s.is_simple())
 }
 
 /// A string of equal characters.
 ///
 /// `(make-string 3 :initial-element #\a)` => `"aaa"`
-#[builtin(_, "size &key initial-element element-type")]
-fn make_string(image: &mut Image, args: &[Value]) -> Outcome {
-    let [element, _] = keywords::parse(
-        image,
-        &args[1..],
-        [known::K_INITIAL_ELEMENT, known::K_ELEMENT_TYPE],
-    )?;
-    let element = element.map_or(Ok('\0'), |e| character(&e))?;
-    let count = size(&args[0])?;
-    Ok(Value::string(element.to_string().repeat(count)))
+#[builtin]
+fn make_string(
+    size: Size,
+    #[key] initial_element: Option<Value>,
+    #[key] _element_type: Option<&Value>,
+) -> Outcome {
+    let initial_element = initial_element.map_or(Ok('\0'), |e| character(&e))?;
+    let count = size.0;
+    Ok(Value::string(initial_element.to_string().repeat(count)))
 }
 
 /// The character of a string at an index from 0.
 ///
 /// `(char "abc" 1)` => `#\b`
 #[builtin("CHAR", "string index")]
-fn char_at(_: &mut Image, args: &[Value]) -> Outcome {
-    let string = string(&args[0])?;
-    match string.element(index(&args[1])?) {
+fn char_at(string_value: &Value, index_value: &Value) -> Outcome {
+    let string = string(string_value)?;
+    match string.element(index(index_value)?) {
         Some(c) => Ok(Value::Char(c)),
-        None => Err(array_index::invalid(&args[0], &args[1], string.capacity())),
+        None => Err(array_index::invalid(
+            string_value,
+            index_value,
+            string.capacity(),
+        )),
     }
 }
 
 /// Replaces a character of a string.
 #[builtin("CHAR", "value string index")]
-fn set_char_at(_: &mut Image, args: &[Value]) -> Outcome {
-    let string = string(&args[1])?;
-    let c = character(&args[0])?;
-    if string.set_element(index(&args[2])?, c) {
-        Ok(args[0].clone())
+fn set_char_at(value: &Value, string_value: &Value, index_value: &Value) -> Outcome {
+    let string = string(string_value)?;
+    let c = character(value)?;
+    if string.set_element(index(index_value)?, c) {
+        Ok(value.clone())
     } else {
-        Err(array_index::invalid(&args[1], &args[2], string.capacity()))
+        Err(array_index::invalid(
+            string_value,
+            index_value,
+            string.capacity(),
+        ))
     }
 }
 
@@ -249,14 +254,14 @@ fn string_right_trim(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(schar "abc" 1)` => `#\b`
 #[builtin(_, "string index")]
-fn schar(image: &mut Image, args: &[Value]) -> Outcome {
-    char_at(image, args)
+fn schar(string_value: &Value, index_value: &Value) -> Outcome {
+    char_at(string_value, index_value)
 }
 
 /// Replaces a character of a string.
 #[builtin("SCHAR", "value string index")]
-fn set_schar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_char_at(image, args)
+fn set_schar(value: &Value, string_value: &Value, index_value: &Value) -> Outcome {
+    set_char_at(value, string_value, index_value)
 }
 
 /// Strings.

@@ -12,9 +12,9 @@ use crate::lisp::{builtin, builtins};
 /// A structure of the same type with the same slot values.
 ///
 /// `(progn (defstruct spot x) (copy-structure (make-spot :x 1)))` => `#S(SPOT :X 1)`
-#[builtin("COPY-STRUCTURE", "structure")]
-fn copy_structure_builtin(args: &[Value]) -> Result<Value, Box<Raise>> {
-    copy_structure(&args[0])
+#[builtin("COPY-STRUCTURE")]
+fn copy_structure_builtin(structure: &Value) -> Result<Value, Box<Raise>> {
+    copy_structure(structure)
 }
 
 /// Defines a structure as DEFSTRUCT describes it.
@@ -34,8 +34,8 @@ fn define_typed_structure_builtin(image: &mut Image, args: &[Value]) -> Result<V
 
 /// Makes a structure from the values of its slots in order.
 #[builtin("%MAKE-STRUCTURE", "name &rest slot-values")]
-fn make_structure_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    make_structure(image, args)
+fn make_structure_builtin(image: &mut Image, slot_values: &[Value]) -> Result<Value, Box<Raise>> {
+    make_structure(image, slot_values)
 }
 
 /// The macros.

@@ -9,43 +9,45 @@ use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::index;
+use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::vm::callable::callable;
 use crate::lisp::{builtin, builtins};
+use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Is the object a symbol?
 ///
 /// `(symbolp 'a)` => `T`
-#[builtin(_, "object")]
-fn symbolp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].as_symbol().is_some()))
+#[builtin]
+fn symbolp(object: &Value) -> bool {
+    object.as_symbol().is_some()
 }
 
 /// Is the object a keyword?
 ///
 /// `(keywordp :a)` => `T`
-#[builtin(_, "object")]
-fn keywordp(image: &mut Image, args: &[Value]) -> Outcome {
-    let is = args[0].as_symbol().is_some_and(|s| image.is_keyword(s));
-    Ok(Value::bool(is))
+#[builtin]
+fn keywordp(image: &mut Image, object: &Value) -> bool {
+    let is = object.as_symbol().is_some_and(|s| image.is_keyword(s));
+    is
 }
 
 /// A symbol's name.
 ///
 /// `(symbol-name 'foo)` => `"FOO"`
-#[builtin(_, "symbol")]
-fn symbol_name(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::string(image.name(symbol(&args[0])?)))
+#[builtin]
+fn symbol_name(image: &mut Image, symbol: Sym) -> Outcome {
+    Ok(Value::string(image.name(symbol)))
 }
 
 /// A symbol's home package, or `NIL`.
 ///
 /// `(symbol-package 'car)` => `#<PACKAGE "COMMON-LISP">`
-#[builtin(_, "symbol")]
-fn symbol_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = image.symbol(symbol(&args[0])?).package;
+#[builtin]
+fn symbol_package(image: &mut Image, symbol: Sym) -> Outcome {
+    let package = image.symbol(symbol).package;
     Ok(package.map_or(Value::NIL, Value::Package))
 }
 
@@ -53,8 +55,8 @@ fn symbol_package(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(make-symbol "A")` => `#:A`
 #[builtin(_, "name")]
-fn make_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
+fn make_symbol(image: &mut Image, name_argument: &Rc<LispString>) -> Outcome {
+    let name = name_argument.text();
     Ok(image.symbols.make_passing(name.into()))
 }
 
@@ -62,11 +64,10 @@ fn make_symbol(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(copy-symbol 'foo)` => `#:FOO`
 #[builtin(_, "symbol &optional copy-properties")]
-fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let from = symbol(&args[0])?;
+fn copy_symbol(image: &mut Image, from: Sym, #[default(false)] copy_properties: bool) -> Outcome {
     let name = image.name(from).to_owned();
     let copy = image.symbols.make_passing(name.into());
-    if args.get(1).is_some_and(Value::is_true) {
+    if copy_properties {
         let data = image.symbol(from);
         let (value, function, plist, kind) = (
             data.value.clone(),
@@ -87,8 +88,8 @@ fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(symbol-package (gensym))` => `NIL`
 #[builtin(_, "&optional prefix")]
-fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = match args.first() {
+fn gensym(image: &mut Image, prefix_value: Option<&Value>) -> Outcome {
+    let name = match prefix_value {
         None => image.fresh_name("G"),
         Some(Value::Str(prefix)) => image.fresh_name(&prefix.text()),
         Some(number) => format!("G{}", index(number)?),
@@ -101,12 +102,16 @@ fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(symbolp (gentemp "NEW"))` => `T`
 // A fresh symbol of the current package; names are counted from 1 for each prefix.
 #[builtin(_, "&optional prefix package")]
-fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
-    let prefix = match args.first() {
+fn gentemp(
+    image: &mut Image,
+    prefix_value: Option<&Value>,
+    package_value: Option<&Value>,
+) -> Outcome {
+    let prefix = match prefix_value {
         Some(prefix) => string(prefix)?.text(),
         None => "T".to_owned(),
     };
-    let package = match args.get(1) {
+    let package = match package_value {
         Some(package) => super::packages::designated(image, package)?,
         None => image.current_package(),
     };
@@ -123,18 +128,18 @@ fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
 /// Has the symbol a value as a global variable?
 ///
 /// `(boundp 'pi)` => `T`
-#[builtin(_, "symbol")]
-fn boundp(image: &mut Image, args: &[Value]) -> Outcome {
-    let bound = !image.special(symbol(&args[0])?).is_unbound();
-    Ok(Value::bool(bound))
+#[builtin]
+fn boundp(image: &mut Image, symbol: Sym) -> bool {
+    let bound = !image.special(symbol).is_unbound();
+    bound
 }
 
 /// The value of a global variable.
 ///
 /// `(symbol-value :a)` => `:A`
-#[builtin(_, "symbol")]
-fn symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
+#[builtin]
+fn symbol_value(image: &mut Image, symbol: Sym) -> Outcome {
+    let sym = symbol;
     match image.special(sym) {
         Value::Unbound => Err(Raise::unbound_variable(sym)),
         value => Ok(value.clone()),
@@ -155,24 +160,24 @@ fn assign(image: &mut Image, sym: Sym, value: &Value) -> Outcome {
 /// Assigns a global variable.
 ///
 /// `(progn (set 'set-example 6) (symbol-value 'set-example))` => `6`
-#[builtin(_, "symbol value")]
-fn set(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[0])?, &args[1])
+#[builtin]
+fn set(image: &mut Image, symbol: Sym, value: &Value) -> Outcome {
+    assign(image, symbol, value)
 }
 
 /// Assigns a global variable.
-#[builtin("SYMBOL-VALUE", "value symbol")]
-fn set_symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[1])?, &args[0])
+#[builtin("SYMBOL-VALUE")]
+fn set_symbol_value(image: &mut Image, value: &Value, symbol: Sym) -> Outcome {
+    assign(image, symbol, value)
 }
 
 /// Takes a global variable's value away.
 ///
 /// `(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example))` => `NIL`
 #[builtin(_, "symbol")]
-fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[0])?, &Value::Unbound)?;
-    Ok(args[0].clone())
+fn makunbound(image: &mut Image, symbol_value: &Value) -> Outcome {
+    assign(image, symbol(symbol_value)?, &Value::Unbound)?;
+    Ok(symbol_value.clone())
 }
 
 /// Does the form always have the same value?
@@ -181,23 +186,23 @@ fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
 /// `(constantp 'x)` => `NIL`
 // Does a form always have the same value: is it a constant, a quoted object, or something that
 // evaluates to itself?
-#[builtin(_, "form &optional environment")]
-fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
-    let constant = match &args[0] {
+#[builtin]
+fn constantp(image: &mut Image, form: &Value, _environment: Option<&Value>) -> bool {
+    let constant = match form {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE, ..)),
         _ => true,
     };
-    Ok(Value::bool(constant))
+    constant
 }
 
 /// Is the object a function that is not generic? All of these are compiled.
 ///
 /// `(compiled-function-p #'car)` => `T`
-#[builtin(_, "object")]
-fn compiled_function_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let is_compiled = matches!(&args[0], Value::Function(f) if !matches!(f.body, Body::Generic(_)));
-    Ok(Value::bool(is_compiled))
+#[builtin]
+fn compiled_function_p(object: &Value) -> bool {
+    let is_compiled = matches!(object, Value::Function(f) if !matches!(f.body, Body::Generic(_)));
+    is_compiled
 }
 
 /// A symbol, or the place name in `(setf name)`.
@@ -223,9 +228,9 @@ fn function_name(value: &Value) -> Result<FunctionName, Box<Raise>> {
 /// Names this a function, macro or special operator?
 ///
 /// `(fboundp 'car)` => `T`
-#[builtin(_, "name")]
-fn fboundp(image: &mut Image, args: &[Value]) -> Outcome {
-    let bound = match function_name(&args[0])? {
+#[builtin]
+fn fboundp(image: &mut Image, name: &Value) -> Outcome {
+    let bound = match function_name(name)? {
         FunctionName::Plain(sym) => !matches!(image.symbol(sym).function, FunctionCell::Unbound),
         FunctionName::Setf(sym) => image.symbol(sym).setf_function.is_some(),
     };
@@ -236,9 +241,9 @@ fn fboundp(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(funcall (fdefinition 'car) '(1))` => `1`
 #[builtin(_, "name")]
-fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
-    let undefined = || Raise::undefined_function(args[0].clone());
-    match function_name(&args[0])? {
+fn fdefinition(image: &mut Image, name_value: &Value) -> Outcome {
+    let undefined = || Raise::undefined_function(name_value.clone());
+    match function_name(name_value)? {
         FunctionName::Plain(sym) => match &image.symbol(sym).function {
             FunctionCell::Function(function) | FunctionCell::Macro(function) => {
                 Ok(Value::Function(function.clone()))
@@ -264,44 +269,50 @@ fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
 /// The function that a symbol names.
 ///
 /// `(funcall (symbol-function 'car) '(1))` => `1`
-#[builtin(_, "symbol")]
-fn symbol_function(image: &mut Image, args: &[Value]) -> Outcome {
-    symbol(&args[0])?;
-    fdefinition(image, args)
+#[builtin]
+fn symbol_function(image: &mut Image, symbol: &Value) -> Outcome {
+    if symbol.as_symbol().is_none() {
+        return Err(Raise::type_error(symbol, known::SYMBOL));
+    }
+    fdefinition(image, symbol)
 }
 
 /// Sets the function that a symbol names.
-#[builtin("SYMBOL-FUNCTION", "value symbol")]
-fn set_fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Function(function) = callable(image, &args[0])? else {
-        return Err(Raise::type_error(&args[0], known::FUNCTION));
+#[builtin("SYMBOL-FUNCTION")]
+fn set_fdefinition(image: &mut Image, value: &Value, symbol: &Value) -> Outcome {
+    let Value::Function(function) = callable(image, value)? else {
+        return Err(Raise::type_error(value, known::FUNCTION));
     };
-    match function_name(&args[1])? {
+    match function_name(symbol)? {
         FunctionName::Plain(sym) => image.set_function(sym, function),
         FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = Some(function),
     }
-    Ok(args[0].clone())
+    Ok(value.clone())
 }
 
 /// Takes a name's function away.
 ///
 /// `(fmakunbound 'no-such-function)` => `NO-SUCH-FUNCTION`
-#[builtin(_, "name")]
-fn fmakunbound(image: &mut Image, args: &[Value]) -> Outcome {
-    match function_name(&args[0])? {
+#[builtin]
+fn fmakunbound(image: &mut Image, name: &Value) -> Outcome {
+    match function_name(name)? {
         FunctionName::Plain(sym) => image.symbols.get_mut(sym).function = FunctionCell::Unbound,
         FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = None,
     }
-    Ok(args[0].clone())
+    Ok(name.clone())
 }
 
 /// The symbol of a name, made if need be, and how it was accessible.
 ///
 /// `(intern "SVREF")` => `SVREF ; :INHERITED`
 #[builtin(_, "name &optional package")]
-fn intern(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let package = super::packages::or_current(image, args.get(1))?;
+fn intern(
+    image: &mut Image,
+    name_argument: &Rc<LispString>,
+    package_value: Option<&Value>,
+) -> Outcome {
+    let name = name_argument.text();
+    let package = super::packages::or_current(image, package_value)?;
     let found = image.packages.find_symbol(package, &name);
     let sym = match found {
         Some((sym, _)) => sym,
@@ -315,9 +326,13 @@ fn intern(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(find-symbol "CAR" :cl)` => `CAR ; :EXTERNAL`
 #[builtin(_, "name &optional package")]
-fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let package = super::packages::or_current(image, args.get(1))?;
+fn find_symbol(
+    image: &mut Image,
+    name_argument: &Rc<LispString>,
+    package_value: Option<&Value>,
+) -> Outcome {
+    let name = name_argument.text();
+    let package = super::packages::or_current(image, package_value)?;
     let found = image.packages.find_symbol(package, &name);
     Ok(Value::values(vec![
         found.map_or(Value::NIL, |(sym, _)| sym.into()),
@@ -326,9 +341,9 @@ fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Sets the function of a name.
-#[builtin("FDEFINITION", "value name")]
-fn set_fdefinition_builtin(image: &mut Image, args: &[Value]) -> Outcome {
-    set_fdefinition(image, args)
+#[builtin("FDEFINITION")]
+fn set_fdefinition_builtin(image: &mut Image, value: &Value, symbol: &Value) -> Outcome {
+    set_fdefinition(image, value, symbol)
 }
 
 /// Symbols.

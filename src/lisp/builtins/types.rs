@@ -43,9 +43,9 @@ fn subtypep(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
 ///
 /// `(type-of 1.5)` => `SINGLE-FLOAT`
 /// `(type-of '(1))` => `CONS`
-#[builtin("TYPE-OF", "object")]
-fn type_of_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    Ok(type_of(image, &args[0]))
+#[builtin("TYPE-OF")]
+fn type_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(type_of(image, object))
 }
 
 /// Converts an object to an equivalent one of another type.
@@ -60,9 +60,13 @@ fn coerce_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, B
 /// The element type that an array made for elements of the type really has.
 ///
 /// `(upgraded-array-element-type 'symbol)` => `T`
-#[builtin(_, "type &optional environment")]
-fn upgraded_array_element_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    element_type(image, &args[0]).map(ElementType::specifier)
+#[builtin]
+fn upgraded_array_element_type(
+    image: &mut Image,
+    type_: &Value,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    element_type(image, type_).map(ElementType::specifier)
 }
 
 fn typep_operation(
@@ -138,8 +142,13 @@ fn coerce_operation(
 /// Defines a type whose specifiers the expander turns, from the list of their arguments, into
 /// others. The last argument is a list of what the name stands for by itself, if that is known.
 #[builtin("%DEFINE-TYPE", "name expander alone")]
-fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    match (&args[0], &args[1]) {
+fn define_type(
+    image: &mut Image,
+    name_value: &Value,
+    expander_value: &Value,
+    alone: &Value,
+) -> Result<Value, Box<Raise>> {
+    match (name_value, expander_value) {
         (Value::Symbol(name, ..), Value::Function(expander)) => {
             if image.class(*name).is_some() {
                 return Err(Raise::simple(format!(
@@ -148,11 +157,11 @@ fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
                 )));
             }
             image.types.insert(*name, expander.clone());
-            match &args[2] {
+            match alone {
                 Value::Cons(known) => image.type_names.insert(*name, known.car()),
                 _ => image.type_names.shift_remove(name),
             };
-            Ok(args[0].clone())
+            Ok(name_value.clone())
         }
         (name, _) => Err(Raise::type_error(name, Value::symbol(known::SYMBOL))),
     }

@@ -38,25 +38,25 @@ impl Foreign for WeakPointer {
 }
 
 /// An object that refers to another one without keeping it.
-#[builtin("%MAKE-WEAK-POINTER", "object")]
-fn make_weak_pointer(args: &[Value]) -> Result<Value, Box<Raise>> {
-    Ok(Value::foreign(WeakPointer(Some(Reference::to(&args[0])))))
+#[builtin("%MAKE-WEAK-POINTER")]
+fn make_weak_pointer(object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::foreign(WeakPointer(Some(Reference::to(object)))))
 }
 
 /// Is the object a weak pointer?
 ///
 /// `(system::%weak-pointer-p 1)` => `NIL`
-#[builtin("%WEAK-POINTER-P", "object")]
-fn weak_pointer_p(args: &[Value]) -> Result<Value, Box<Raise>> {
-    Ok(Value::bool(args[0].as_foreign::<WeakPointer>().is_some()))
+#[builtin("%WEAK-POINTER-P")]
+fn weak_pointer_p(object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::bool(object.as_foreign::<WeakPointer>().is_some()))
 }
 
 /// The object to which a weak pointer refers; NIL if it is gone.
-#[builtin("%WEAK-POINTER-VALUE", "weak-pointer")]
-fn weak_pointer_value(args: &[Value]) -> Result<Value, Box<Raise>> {
-    match args[0].as_foreign::<WeakPointer>() {
+#[builtin("%WEAK-POINTER-VALUE")]
+fn weak_pointer_value(weak_pointer: &Value) -> Result<Value, Box<Raise>> {
+    match weak_pointer.as_foreign::<WeakPointer>() {
         Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
-        None => Err(Raise::type_error(&args[0], known::WEAK_POINTER)),
+        None => Err(Raise::type_error(weak_pointer, known::WEAK_POINTER)),
     }
 }
 

@@ -41,10 +41,10 @@ pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
 /// The number, which must be greater than zero.
 ///
 /// `(system::positive-step 2)` => `2`
-#[builtin(_, "number")]
-fn positive_step(_: &mut Image, args: &[Value]) -> Outcome {
-    check_positive(&args[0])?;
-    Ok(args[0].clone())
+#[builtin]
+fn positive_step(number: &Value) -> Outcome {
+    check_positive(number)?;
+    Ok(number.clone())
 }
 
 fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
@@ -56,10 +56,10 @@ fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
 /// Adds an element behind the last pair of a list; the new last pair.
 ///
 /// `(system::extend-list (list 1) 2)` => `(2)`
-#[builtin(_, "last-pair element")]
-fn extend_list(_: &mut Image, args: &[Value]) -> Outcome {
-    let tail = pair(&args[0])?;
-    let last = Value::cons(args[1].clone(), Value::NIL);
+#[builtin]
+fn extend_list(last_pair: &Rc<Cons>, element: Value) -> Outcome {
+    let tail = last_pair;
+    let last = Value::cons(element, Value::NIL);
     tail.set_cdr(last.clone());
     Ok(last)
 }
@@ -74,27 +74,27 @@ fn join(tail: &Value, list: Value) -> Outcome {
 /// Adds the elements of a list behind the last pair of a list; the new last pair.
 ///
 /// `(system::extend-list-copying (list 1) '(2 3))` => `(3)`
-#[builtin(_, "last-pair list")]
-fn extend_list_copying(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut iter = args[1].iter_list();
+#[builtin]
+fn extend_list_copying(last_pair: &Value, list: &Value) -> Outcome {
+    let mut iter = list.iter_list();
     let items: Vec<Value> = iter.by_ref().collect();
-    join(&args[0], Value::list_with_tail(items, iter.rest))
+    join(last_pair, Value::list_with_tail(items, iter.rest))
 }
 
 /// Joins a list to the last pair of a list; the new last pair.
 ///
 /// `(system::extend-list-joining (list 1) (list 2 3))` => `(3)`
-#[builtin(_, "last-pair list")]
-fn extend_list_joining(_: &mut Image, args: &[Value]) -> Outcome {
-    join(&args[0], args[1].clone())
+#[builtin]
+fn extend_list_joining(last_pair: &Value, list: Value) -> Outcome {
+    join(last_pair, list)
 }
 
 /// The elements of a sequence as a list.
 ///
 /// `(system::elements #(1 2))` => `(1 2)`
-#[builtin(_, "sequence")]
-fn elements(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+#[builtin]
+fn elements(sequence: &Value) -> Outcome {
+    match sequence {
         list @ (Value::Cons(_) | Value::Symbol(known::NIL, ..)) => Ok(list.clone()),
         other => Ok(Value::list(Sequence::of(other)?.all()?)),
     }
@@ -103,9 +103,9 @@ fn elements(_: &mut Image, args: &[Value]) -> Outcome {
 /// The number of elements of a vector.
 ///
 /// `(system::vector-length #(1 2))` => `2`
-#[builtin(_, "vector")]
-fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+#[builtin]
+fn vector_length(vector: &Value) -> Outcome {
+    match vector {
         Value::Vector(v) => Ok(Vector::len(v).into()),
         Value::Str(s) => Ok(s.len().into()),
         other => Err(Raise::type_error(other, known::VECTOR)),
