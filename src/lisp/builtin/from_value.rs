@@ -12,6 +12,7 @@ use crate::lisp::value::cons::Cons;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::hash_table::HashTable;
 use crate::lisp::value::known;
+use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Sequence, character, index};
 use crate::lisp::value::string::LispString;
@@ -135,6 +136,14 @@ impl FromValue<'_> for usize {
     #[inline]
     fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
         index(value)
+    }
+}
+
+/// A real number.
+impl FromValue<'_> for f64 {
+    #[inline]
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        number::to_f64(value).ok_or_else(|| Raise::type_error(value, known::REAL))
     }
 }
 

@@ -27,24 +27,24 @@ type Outcome = Result<Value, Box<Raise>>;
 /// \"a\" "
 /// ```
 #[builtin(_, "object &optional stream")]
-fn print(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(m, args, Manner::Print)
+fn print(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Print)
 }
 
 /// Writes the object so that it can be read back.
 ///
 /// `(with-output-to-string (s) (prin1 "a" s))` => `"\"a\""`
 #[builtin(_, "object &optional stream")]
-fn prin1(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(m, args, Manner::Prin1)
+fn prin1(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Prin1)
 }
 
 /// Writes the object for people.
 ///
 /// `(with-output-to-string (s) (princ '("a" #\b) s))` => `"(a b)"`
 #[builtin(_, "object &optional stream")]
-fn princ(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(m, args, Manner::Princ)
+fn princ(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Princ)
 }
 
 /// Writes a newline and the object with line breaks.
@@ -54,24 +54,24 @@ fn princ(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
 /// (A B)"
 /// ```
 #[builtin(_, "object &optional stream")]
-fn pprint(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(m, args, Manner::Pprint)
+fn pprint(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Pprint)
 }
 
 /// The text that PRIN1 writes.
 ///
 /// `(prin1-to-string '(a "b"))` => `"(A \"b\")"`
 #[builtin(_, "object")]
-fn prin1_to_string(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    to_string(m, args, Some(true))
+fn prin1_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    to_string(machine, args, Some(true))
 }
 
 /// The text that PRINC writes.
 ///
 /// `(princ-to-string '(a "b"))` => `"(A b)"`
 #[builtin(_, "object")]
-fn princ_to_string(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    to_string(m, args, Some(false))
+fn princ_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    to_string(machine, args, Some(false))
 }
 
 /// The text that WRITE writes.

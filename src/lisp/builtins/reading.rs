@@ -25,16 +25,19 @@ type Outcome = Result<Value, Box<Raise>>;
 ///
 /// `(with-input-from-string (s "(1 2) 3") (read s))` => `(1 2)`
 #[builtin("READ", "&optional stream eof-error-p eof-value recursive-p")]
-fn read_builtin(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    read(m, args, false)
+fn read_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    read(machine, args, false)
 }
 
 /// Like READ, without reading the blank after the form.
 ///
 /// `(with-input-from-string (s "a b") (list (read-preserving-whitespace s) (read-char s) (read s)))` => `(A #\  B)`
 #[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
-fn read_preserving_whitespace(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    read(m, args, true)
+fn read_preserving_whitespace(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    read(machine, args, true)
 }
 
 /// Is the object a readtable?

@@ -19,8 +19,13 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 ///
 /// `(signal "nothing happens")` => `NIL`
 #[builtin(_, "datum &rest arguments")]
-fn signal(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
-    signal_with(m, arguments, known::SIMPLE_CONDITION, Declined::Return)
+fn signal(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(
+        machine,
+        arguments,
+        known::SIMPLE_CONDITION,
+        Declined::Return,
+    )
 }
 
 /// Signals an error: a condition object, the name of a class with initargs, or a format control
@@ -28,8 +33,8 @@ fn signal(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
 ///
 /// `(handler-case (error "no ~a" 1) (error (e) (princ-to-string e)))` => `"no 1"`
 #[builtin(_, "datum &rest arguments")]
-fn error(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
-    signal_with(m, arguments, known::SIMPLE_ERROR, Declined::Stop)
+fn error(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(machine, arguments, known::SIMPLE_ERROR, Declined::Stop)
 }
 
 /// Stops with a condition.
@@ -40,8 +45,8 @@ fn invoke_debugger(condition: Value) -> Result<Step> {
 
 /// Stops with a text.
 #[builtin("BREAK", "&optional control &rest arguments")]
-fn lisp_break(m: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
-    signal_break(m, &arguments)
+fn lisp_break(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_break(machine, &arguments)
 }
 
 /// The condition that a datum and arguments designate.

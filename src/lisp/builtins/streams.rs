@@ -107,7 +107,7 @@ fn stream_element_type(stream: &Rc<Stream>) -> Outcome {
 ///
 /// `(stream-external-format (make-string-input-stream "x"))` => `:DEFAULT`
 #[builtin("STREAM-EXTERNAL-FORMAT")]
-fn external_format(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
+fn external_format(image: &mut Image, _stream: &Rc<Stream>) -> Outcome {
     Ok(image.keyword("DEFAULT").into())
 }
 

@@ -1,24 +1,32 @@
 //! Common Lisp functions that take simulated time.
 
 use super::arithmetic::sleep;
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::Builtin;
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::step::Step;
+use crate::lisp::{builtin, builtins};
 use crate::plan::state::Plan;
 
+/// Waits for so many simulated seconds.
+///
+/// `(sleep 1)` => `NIL`
+#[builtin("SLEEP", "seconds")]
+fn sleep_builtin(args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    sleep(&args)
+}
+
+/// Simulated seconds since the session began.
+///
+/// `(floatp (system:clock))` => `T`
+#[builtin(_, "")]
+fn clock(image: &mut Image) -> Result<Value, Box<Raise>> {
+    Ok(Value::Double(Plan::of(image).now()))
+}
+
 /// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "SLEEP",
-    "seconds",
-    "Waits for so many simulated seconds.",
-    &["(sleep 1) => NIL"],
-    |_, args| sleep(&args),
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![sleep_builtin,];
 
 /// The clock of the simulation, in package `SYSTEM`.
-pub(crate) static CLOCK: &[Builtin] = &[pure(
-    "CLOCK",
-    "",
-    "Simulated seconds since the session began.",
-    &["(floatp (system:clock)) => T"],
-    |image, _| Ok(Value::Double(Plan::of(image).now())),
-)];
+pub(crate) static CLOCK: &[Builtin] = builtins![clock,];

@@ -3,34 +3,29 @@
 use super::names;
 use super::value;
 use super::value::{Class, Designator, Quantifier};
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::copy::Copier;
 use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::{builtin, builtins};
 use crate::plan::packages;
 use crate::plan::pose::value::{pose_stamped, transform_stamped};
 use crate::spatial::Pose;
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "OBJECT-IDENTIFIER",
-        "data",
-        "The name in the world of what a perceived object's designator refers to.",
-        &[],
-        |image, args| Ok(object_data(image, &args[0])?.identifier.clone()),
-    ),
-    pure(
-        "OBJECT-POSE",
-        "data",
-        "The pose of a perceived object in the robot's base frame when it was seen.",
-        &[],
-        |image, args| Ok(object_data(image, &args[0])?.pose.clone()),
-    ),
-];
+/// The name in the world of what a perceived object's designator refers to.
+#[builtin]
+fn object_identifier(image: &mut Image, data: &Value) -> Result<Value, Box<Raise>> {
+    Ok(object_data(image, data)?.identifier.clone())
+}
+
+/// The pose of a perceived object in the robot's base frame when it was seen.
+#[builtin]
+fn object_pose(image: &mut Image, data: &Value) -> Result<Value, Box<Raise>> {
+    Ok(object_data(image, data)?.pose.clone())
+}
 
 /// The data that the designator of a perceived object refers to.
 pub(crate) struct ObjectData {
@@ -140,3 +135,6 @@ pub(crate) fn pose_property(image: &Image, object: &Value, key: &str) -> Option<
         })
         .map(|p| p.cdr_or_nil().car_or_nil())
 }
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = builtins![object_identifier, object_pose,];

@@ -7,6 +7,7 @@ use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
+use crate::lisp::builtin::FromValue;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::copy::{Copied, Copier};
@@ -173,6 +174,12 @@ pub(crate) fn as_designator(value: &Value) -> Option<&Designator> {
 /// The designator of a class, if the value is one.
 pub(crate) fn as_class(value: &Value, class: Class) -> Option<&Designator> {
     as_designator(value).filter(|d| d.class == class)
+}
+
+impl<'a> FromValue<'a> for &'a Designator {
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        designator(image, value)
+    }
 }
 
 /// The designator, or a type error.

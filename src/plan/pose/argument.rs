@@ -3,6 +3,7 @@
 use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
+use crate::lisp::builtin::FromValue;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -12,6 +13,33 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 pub(crate) type Result<T> = std::result::Result<T, Box<Raise>>;
+
+impl FromValue<'_> for Vector3 {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        vector(image, value)
+    }
+}
+
+impl FromValue<'_> for Quaternion {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        quaternion(image, value)
+    }
+}
+
+impl FromValue<'_> for Placement {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        placement(image, value)
+    }
+}
+
+/// The name of a frame.
+pub(crate) struct FrameName(pub(crate) String);
+
+impl FromValue<'_> for FrameName {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
+        frame(value).map(FrameName)
+    }
+}
 
 /// A real number.
 pub(crate) fn real(value: &Value) -> Result<f64> {
