@@ -5,7 +5,8 @@
 //! space within them if it begins or ends with one. A block of code in `lisp` is an example too, for
 //! text with line breaks. All other paragraphs are documentation.
 
-use syn::{Attribute, Expr, Lit, Meta};
+use syn::punctuated::Punctuated;
+use syn::{Attribute, Expr, Lit, Meta, Token};
 
 /// What a doc comment says about a builtin.
 #[derive(Debug, PartialEq, Eq)]
@@ -69,21 +70,25 @@ impl Doc {
 
 /// The text of a line of a doc comment.
 fn line(attribute: &Attribute) -> Option<String> {
-    let Meta::NameValue(pair) = &attribute.meta else {
-        return None;
-    };
-    match &pair.value {
-        Expr::Lit(value) if pair.path.is_ident("doc") => match &value.lit {
+    match &attribute.meta {
+        Meta::NameValue(pair) if pair.path.is_ident("doc") => text(&pair.value),
+        _ => None,
+    }
+}
+
+/// The text of a string or of `concat!` of strings, which macros make.
+fn text(expression: &Expr) -> Option<String> {
+    match expression {
+        Expr::Group(group) => text(&group.expr),
+        Expr::Lit(literal) => match &literal.lit {
             Lit::Str(text) => Some(text.value()),
             _ => None,
         },
-        Expr::Group(group) if pair.path.is_ident("doc") => match &*group.expr {
-            Expr::Lit(value) => match &value.lit {
-                Lit::Str(text) => Some(text.value()),
-                _ => None,
-            },
-            _ => None,
-        },
+        Expr::Macro(call) if call.mac.path.is_ident("concat") => {
+            let parts = Punctuated::<Expr, Token![,]>::parse_terminated;
+            let parts = call.mac.parse_body_with(parts).ok()?;
+            parts.iter().map(text).collect()
+        }
         _ => None,
     }
 }
@@ -124,6 +129,13 @@ fn code(text: &str) -> Option<(&str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::Doc;
+    use syn::parse_quote;
+
+    #[test]
+    fn macros_may_put_text_together() {
+        let doc = Doc::of(&[parse_quote!(#[doc = concat!("The ", "car", ".")])]);
+        assert_eq!(doc.text, "The car.");
+    }
 
     fn doc(text: &str) -> (String, Vec<String>) {
         let doc = Doc::of_text(text);

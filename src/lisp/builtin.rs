@@ -20,6 +20,7 @@ pub(crate) use super::image::Image;
 pub(crate) use super::native::BuiltinCall;
 pub(crate) use super::value::Value;
 pub(crate) use super::value::raise::Raise;
+pub(crate) use super::vm::calls::run;
 pub(crate) use super::vm::machine::Machine;
 pub(crate) use super::vm::step::Step;
 

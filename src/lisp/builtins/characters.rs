@@ -7,7 +7,6 @@ use crate::lisp::reader::char_name::{char_name as special_name, char_named};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::character;
 use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
@@ -133,10 +132,6 @@ fn char_downcase(character: char) -> Outcome {
     Ok(Value::Char(downcase(character)))
 }
 
-fn is(args: &[Value], test: impl FnOnce(char) -> bool) -> Outcome {
-    Ok(Value::bool(test(character(&args[0])?)))
-}
-
 /// Is the object a character?
 ///
 /// `(characterp #\a)` => `T`
@@ -148,41 +143,41 @@ fn characterp(object: &Value) -> bool {
 /// Is the character a letter?
 ///
 /// `(alpha-char-p #\a)` => `T`
-#[builtin(_, "character")]
-fn alpha_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, char::is_alphabetic)
+#[builtin]
+fn alpha_char_p(character: char) -> bool {
+    character.is_alphabetic()
 }
 
 /// Is the character a letter or digit?
 ///
 /// `(alphanumericp #\_)` => `NIL`
-#[builtin(_, "character")]
-fn alphanumericp(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, char::is_alphanumeric)
+#[builtin]
+fn alphanumericp(character: char) -> bool {
+    character.is_alphanumeric()
 }
 
 /// Is the character an upper-case letter?
 ///
 /// `(upper-case-p #\A)` => `T`
-#[builtin(_, "character")]
-fn upper_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| downcase(c) != c)
+#[builtin]
+fn upper_case_p(character: char) -> bool {
+    downcase(character) != character
 }
 
 /// Is the character a lower-case letter?
 ///
 /// `(lower-case-p #\A)` => `NIL`
-#[builtin(_, "character")]
-fn lower_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| upcase(c) != c)
+#[builtin]
+fn lower_case_p(character: char) -> bool {
+    upcase(character) != character
 }
 
 /// Has the character forms in both cases?
 ///
 /// `(both-case-p #\1)` => `NIL`
-#[builtin(_, "character")]
-fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| upcase(c) != c || downcase(c) != c)
+#[builtin]
+fn both_case_p(character: char) -> bool {
+    upcase(character) != character || downcase(character) != character
 }
 
 /// Is a character one that prints as itself?
@@ -193,17 +188,17 @@ pub(crate) fn is_graphic(c: char) -> bool {
 /// Does the character print as itself?
 ///
 /// `(graphic-char-p #\Newline)` => `NIL`
-#[builtin(_, "character")]
-fn graphic_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, is_graphic)
+#[builtin]
+fn graphic_char_p(character: char) -> bool {
+    is_graphic(character)
 }
 
 /// Is the character one of the 96 standard ones?
 ///
 /// `(standard-char-p #\a)` => `T`
-#[builtin(_, "character")]
-fn standard_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| c == '\n' || matches!(c, ' '..='~'))
+#[builtin]
+fn standard_char_p(character: char) -> bool {
+    character == '\n' || matches!(character, ' '..='~')
 }
 
 /// The weight of a digit in a radix (10), or `NIL`.

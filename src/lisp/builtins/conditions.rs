@@ -15,100 +15,99 @@ use crate::lisp::{builtin, builtins};
 /// The format control of a simple condition.
 ///
 /// `(handler-case (error "x ~a" 1) (error (e) (simple-condition-format-control e)))` => `"x ~a"`
-#[builtin(_, "condition")]
-fn simple_condition_format_control(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::SIMPLE_CONDITION, known::FORMAT_CONTROL)
+#[builtin]
+fn simple_condition_format_control(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::SIMPLE_CONDITION, known::FORMAT_CONTROL)
 }
 
 /// The format arguments of a simple condition.
 ///
 /// `(handler-case (error "x ~a" 1) (error (e) (simple-condition-format-arguments e)))` => `(1)`
-#[builtin(_, "condition")]
-fn simple_condition_format_arguments(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::SIMPLE_CONDITION, known::FORMAT_ARGUMENTS)
+#[builtin]
+fn simple_condition_format_arguments(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::SIMPLE_CONDITION, known::FORMAT_ARGUMENTS)
 }
 
 /// The value that is not of the expected type.
 ///
 /// `(handler-case (car 5) (type-error (e) (type-error-datum e)))` => `5`
-#[builtin(_, "condition")]
-fn type_error_datum(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::TYPE_ERROR, known::DATUM)
+#[builtin]
+fn type_error_datum(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::TYPE_ERROR, known::DATUM)
 }
 
 /// The type that was expected.
 ///
 /// `(handler-case (car 5) (type-error (e) (type-error-expected-type e)))` => `LIST`
-#[builtin(_, "condition")]
-fn type_error_expected_type(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::TYPE_ERROR, known::EXPECTED_TYPE)
+#[builtin]
+fn type_error_expected_type(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::TYPE_ERROR, known::EXPECTED_TYPE)
 }
 
 /// The name of the variable, function or slot without a value.
 ///
 /// `(handler-case no-such-variable (unbound-variable (e) (cell-error-name e)))` => `NO-SUCH-VARIABLE`
-#[builtin(_, "condition")]
-fn cell_error_name(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::CELL_ERROR, known::NAME)
+#[builtin]
+fn cell_error_name(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::CELL_ERROR, known::NAME)
 }
 
 /// The instance whose slot has no value.
 ///
 /// `(progn (defclass crate () (load)) (handler-case (slot-value (make-instance 'crate) 'load) (unbound-slot (c) (type-of (unbound-slot-instance c)))))` => `CRATE`
-#[builtin(_, "condition")]
-fn unbound_slot_instance(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::UNBOUND_SLOT, known::INSTANCE)
+#[builtin]
+fn unbound_slot_instance(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::UNBOUND_SLOT, known::INSTANCE)
 }
 
 /// The name of the function that failed.
 ///
 /// `(handler-case (/ 1 0) (division-by-zero (e) (arithmetic-error-operation e)))` => `/`
-#[builtin(_, "condition")]
-fn arithmetic_error_operation(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::ARITHMETIC_ERROR, known::OPERATION)
+#[builtin]
+fn arithmetic_error_operation(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::ARITHMETIC_ERROR, known::OPERATION)
 }
 
 /// The arguments of the function that failed.
 ///
 /// `(handler-case (/ 1 0) (division-by-zero (e) (arithmetic-error-operands e)))` => `(1 0)`
-#[builtin(_, "condition")]
-fn arithmetic_error_operands(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::ARITHMETIC_ERROR, known::OPERANDS)
+#[builtin]
+fn arithmetic_error_operands(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::ARITHMETIC_ERROR, known::OPERANDS)
 }
 
 /// The package, or its name, that an error is about.
 ///
 /// `(handler-case (in-package :nowhere) (package-error (c) (package-error-package c)))` => `:NOWHERE`
-#[builtin(_, "condition")]
-fn package_error_package(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::PACKAGE_ERROR, known::PACKAGE)
+#[builtin]
+fn package_error_package(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::PACKAGE_ERROR, known::PACKAGE)
 }
 
 /// The stream that an error is about.
 ///
 /// `(handler-case (read-char (make-string-input-stream "")) (end-of-file (c) (streamp (stream-error-stream c))))` => `T`
-#[builtin(_, "condition")]
-fn stream_error_stream(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::STREAM_ERROR, known::STREAM)
+#[builtin]
+fn stream_error_stream(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::STREAM_ERROR, known::STREAM)
 }
 
 /// The file that an error is about.
 ///
 /// `(handler-case (open "no-such-file") (file-error (c) (file-error-pathname c)))` => `#P"no-such-file"`
-#[builtin(_, "condition")]
-fn file_error_pathname(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::FILE_ERROR, known::PATHNAME)
+#[builtin]
+fn file_error_pathname(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::FILE_ERROR, known::PATHNAME)
 }
 
 /// The object that cannot be printed so that it can be read.
-#[builtin(_, "condition")]
-fn print_not_readable_object(args: &[Value]) -> Result<Value, Box<Raise>> {
-    read(args, known::PRINT_NOT_READABLE, known::OBJECT)
+#[builtin]
+fn print_not_readable_object(condition: &Value) -> Result<Value, Box<Raise>> {
+    read(condition, known::PRINT_NOT_READABLE, known::OBJECT)
 }
 
 /// The slot of a condition of a class.
-fn read(args: &[Value], class: Sym, slot: Sym) -> Result<Value, Box<Raise>> {
-    let condition = &args[0];
+fn read(condition: &Value, class: Sym, slot: Sym) -> Result<Value, Box<Raise>> {
     let value = match condition {
         Value::Instance(instance) if instance.is_a(class) => instance.slot(slot),
         _ => None,

@@ -1,7 +1,6 @@
 //! Searching in lists and association lists: `member` and `assoc`.
 
 use super::criterion::{Compare, Criterion, Key, Test};
-use super::keywords;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -15,18 +14,16 @@ use crate::lisp::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// The criterion of a function with the arguments item, list, `:key`, `:test`, `:test-not`.
-fn criterion(image: &Image, args: &[Value]) -> Result<Criterion, Box<Raise>> {
-    let [key, test, test_not] = keywords::parse(
-        image,
-        &args[2..],
-        [known::K_KEY, known::K_TEST, known::K_TEST_NOT],
-    )?;
-    Ok(Criterion::item(
-        args[0].clone(),
-        Test::new(image, test, test_not)?,
-        Key::new(image, key)?,
-    ))
+/// What matches an item.
+fn criterion(
+    image: &Image,
+    item: Value,
+    key: Option<Value>,
+    test: Option<Value>,
+    test_not: Option<Value>,
+) -> Result<Criterion, Box<Raise>> {
+    let test = Test::new(image, test, test_not)?;
+    Ok(Criterion::item(item, test, Key::new(image, key)?))
 }
 
 /// The same without calls of functions.
@@ -54,10 +51,16 @@ async fn find_tail(calls: Calls, criterion: Criterion, list: Value) -> Outcome {
 ///
 /// `(member 2 '(1 2 3))` => `(2 3)`
 /// `(member "b" '("a" "b") :test #'equal)` => `("b")`
-#[builtin(_, "item list &key key test test-not")]
-fn member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let criterion = criterion(machine.image, &args)?;
-    let list = args[1].clone();
+#[builtin]
+fn member(
+    machine: &mut Machine<'_>,
+    item: Value,
+    list: Value,
+    #[key] key: Option<Value>,
+    #[key] test: Option<Value>,
+    #[key] test_not: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let criterion = criterion(machine.image, item, key, test, test_not)?;
     if let Some((item, test)) = criterion.simple() {
         return Ok(find_tail_at_once(item, test, list)?.into());
     }
@@ -100,10 +103,16 @@ async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome
 /// The first entry of an association list whose car matches an item.
 ///
 /// `(assoc 'b '((a . 1) (b . 2)))` => `(B . 2)`
-#[builtin(_, "item alist &key key test test-not")]
-fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let criterion = criterion(machine.image, &args)?;
-    let alist = args[1].clone();
+#[builtin]
+fn assoc(
+    machine: &mut Machine<'_>,
+    item: Value,
+    alist: Value,
+    #[key] key: Option<Value>,
+    #[key] test: Option<Value>,
+    #[key] test_not: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let criterion = criterion(machine.image, item, key, test, test_not)?;
     if let Some((item, test)) = criterion.simple() {
         return Ok(find_entry_at_once(item, test, alist)?.into());
     }

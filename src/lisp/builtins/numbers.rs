@@ -247,8 +247,7 @@ fn integerp(object: &Value) -> bool {
 /// `(floatp 1.5)` => `T`
 #[builtin]
 fn floatp(object: &Value) -> bool {
-    let is_float = matches!(object, Value::Single(_) | Value::Double(_));
-    is_float
+    matches!(object, Value::Single(_) | Value::Double(_))
 }
 
 /// Is the object a complex number that is not real?
@@ -264,66 +263,66 @@ fn complexp(object: &Value) -> bool {
 ///
 /// `(floor -7 2)` => `-4 ; 1`
 /// `(floor 7.5)` => `7 ; 0.5`
-#[builtin(_, "number &optional divisor")]
-fn floor(image: &mut Image, args: &[Value]) -> Outcome {
-    divide(image, args, Rounding::Floor)
+#[builtin]
+fn floor(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Floor)
 }
 
 /// The integer at or above the quotient, and the remainder.
 ///
 /// `(ceiling 7 2)` => `4 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn ceiling(image: &mut Image, args: &[Value]) -> Outcome {
-    divide(image, args, Rounding::Ceiling)
+#[builtin]
+fn ceiling(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Ceiling)
 }
 
 /// The quotient without its fraction, and the remainder.
 ///
 /// `(truncate -7 2)` => `-3 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn truncate(image: &mut Image, args: &[Value]) -> Outcome {
-    divide(image, args, Rounding::Truncate)
+#[builtin]
+fn truncate(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Truncate)
 }
 
 /// The integer nearest to the quotient, the even one of two, and the remainder.
 ///
 /// `(round 2.5)` => `2 ; 0.5`
 /// `(round 7 2)` => `4 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn round(image: &mut Image, args: &[Value]) -> Outcome {
-    divide(image, args, Rounding::Round)
+#[builtin]
+fn round(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Round)
 }
 
 /// Like FLOOR with a float as the quotient.
 ///
 /// `(ffloor 7 2)` => `3.0 ; 1`
-#[builtin(_, "number &optional divisor")]
-fn ffloor(args: &[Value]) -> Outcome {
-    divide_to_float(args, Rounding::Floor)
+#[builtin]
+fn ffloor(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Floor)
 }
 
 /// Like CEILING with a float as the quotient.
 ///
 /// `(fceiling 7 2)` => `4.0 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn fceiling(args: &[Value]) -> Outcome {
-    divide_to_float(args, Rounding::Ceiling)
+#[builtin]
+fn fceiling(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Ceiling)
 }
 
 /// Like TRUNCATE with a float as the quotient.
 ///
 /// `(ftruncate -7 2)` => `-3.0 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn ftruncate(args: &[Value]) -> Outcome {
-    divide_to_float(args, Rounding::Truncate)
+#[builtin]
+fn ftruncate(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Truncate)
 }
 
 /// Like ROUND with a float as the quotient.
 ///
 /// `(fround 7 2)` => `4.0 ; -1`
-#[builtin(_, "number &optional divisor")]
-fn fround(args: &[Value]) -> Outcome {
-    divide_to_float(args, Rounding::Round)
+#[builtin]
+fn fround(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Round)
 }
 
 /// The remainder with the sign of the divisor.
@@ -427,18 +426,17 @@ fn ordered(args: &[Value], holds: Comparison) -> Outcome {
     Ok(Value::T)
 }
 
-fn divisor(args: &[Value]) -> Value {
-    args.get(1).cloned().unwrap_or(Value::Int(1))
-}
-
-fn divide(image: &Image, args: &[Value], rounding: Rounding) -> Outcome {
-    let (quotient, rest) = number::divide(&args[0], &divisor(args), rounding)?;
+/// The quotient and the remainder; the divisor is one if it is not given.
+fn divide(image: &Image, number: &Value, divisor: Option<&Value>, rounding: Rounding) -> Outcome {
+    let divisor = divisor.unwrap_or(&Value::Int(1));
+    let (quotient, rest) = number::divide(number, divisor, rounding)?;
     Ok(image.with_second(quotient, || rest))
 }
 
-fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
-    let (quotient, rest) = number::divide_to_float(&args[0], &divisor(args), rounding)?;
-    Ok(Value::values(vec![quotient, rest]))
+/// The same with a float as the quotient.
+fn divide_to_float(number: &Value, divisor: Option<&Value>, rounding: Rounding) -> Outcome {
+    let divisor = divisor.unwrap_or(&Value::Int(1));
+    Ok(number::divide_to_float(number, divisor, rounding)?.into())
 }
 
 /// Constants of numbers, and the variable `*random-state*`.

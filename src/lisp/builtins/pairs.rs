@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
 use crate::lisp::value::cons::{self, Cons};
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
@@ -49,27 +48,97 @@ fn follow(path: u32, list: &Value) -> Outcome {
     Ok(value)
 }
 
-fn cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
-    follow(PATH, &args[0])
-}
-
-/// Sets the place at the end of a path; the arguments are the new value and the list.
-fn set_cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
+/// Sets the place at the end of a path.
+fn set_path(path: u32, list: &Value, value: Value) -> Outcome {
     // All letters but the first lead to the pair that is changed.
-    let length = 31 - PATH.leading_zeros();
-    let first = PATH >> (length - 1) & 1;
-    let before = PATH & !(0b11 << (length - 1)) | 1 << (length - 1);
-    let place = follow(before, &args[1])?;
+    let length = 31 - path.leading_zeros();
+    let first = path >> (length - 1) & 1;
+    let before = path & !(0b11 << (length - 1)) | 1 << (length - 1);
+    let place = follow(before, list)?;
     let Value::Cons(cons) = &place else {
         return Err(Raise::type_error(&place, known::CONS));
     };
-    cycles::note(cons, &args[0]);
+    cycles::note(cons, &value);
     if first == 0 {
-        cons.set_car(args[0].clone());
+        cons.set_car(value.clone());
     } else {
-        cons.set_cdr(args[0].clone());
+        cons.set_cdr(value.clone());
     }
-    Ok(args[0].clone())
+    Ok(value)
+}
+
+/// Functions that follow a path, and the same as places.
+macro_rules! paths {
+    ($($name:ident $set:ident $lisp_name:literal $path:literal $what:literal $example:literal;)*) => {
+        $(
+            #[doc = concat!("The ", $what, ".")]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin]
+            fn $name(list: &Value) -> Outcome {
+                follow($path, list)
+            }
+
+            #[doc = concat!("Replaces the ", $what, ".")]
+            #[builtin($lisp_name)]
+            fn $set(value: Value, list: &Value) -> Outcome {
+                set_path($path, list, value)
+            }
+        )*
+
+        /// Cars and cdrs.
+        pub(crate) static PATHS: &[Builtin] = builtins![$($name),*];
+
+        /// The same places for `setf`; the new value is the first argument.
+        pub(crate) static PATH_SETTERS: &[Builtin] = builtins![$($set),*];
+    };
+}
+
+paths! {
+    car set_car "CAR" 0b10 "car of a list" "`(car '(x))` => `X`";
+    cdr set_cdr "CDR" 0b11 "cdr of a list" "`(cdr '(1 . x))` => `X`";
+    caar set_caar "CAAR" 0b100 "car of the car of a list" "`(caar '((x)))` => `X`";
+    cadr set_cadr "CADR" 0b101 "car of the cdr of a list" "`(cadr '(1 x))` => `X`";
+    cdar set_cdar "CDAR" 0b110 "cdr of the car of a list" "`(cdar '((1 . x)))` => `X`";
+    cddr set_cddr "CDDR" 0b111 "cdr of the cdr of a list" "`(cddr '(1 1 . x))` => `X`";
+    caaar set_caaar "CAAAR" 0b1000 "car of the car of the car of a list" "`(caaar '(((x))))` => `X`";
+    caadr set_caadr "CAADR" 0b1001 "car of the car of the cdr of a list" "`(caadr '(1 (x)))` => `X`";
+    cadar set_cadar "CADAR" 0b1010 "car of the cdr of the car of a list" "`(cadar '((1 x)))` => `X`";
+    caddr set_caddr "CADDR" 0b1011 "car of the cdr of the cdr of a list" "`(caddr '(1 1 x))` => `X`";
+    cdaar set_cdaar "CDAAR" 0b1100 "cdr of the car of the car of a list" "`(cdaar '(((1 . x))))` => `X`";
+    cdadr set_cdadr "CDADR" 0b1101 "cdr of the car of the cdr of a list" "`(cdadr '(1 (1 . x)))` => `X`";
+    cddar set_cddar "CDDAR" 0b1110 "cdr of the cdr of the car of a list" "`(cddar '((1 1 . x)))` => `X`";
+    cdddr set_cdddr "CDDDR" 0b1111 "cdr of the cdr of the cdr of a list" "`(cdddr '(1 1 1 . x))` => `X`";
+    caaaar set_caaaar "CAAAAR" 0b10000 "car of the car of the car of the car of a list" "`(caaaar '((((x)))))` => `X`";
+    caaadr set_caaadr "CAAADR" 0b10001 "car of the car of the car of the cdr of a list" "`(caaadr '(1 ((x))))` => `X`";
+    caadar set_caadar "CAADAR" 0b10010 "car of the car of the cdr of the car of a list" "`(caadar '((1 (x))))` => `X`";
+    caaddr set_caaddr "CAADDR" 0b10011 "car of the car of the cdr of the cdr of a list" "`(caaddr '(1 1 (x)))` => `X`";
+    cadaar set_cadaar "CADAAR" 0b10100 "car of the cdr of the car of the car of a list" "`(cadaar '(((1 x))))` => `X`";
+    cadadr set_cadadr "CADADR" 0b10101 "car of the cdr of the car of the cdr of a list" "`(cadadr '(1 (1 x)))` => `X`";
+    caddar set_caddar "CADDAR" 0b10110 "car of the cdr of the cdr of the car of a list" "`(caddar '((1 1 x)))` => `X`";
+    cadddr set_cadddr "CADDDR" 0b10111 "car of the cdr of the cdr of the cdr of a list" "`(cadddr '(1 1 1 x))` => `X`";
+    cdaaar set_cdaaar "CDAAAR" 0b11000 "cdr of the car of the car of the car of a list" "`(cdaaar '((((1 . x)))))` => `X`";
+    cdaadr set_cdaadr "CDAADR" 0b11001 "cdr of the car of the car of the cdr of a list" "`(cdaadr '(1 ((1 . x))))` => `X`";
+    cdadar set_cdadar "CDADAR" 0b11010 "cdr of the car of the cdr of the car of a list" "`(cdadar '((1 (1 . x))))` => `X`";
+    cdaddr set_cdaddr "CDADDR" 0b11011 "cdr of the car of the cdr of the cdr of a list" "`(cdaddr '(1 1 (1 . x)))` => `X`";
+    cddaar set_cddaar "CDDAAR" 0b11100 "cdr of the cdr of the car of the car of a list" "`(cddaar '(((1 1 . x))))` => `X`";
+    cddadr set_cddadr "CDDADR" 0b11101 "cdr of the cdr of the car of the cdr of a list" "`(cddadr '(1 (1 1 . x)))` => `X`";
+    cdddar set_cdddar "CDDDAR" 0b11110 "cdr of the cdr of the cdr of the car of a list" "`(cdddar '((1 1 1 . x)))` => `X`";
+    cddddr set_cddddr "CDDDDR" 0b11111 "cdr of the cdr of the cdr of the cdr of a list" "`(cddddr '(1 1 1 1 . x))` => `X`";
+}
+
+/// The list without its first element.
+///
+/// `(rest '(1 2 3))` => `(2 3)`
+#[builtin]
+fn rest(list: &Value) -> Outcome {
+    cdr_of(list)
+}
+
+/// Replaces what follows a list's first element.
+#[builtin("REST")]
+fn set_rest(value: Value, list: &Value) -> Outcome {
+    set_path(0b11, list, value)
 }
 
 fn nth_cdr(count: usize, list: &Value) -> Outcome {
@@ -89,10 +158,6 @@ fn nth_cdr(count: usize, list: &Value) -> Outcome {
     Ok(rest)
 }
 
-fn ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
-    car_of(&nth_cdr(N, &args[0])?)
-}
-
 fn set_nth_of(index: usize, list: &Value, value: &Value) -> Outcome {
     let place = nth_cdr(index, list)?;
     match &place {
@@ -109,8 +174,44 @@ fn set_nth_of(index: usize, list: &Value, value: &Value) -> Outcome {
     Ok(value.clone())
 }
 
-fn set_ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
-    set_nth_of(N, &args[1], &args[0])
+/// Functions that access an element, and the same as places.
+macro_rules! ordinals {
+    ($($name:ident $set:ident $lisp_name:literal $index:literal $what:literal $example:literal;)*) => {
+        $(
+            #[doc = concat!("The ", $what, ", or `NIL`.")]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin]
+            fn $name(list: &Value) -> Outcome {
+                car_of(&nth_cdr($index, list)?)
+            }
+
+            #[doc = concat!("Replaces the ", $what, ".")]
+            #[builtin($lisp_name)]
+            fn $set(value: &Value, list: &Value) -> Outcome {
+                set_nth_of($index, list, value)
+            }
+        )*
+
+        /// Elements by number.
+        pub(crate) static ORDINALS: &[Builtin] = builtins![$($name),*];
+
+        /// The same places for `setf`; the new value is the first argument.
+        pub(crate) static ORDINAL_SETTERS: &[Builtin] = builtins![$($set),*];
+    };
+}
+
+ordinals! {
+    first set_first "FIRST" 0 "first element of a list" "`(first '(1 2 3 4 5 6 7 8 9 10))` => `1`";
+    second set_second "SECOND" 1 "second element of a list" "`(second '(1 2 3 4 5 6 7 8 9 10))` => `2`";
+    third set_third "THIRD" 2 "third element of a list" "`(third '(1 2 3 4 5 6 7 8 9 10))` => `3`";
+    fourth set_fourth "FOURTH" 3 "fourth element of a list" "`(fourth '(1 2 3 4 5 6 7 8 9 10))` => `4`";
+    fifth set_fifth "FIFTH" 4 "fifth element of a list" "`(fifth '(1 2 3 4 5 6 7 8 9 10))` => `5`";
+    sixth set_sixth "SIXTH" 5 "sixth element of a list" "`(sixth '(1 2 3 4 5 6 7 8 9 10))` => `6`";
+    seventh set_seventh "SEVENTH" 6 "seventh element of a list" "`(seventh '(1 2 3 4 5 6 7 8 9 10))` => `7`";
+    eighth set_eighth "EIGHTH" 7 "eighth element of a list" "`(eighth '(1 2 3 4 5 6 7 8 9 10))` => `8`";
+    ninth set_ninth "NINTH" 8 "ninth element of a list" "`(ninth '(1 2 3 4 5 6 7 8 9 10))` => `9`";
+    tenth set_tenth "TENTH" 9 "tenth element of a list" "`(tenth '(1 2 3 4 5 6 7 8 9 10))` => `10`";
 }
 
 /// A fresh pair; with a list as `cdr`, that list with an element in front.
@@ -234,630 +335,9 @@ fn endp(list: &Value) -> Outcome {
     }
 }
 
-/// The car of a list.
-///
-/// `(car '(x))` => `X`
-#[builtin(_, "list")]
-fn car(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10>(image, args)
-}
-
-/// The cdr of a list.
-///
-/// `(cdr '(1 . x))` => `X`
-#[builtin(_, "list")]
-fn cdr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11>(image, args)
-}
-
-/// The car of the car of a list.
-///
-/// `(caar '((x)))` => `X`
-#[builtin(_, "list")]
-fn caar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b100>(image, args)
-}
-
-/// The car of the cdr of a list.
-///
-/// `(cadr '(1 x))` => `X`
-#[builtin(_, "list")]
-fn cadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b101>(image, args)
-}
-
-/// The cdr of the car of a list.
-///
-/// `(cdar '((1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cdar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b110>(image, args)
-}
-
-/// The cdr of the cdr of a list.
-///
-/// `(cddr '(1 1 . x))` => `X`
-#[builtin(_, "list")]
-fn cddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b111>(image, args)
-}
-
-/// The car of the car of the car of a list.
-///
-/// `(caaar '(((x))))` => `X`
-#[builtin(_, "list")]
-fn caaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1000>(image, args)
-}
-
-/// The car of the car of the cdr of a list.
-///
-/// `(caadr '(1 (x)))` => `X`
-#[builtin(_, "list")]
-fn caadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1001>(image, args)
-}
-
-/// The car of the cdr of the car of a list.
-///
-/// `(cadar '((1 x)))` => `X`
-#[builtin(_, "list")]
-fn cadar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1010>(image, args)
-}
-
-/// The car of the cdr of the cdr of a list.
-///
-/// `(caddr '(1 1 x))` => `X`
-#[builtin(_, "list")]
-fn caddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1011>(image, args)
-}
-
-/// The cdr of the car of the car of a list.
-///
-/// `(cdaar '(((1 . x))))` => `X`
-#[builtin(_, "list")]
-fn cdaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1100>(image, args)
-}
-
-/// The cdr of the car of the cdr of a list.
-///
-/// `(cdadr '(1 (1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cdadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1101>(image, args)
-}
-
-/// The cdr of the cdr of the car of a list.
-///
-/// `(cddar '((1 1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cddar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1110>(image, args)
-}
-
-/// The cdr of the cdr of the cdr of a list.
-///
-/// `(cdddr '(1 1 1 . x))` => `X`
-#[builtin(_, "list")]
-fn cdddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b1111>(image, args)
-}
-
-/// The car of the car of the car of the car of a list.
-///
-/// `(caaaar '((((x)))))` => `X`
-#[builtin(_, "list")]
-fn caaaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10000>(image, args)
-}
-
-/// The car of the car of the car of the cdr of a list.
-///
-/// `(caaadr '(1 ((x))))` => `X`
-#[builtin(_, "list")]
-fn caaadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10001>(image, args)
-}
-
-/// The car of the car of the cdr of the car of a list.
-///
-/// `(caadar '((1 (x))))` => `X`
-#[builtin(_, "list")]
-fn caadar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10010>(image, args)
-}
-
-/// The car of the car of the cdr of the cdr of a list.
-///
-/// `(caaddr '(1 1 (x)))` => `X`
-#[builtin(_, "list")]
-fn caaddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10011>(image, args)
-}
-
-/// The car of the cdr of the car of the car of a list.
-///
-/// `(cadaar '(((1 x))))` => `X`
-#[builtin(_, "list")]
-fn cadaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10100>(image, args)
-}
-
-/// The car of the cdr of the car of the cdr of a list.
-///
-/// `(cadadr '(1 (1 x)))` => `X`
-#[builtin(_, "list")]
-fn cadadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10101>(image, args)
-}
-
-/// The car of the cdr of the cdr of the car of a list.
-///
-/// `(caddar '((1 1 x)))` => `X`
-#[builtin(_, "list")]
-fn caddar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10110>(image, args)
-}
-
-/// The car of the cdr of the cdr of the cdr of a list.
-///
-/// `(cadddr '(1 1 1 x))` => `X`
-#[builtin(_, "list")]
-fn cadddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b10111>(image, args)
-}
-
-/// The cdr of the car of the car of the car of a list.
-///
-/// `(cdaaar '((((1 . x)))))` => `X`
-#[builtin(_, "list")]
-fn cdaaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11000>(image, args)
-}
-
-/// The cdr of the car of the car of the cdr of a list.
-///
-/// `(cdaadr '(1 ((1 . x))))` => `X`
-#[builtin(_, "list")]
-fn cdaadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11001>(image, args)
-}
-
-/// The cdr of the car of the cdr of the car of a list.
-///
-/// `(cdadar '((1 (1 . x))))` => `X`
-#[builtin(_, "list")]
-fn cdadar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11010>(image, args)
-}
-
-/// The cdr of the car of the cdr of the cdr of a list.
-///
-/// `(cdaddr '(1 1 (1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cdaddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11011>(image, args)
-}
-
-/// The cdr of the cdr of the car of the car of a list.
-///
-/// `(cddaar '(((1 1 . x))))` => `X`
-#[builtin(_, "list")]
-fn cddaar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11100>(image, args)
-}
-
-/// The cdr of the cdr of the car of the cdr of a list.
-///
-/// `(cddadr '(1 (1 1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cddadr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11101>(image, args)
-}
-
-/// The cdr of the cdr of the cdr of the car of a list.
-///
-/// `(cdddar '((1 1 1 . x)))` => `X`
-#[builtin(_, "list")]
-fn cdddar(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11110>(image, args)
-}
-
-/// The cdr of the cdr of the cdr of the cdr of a list.
-///
-/// `(cddddr '(1 1 1 1 . x))` => `X`
-#[builtin(_, "list")]
-fn cddddr(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11111>(image, args)
-}
-
-/// The first element of a list, or `NIL`.
-///
-/// `(first '(1 2 3 4 5 6 7 8 9 10))` => `1`
-#[builtin(_, "list")]
-fn first(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<0>(image, args)
-}
-
-/// The second element of a list, or `NIL`.
-///
-/// `(second '(1 2 3 4 5 6 7 8 9 10))` => `2`
-#[builtin(_, "list")]
-fn second(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<1>(image, args)
-}
-
-/// The third element of a list, or `NIL`.
-///
-/// `(third '(1 2 3 4 5 6 7 8 9 10))` => `3`
-#[builtin(_, "list")]
-fn third(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<2>(image, args)
-}
-
-/// The fourth element of a list, or `NIL`.
-///
-/// `(fourth '(1 2 3 4 5 6 7 8 9 10))` => `4`
-#[builtin(_, "list")]
-fn fourth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<3>(image, args)
-}
-
-/// The fifth element of a list, or `NIL`.
-///
-/// `(fifth '(1 2 3 4 5 6 7 8 9 10))` => `5`
-#[builtin(_, "list")]
-fn fifth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<4>(image, args)
-}
-
-/// The sixth element of a list, or `NIL`.
-///
-/// `(sixth '(1 2 3 4 5 6 7 8 9 10))` => `6`
-#[builtin(_, "list")]
-fn sixth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<5>(image, args)
-}
-
-/// The seventh element of a list, or `NIL`.
-///
-/// `(seventh '(1 2 3 4 5 6 7 8 9 10))` => `7`
-#[builtin(_, "list")]
-fn seventh(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<6>(image, args)
-}
-
-/// The eighth element of a list, or `NIL`.
-///
-/// `(eighth '(1 2 3 4 5 6 7 8 9 10))` => `8`
-#[builtin(_, "list")]
-fn eighth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<7>(image, args)
-}
-
-/// The ninth element of a list, or `NIL`.
-///
-/// `(ninth '(1 2 3 4 5 6 7 8 9 10))` => `9`
-#[builtin(_, "list")]
-fn ninth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<8>(image, args)
-}
-
-/// The tenth element of a list, or `NIL`.
-///
-/// `(tenth '(1 2 3 4 5 6 7 8 9 10))` => `10`
-#[builtin(_, "list")]
-fn tenth(image: &mut Image, args: &[Value]) -> Outcome {
-    ordinal::<9>(image, args)
-}
-
-/// The list without its first element.
-///
-/// `(rest '(1 2 3))` => `(2 3)`
-#[builtin(_, "list")]
-fn rest(image: &mut Image, args: &[Value]) -> Outcome {
-    cxr::<0b11>(image, args)
-}
-
-/// Replaces the car of a list.
-#[builtin("CAR", "value list")]
-fn set_car(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10>(image, args)
-}
-
-/// Replaces the cdr of a list.
-#[builtin("CDR", "value list")]
-fn set_cdr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11>(image, args)
-}
-
-/// Replaces the car of the car of a list.
-#[builtin("CAAR", "value list")]
-fn set_caar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b100>(image, args)
-}
-
-/// Replaces the car of the cdr of a list.
-#[builtin("CADR", "value list")]
-fn set_cadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b101>(image, args)
-}
-
-/// Replaces the cdr of the car of a list.
-#[builtin("CDAR", "value list")]
-fn set_cdar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b110>(image, args)
-}
-
-/// Replaces the cdr of the cdr of a list.
-#[builtin("CDDR", "value list")]
-fn set_cddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b111>(image, args)
-}
-
-/// Replaces the car of the car of the car of a list.
-#[builtin("CAAAR", "value list")]
-fn set_caaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1000>(image, args)
-}
-
-/// Replaces the car of the car of the cdr of a list.
-#[builtin("CAADR", "value list")]
-fn set_caadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1001>(image, args)
-}
-
-/// Replaces the car of the cdr of the car of a list.
-#[builtin("CADAR", "value list")]
-fn set_cadar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1010>(image, args)
-}
-
-/// Replaces the car of the cdr of the cdr of a list.
-#[builtin("CADDR", "value list")]
-fn set_caddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1011>(image, args)
-}
-
-/// Replaces the cdr of the car of the car of a list.
-#[builtin("CDAAR", "value list")]
-fn set_cdaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1100>(image, args)
-}
-
-/// Replaces the cdr of the car of the cdr of a list.
-#[builtin("CDADR", "value list")]
-fn set_cdadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1101>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the car of a list.
-#[builtin("CDDAR", "value list")]
-fn set_cddar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1110>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the cdr of a list.
-#[builtin("CDDDR", "value list")]
-fn set_cdddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b1111>(image, args)
-}
-
-/// Replaces the car of the car of the car of the car of a list.
-#[builtin("CAAAAR", "value list")]
-fn set_caaaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10000>(image, args)
-}
-
-/// Replaces the car of the car of the car of the cdr of a list.
-#[builtin("CAAADR", "value list")]
-fn set_caaadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10001>(image, args)
-}
-
-/// Replaces the car of the car of the cdr of the car of a list.
-#[builtin("CAADAR", "value list")]
-fn set_caadar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10010>(image, args)
-}
-
-/// Replaces the car of the car of the cdr of the cdr of a list.
-#[builtin("CAADDR", "value list")]
-fn set_caaddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10011>(image, args)
-}
-
-/// Replaces the car of the cdr of the car of the car of a list.
-#[builtin("CADAAR", "value list")]
-fn set_cadaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10100>(image, args)
-}
-
-/// Replaces the car of the cdr of the car of the cdr of a list.
-#[builtin("CADADR", "value list")]
-fn set_cadadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10101>(image, args)
-}
-
-/// Replaces the car of the cdr of the cdr of the car of a list.
-#[builtin("CADDAR", "value list")]
-fn set_caddar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10110>(image, args)
-}
-
-/// Replaces the car of the cdr of the cdr of the cdr of a list.
-#[builtin("CADDDR", "value list")]
-fn set_cadddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b10111>(image, args)
-}
-
-/// Replaces the cdr of the car of the car of the car of a list.
-#[builtin("CDAAAR", "value list")]
-fn set_cdaaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11000>(image, args)
-}
-
-/// Replaces the cdr of the car of the car of the cdr of a list.
-#[builtin("CDAADR", "value list")]
-fn set_cdaadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11001>(image, args)
-}
-
-/// Replaces the cdr of the car of the cdr of the car of a list.
-#[builtin("CDADAR", "value list")]
-fn set_cdadar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11010>(image, args)
-}
-
-/// Replaces the cdr of the car of the cdr of the cdr of a list.
-#[builtin("CDADDR", "value list")]
-fn set_cdaddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11011>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the car of the car of a list.
-#[builtin("CDDAAR", "value list")]
-fn set_cddaar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11100>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the car of the cdr of a list.
-#[builtin("CDDADR", "value list")]
-fn set_cddadr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11101>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the cdr of the car of a list.
-#[builtin("CDDDAR", "value list")]
-fn set_cdddar(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11110>(image, args)
-}
-
-/// Replaces the cdr of the cdr of the cdr of the cdr of a list.
-#[builtin("CDDDDR", "value list")]
-fn set_cddddr(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11111>(image, args)
-}
-
-/// Replaces the first element of a list.
-#[builtin("FIRST", "value list")]
-fn set_first(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<0>(image, args)
-}
-
-/// Replaces the second element of a list.
-#[builtin("SECOND", "value list")]
-fn set_second(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<1>(image, args)
-}
-
-/// Replaces the third element of a list.
-#[builtin("THIRD", "value list")]
-fn set_third(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<2>(image, args)
-}
-
-/// Replaces the fourth element of a list.
-#[builtin("FOURTH", "value list")]
-fn set_fourth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<3>(image, args)
-}
-
-/// Replaces the fifth element of a list.
-#[builtin("FIFTH", "value list")]
-fn set_fifth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<4>(image, args)
-}
-
-/// Replaces the sixth element of a list.
-#[builtin("SIXTH", "value list")]
-fn set_sixth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<5>(image, args)
-}
-
-/// Replaces the seventh element of a list.
-#[builtin("SEVENTH", "value list")]
-fn set_seventh(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<6>(image, args)
-}
-
-/// Replaces the eighth element of a list.
-#[builtin("EIGHTH", "value list")]
-fn set_eighth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<7>(image, args)
-}
-
-/// Replaces the ninth element of a list.
-#[builtin("NINTH", "value list")]
-fn set_ninth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<8>(image, args)
-}
-
-/// Replaces the tenth element of a list.
-#[builtin("TENTH", "value list")]
-fn set_tenth(image: &mut Image, args: &[Value]) -> Outcome {
-    set_ordinal::<9>(image, args)
-}
-
-/// Replaces what follows a list's first element.
-#[builtin("REST", "value list")]
-fn set_rest(image: &mut Image, args: &[Value]) -> Outcome {
-    set_cxr::<0b11>(image, args)
-}
-
 /// Access to pairs and list elements.
-pub(crate) static TABLE: &[Builtin] = builtins![
-    car, cdr, caar, cadr, cdar, cddr, caaar, caadr, cadar, caddr, cdaar, cdadr, cddar, cdddr,
-    caaaar, caaadr, caadar, caaddr, cadaar, cadadr, caddar, cadddr, cdaaar, cdaadr, cdadar, cdaddr,
-    cddaar, cddadr, cdddar, cddddr, first, second, third, fourth, fifth, sixth, seventh, eighth,
-    ninth, tenth, rest, cons, rplaca, rplacd, nth, nthcdr, last, butlast, endp,
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![rest, cons, rplaca, rplacd, nth, nthcdr, last, butlast, endp];
 
 /// The same places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = builtins![
-    set_car,
-    set_cdr,
-    set_caar,
-    set_cadr,
-    set_cdar,
-    set_cddr,
-    set_caaar,
-    set_caadr,
-    set_cadar,
-    set_caddr,
-    set_cdaar,
-    set_cdadr,
-    set_cddar,
-    set_cdddr,
-    set_caaaar,
-    set_caaadr,
-    set_caadar,
-    set_caaddr,
-    set_cadaar,
-    set_cadadr,
-    set_caddar,
-    set_cadddr,
-    set_cdaaar,
-    set_cdaadr,
-    set_cdadar,
-    set_cdaddr,
-    set_cddaar,
-    set_cddadr,
-    set_cdddar,
-    set_cddddr,
-    set_first,
-    set_second,
-    set_third,
-    set_fourth,
-    set_fifth,
-    set_sixth,
-    set_seventh,
-    set_eighth,
-    set_ninth,
-    set_tenth,
-    set_rest,
-    set_nth,
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_rest, set_nth];

@@ -4,30 +4,29 @@ use std::cell::RefCell;
 
 use crate::lisp::builtin::Builtin;
 use crate::lisp::evaluator::restart::Restart;
-use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::{Args, Calls, run};
-use crate::lisp::vm::machine::Machine;
+use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, Calls};
 use crate::lisp::vm::step::Step;
 use crate::lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Lets restarts belong to a condition; the condition.
-#[builtin(_, "condition restarts")]
-fn associate_restarts(image: &mut Image, args: &[Value]) -> Result<Value> {
-    change_conditions(image, args, |conditions, condition| {
+#[builtin]
+fn associate_restarts(condition: &Value, restarts: &Value) -> Result<Value> {
+    change_conditions(condition, restarts, |conditions, condition| {
         conditions.push(condition)
     })
 }
 
 /// Ends that restarts belong to a condition; the condition.
-#[builtin(_, "condition restarts")]
-fn dissociate_restarts(image: &mut Image, args: &[Value]) -> Result<Value> {
-    change_conditions(image, args, |conditions, condition| {
+#[builtin]
+fn dissociate_restarts(condition: &Value, restarts: &Value) -> Result<Value> {
+    change_conditions(condition, restarts, |conditions, condition| {
         if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
             conditions.remove(at);
         }
@@ -55,31 +54,24 @@ async fn applicable(calls: &Calls, condition: Value) -> Vec<Value> {
     applicable
 }
 
-fn condition_argument(args: &[Value], index: usize) -> Value {
-    args.get(index).cloned().unwrap_or(Value::NIL)
-}
-
 /// All restarts in force that apply to the condition, innermost first.
 ///
 /// `(restart-case (restart-name (first (compute-restarts))) (r () 1))` => `R`
-#[builtin(_, "&optional condition")]
-fn compute_restarts(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "COMPUTE-RESTARTS", |calls| async move {
-        let restarts = applicable(&calls, condition_argument(&args, 0)).await;
-        Ok(Step::Return(Value::list(restarts)))
-    })
+#[builtin]
+async fn compute_restarts(calls: Calls, #[default(Value::NIL)] condition: Value) -> Result<Value> {
+    Ok(Value::list(applicable(&calls, condition).await))
 }
 
 /// The innermost restart of a name that applies to the condition, or NIL.
 ///
 /// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
-#[builtin(_, "restart &optional condition")]
-fn find_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "FIND-RESTART", |calls| async move {
-        let condition = condition_argument(&args, 1);
-        let found = found(&calls, &args[0], condition).await;
-        Ok(Step::Return(found.unwrap_or(Value::NIL)))
-    })
+#[builtin]
+async fn find_restart(
+    calls: Calls,
+    restart: Value,
+    #[default(Value::NIL)] condition: Value,
+) -> Result<Value> {
+    Ok(found(&calls, &restart, condition).await.into())
 }
 
 /// The restart that a designator means: the object itself if it is in force, or the innermost one of
@@ -108,36 +100,28 @@ async fn active(calls: &Calls, designator: Value) -> Result<Value> {
 /// Calls the function of a restart.
 ///
 /// `(restart-case (invoke-restart 'r 1) (r (x) x))` => `1`
-#[builtin(_, "restart &rest arguments")]
-fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "INVOKE-RESTART", |calls| async move {
-        let restart = active(&calls, args[0].clone()).await?;
-        Ok(call_restart(&restart, args[1..].to_vec()))
-    })
+#[builtin]
+async fn invoke_restart(calls: Calls, restart: Value, arguments: Vec<Value>) -> Result<Step> {
+    let restart = active(&calls, restart).await?;
+    Ok(call_restart(&restart, arguments))
 }
 
 /// Calls the function of a restart with the arguments that its :interactive function returns.
 ///
 /// `(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x))` => `1`
-#[builtin(_, "restart")]
-fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(
-        machine,
-        "INVOKE-RESTART-INTERACTIVELY",
-        |calls| async move {
-            let restart = active(&calls, args[0].clone()).await?;
-            let asks = restart.as_foreign::<Restart>();
-            let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
-            if asks.is_nil() {
-                return Ok(call_restart(&restart, Vec::new()));
-            }
-            let args = calls.call(&asks, Args::Many(Vec::new())).await;
-            let args = args
-                .list_to_vec()
-                .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
-            Ok(call_restart(&restart, args))
-        },
-    )
+#[builtin]
+async fn invoke_restart_interactively(calls: Calls, restart: Value) -> Result<Step> {
+    let restart = active(&calls, restart).await?;
+    let asks = restart.as_foreign::<Restart>();
+    let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
+    if asks.is_nil() {
+        return Ok(call_restart(&restart, Vec::new()));
+    }
+    let args = calls.call(&asks, Args::Many(Vec::new())).await;
+    let args = args
+        .list_to_vec()
+        .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
+    Ok(call_restart(&restart, args))
 }
 
 fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
@@ -159,33 +143,36 @@ fn restart_name(restart_value: &Value) -> Result<Value> {
 }
 
 /// A restart object.
-#[builtin(_, "name function report interactive &optional test")]
-fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
-    Ok(Value::foreign(Restart {
+#[builtin]
+fn make_restart(
+    name: Sym,
+    function: Value,
+    report: Value,
+    interactive: Value,
+    #[default(Value::NIL)] test: Value,
+) -> Value {
+    Value::foreign(Restart {
         name,
-        function: args[1].clone(),
-        report: args[2].clone(),
-        interactive: args[3].clone(),
-        test: condition_argument(args, 4),
+        function,
+        report,
+        interactive,
+        test,
         conditions: RefCell::default(),
-    }))
+    })
 }
 
 fn change_conditions(
-    _: &mut Image,
-    args: &[Value],
+    condition: &Value,
+    restarts: &Value,
     change: fn(&mut Vec<Value>, Value),
 ) -> Result<Value> {
-    for restart in args[1].iter_list() {
+    for restart in restarts.iter_list() {
         let known = restart
             .as_foreign::<Restart>()
             .ok_or_else(|| Raise::type_error(&restart, known::RESTART))?;
-        change(&mut known.conditions.borrow_mut(), args[0].clone());
+        change(&mut known.conditions.borrow_mut(), condition.clone());
     }
-    Ok(args[0].clone())
+    Ok(condition.clone())
 }
 
 /// Builtins of package `COMMON-LISP`.

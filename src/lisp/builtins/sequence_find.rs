@@ -31,11 +31,15 @@ struct Search {
 }
 
 impl Search {
-    /// From the arguments item, sequence and keywords.
-    fn by_item(image: &Image, args: &[Value]) -> Result<Search, Box<Raise>> {
+    fn by_item(
+        image: &Image,
+        item: Value,
+        sequence: Sequence,
+        keywords: &[Value],
+    ) -> Result<Search, Box<Raise>> {
         let [key, start, end, from_end, test, test_not] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_START,
@@ -45,21 +49,25 @@ impl Search {
                 known::K_TEST_NOT,
             ],
         )?;
-        let sequence = Sequence::of(&args[1])?;
         let test = Test::new(image, test, test_not)?;
         Ok(Search {
             bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
             from_end: from_end.is_some_and(|v| v.is_true()),
-            criterion: Criterion::item(args[0].clone(), test, Key::new(image, key)?),
+            criterion: Criterion::item(item, test, Key::new(image, key)?),
             sequence,
         })
     }
 
-    /// From the arguments predicate, sequence and keywords.
-    fn by_predicate(image: &Image, args: &[Value], expected: bool) -> Result<Search, Box<Raise>> {
+    fn by_predicate(
+        image: &Image,
+        predicate: &Value,
+        expected: bool,
+        sequence: Sequence,
+        keywords: &[Value],
+    ) -> Result<Search, Box<Raise>> {
         let [key, start, end, from_end] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_START,
@@ -67,12 +75,11 @@ impl Search {
                 known::K_FROM_END,
             ],
         )?;
-        let sequence = Sequence::of(&args[1])?;
         let key = Key::new(image, key)?;
         Ok(Search {
             bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
             from_end: from_end.is_some_and(|v| v.is_true()),
-            criterion: Criterion::predicate(image, &args[0], expected, key)?,
+            criterion: Criterion::predicate(image, predicate, expected, key)?,
             sequence,
         })
     }
@@ -115,8 +122,13 @@ impl Search {
 ///
 /// `(find 2 '((1 a) (2 b)) :key #'first)` => `(2 B)`
 #[builtin(_, "item sequence &key key start end from-end test test-not")]
-fn find(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+fn find(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "FIND", |calls| search.find(calls, Goal::Element))
 }
 
@@ -125,8 +137,13 @@ fn find(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>>
 /// `(find-if #'evenp '(1 2 3 4))` => `2`
 /// `(find-if #'evenp '(1 2 3 4) :from-end t)` => `4`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+fn find_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "FIND-IF", |calls| {
         search.find(calls, Goal::Element)
     })
@@ -136,8 +153,13 @@ fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
 ///
 /// `(find-if-not #'evenp '(2 4 5))` => `5`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+fn find_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "FIND-IF-NOT", |calls| {
         search.find(calls, Goal::Element)
     })
@@ -147,8 +169,13 @@ fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
 ///
 /// `(position #\l "hello")` => `2`
 #[builtin(_, "item sequence &key key start end from-end test test-not")]
-fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+fn position(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "POSITION", |calls| {
         search.find(calls, Goal::Position)
     })
@@ -158,8 +185,13 @@ fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
 ///
 /// `(position-if #'evenp #(1 2 3))` => `1`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+fn position_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "POSITION-IF", |calls| {
         search.find(calls, Goal::Position)
     })
@@ -169,8 +201,13 @@ fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
 ///
 /// `(position-if-not #'evenp '(2 4 5))` => `2`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+fn position_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "POSITION-IF-NOT", |calls| {
         search.find(calls, Goal::Position)
     })
@@ -180,8 +217,13 @@ fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, 
 ///
 /// `(count #\a "banana")` => `3`
 #[builtin(_, "item sequence &key key start end from-end test test-not")]
-fn count(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+fn count(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "COUNT", |calls| search.find(calls, Goal::Count))
 }
 
@@ -189,8 +231,13 @@ fn count(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 ///
 /// `(count-if #'evenp '(1 2 4))` => `2`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn count_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+fn count_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "COUNT-IF", |calls| search.find(calls, Goal::Count))
 }
 
@@ -198,8 +245,13 @@ fn count_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
 ///
 /// `(count-if-not #'evenp '(1 2 4))` => `1`
 #[builtin(_, "predicate sequence &key key start end from-end")]
-fn count_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+fn count_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "COUNT-IF-NOT", |calls| {
         search.find(calls, Goal::Count)
     })

@@ -3,6 +3,7 @@
 use super::criterion::{Key, Test};
 use super::keywords;
 use crate::lisp::builtin::Builtin;
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -24,11 +25,15 @@ struct Pair {
 }
 
 impl Pair {
-    fn new(machine: &Machine<'_>, args: &[Value]) -> Result<Pair, Box<Raise>> {
-        let image = &machine.image;
+    fn new(
+        image: &Image,
+        first: Sequence,
+        second: Sequence,
+        keywords: &[Value],
+    ) -> Result<Pair, Box<Raise>> {
         let [key, from_end, test, test_not, start1, end1, start2, end2] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_FROM_END,
@@ -40,8 +45,6 @@ impl Pair {
                 known::K_END2,
             ],
         )?;
-        let first = Sequence::of(&args[0])?;
-        let second = Sequence::of(&args[1])?;
         let first_bounds = Bounds::new(&first, start1.as_ref(), end1.as_ref())?;
         let second_bounds = Bounds::new(&second, start2.as_ref(), end2.as_ref())?;
         Ok(Pair {
@@ -120,8 +123,13 @@ impl Pair {
     _,
     "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
 )]
-fn search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let pair = Pair::new(machine, &args)?;
+fn search(
+    machine: &mut Machine<'_>,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let pair = Pair::new(machine.image, sequence_1, sequence_2, keywords)?;
     run(machine, "SEARCH", |calls| pair.search(calls))
 }
 
@@ -133,8 +141,13 @@ fn search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
     _,
     "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
 )]
-fn mismatch(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let pair = Pair::new(machine, &args)?;
+fn mismatch(
+    machine: &mut Machine<'_>,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let pair = Pair::new(machine.image, sequence_1, sequence_2, keywords)?;
     run(machine, "MISMATCH", |calls| pair.mismatch(calls))
 }
 

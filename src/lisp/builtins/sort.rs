@@ -1,7 +1,6 @@
 //! Sorting: `sort`, `stable-sort`, `merge`. Both sorts are stable.
 
 use super::criterion::Key;
-use super::keywords;
 use super::settled_types::sequence_type;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
@@ -143,13 +142,13 @@ async fn sort_sequence(
 
 fn sort_named(
     machine: &mut Machine<'_>,
-    args: &[Value],
     name: &'static str,
+    sequence: Sequence,
+    predicate: &Value,
+    key: Option<Value>,
 ) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let [key] = keywords::parse(image, &args[2..], [known::K_KEY])?;
-    let sequence = Sequence::of(&args[0])?;
-    let before = callable(image, &args[1])?;
+    let before = callable(image, predicate)?;
     let key = Key::new(image, key)?;
     run(machine, name, |calls| {
         sort_sequence(calls, sequence, before, key)
@@ -160,17 +159,27 @@ fn sort_named(
 ///
 /// `(sort (list 3 1 2) #'<)` => `(1 2 3)`
 /// `(sort (list "b" "a") #'string<)` => `("a" "b")`
-#[builtin(_, "sequence predicate &key key")]
-fn sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    sort_named(machine, &args, "SORT")
+#[builtin]
+fn sort(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    predicate: &Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    sort_named(machine, "SORT", sequence, predicate, key)
 }
 
 /// Like `sort`; elements that are equal keep their order.
 ///
 /// `(stable-sort (list '(1 a) '(0 b) '(1 c)) #'< :key #'first)` => `((0 B) (1 A) (1 C))`
-#[builtin(_, "sequence predicate &key key")]
-fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    sort_named(machine, &args, "STABLE-SORT")
+#[builtin]
+fn stable_sort(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    predicate: &Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    sort_named(machine, "STABLE-SORT", sequence, predicate, key)
 }
 
 /// Merges two sorted sequences into one.

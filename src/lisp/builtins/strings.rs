@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use super::array_index;
 use super::characters::{downcase, upcase};
-use super::keywords;
 use crate::lisp::builtin::Builtin;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -142,20 +141,26 @@ impl Case {
     }
 }
 
-/// Changes the case of a part of a text; the arguments are the designator and bounds.
-fn with_case(image: &Image, args: &[Value], case: Case, in_place: bool) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[1..], [known::K_START, known::K_END])?;
-    let target = match &args[0] {
+/// Changes the case of a part of the text that a designator means.
+fn with_case(
+    image: &Image,
+    designator: &Value,
+    start: Option<&Value>,
+    end: Option<&Value>,
+    case: Case,
+    in_place: bool,
+) -> Outcome {
+    let target = match designator {
         Value::Str(s) => s.clone(),
         other if in_place => return Err(Raise::type_error(other, known::STRING)),
         other => Rc::new(LispString::new(designated(image, other)?)),
     };
     let sequence = Sequence::Str(target.clone());
-    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let bounds = Bounds::new(&sequence, start, end)?;
     let changed = case.of(&target.slice(bounds.start, bounds.end));
     if in_place {
         target.overwrite(bounds.start, &changed);
-        return Ok(args[0].clone());
+        return Ok(designator.clone());
     }
     let before = target.slice(0, Some(bounds.start));
     let after = bounds
@@ -167,56 +172,85 @@ fn with_case(image: &Image, args: &[Value], case: Case, in_place: bool) -> Outco
 /// The text in upper case.
 ///
 /// `(string-upcase "abc" :start 1)` => `"aBC"`
-#[builtin(_, "string &key start end")]
-fn string_upcase(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Up, false)
+#[builtin]
+fn string_upcase(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Up, false)
 }
 
 /// The text in lower case.
 ///
 /// `(string-downcase 'left-side)` => `"left-side"`
-#[builtin(_, "string &key start end")]
-fn string_downcase(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Down, false)
+#[builtin]
+fn string_downcase(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Down, false)
 }
 
 /// The text with each word capitalized.
 ///
 /// `(string-capitalize "hello world")` => `"Hello World"`
-#[builtin(_, "string &key start end")]
-fn string_capitalize(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Capitalized, false)
+#[builtin]
+fn string_capitalize(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Capitalized, false)
 }
 
 /// Changes a string to upper case.
 ///
 /// `(nstring-upcase (copy-seq "abc"))` => `"ABC"`
-#[builtin(_, "string &key start end")]
-fn nstring_upcase(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Up, true)
+#[builtin]
+fn nstring_upcase(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Up, true)
 }
 
 /// Changes a string to lower case.
 ///
 /// `(nstring-downcase (copy-seq "ABC"))` => `"abc"`
-#[builtin(_, "string &key start end")]
-fn nstring_downcase(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Down, true)
+#[builtin]
+fn nstring_downcase(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Down, true)
 }
 
 /// Capitalizes each word of a string.
 ///
 /// `(nstring-capitalize (copy-seq "a bc"))` => `"A Bc"`
-#[builtin(_, "string &key start end")]
-fn nstring_capitalize(image: &mut Image, args: &[Value]) -> Outcome {
-    with_case(image, args, Case::Capitalized, true)
+#[builtin]
+fn nstring_capitalize(
+    image: &mut Image,
+    string: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Outcome {
+    with_case(image, string, start, end, Case::Capitalized, true)
 }
 
-fn trim(image: &Image, args: &[Value], left: bool, right: bool) -> Outcome {
-    let bag = Sequence::of(&args[0])?.all()?;
+fn trim(bag: &Sequence, text: &str, left: bool, right: bool) -> Outcome {
+    let bag = bag.all()?;
     let in_bag = |c: char| bag.iter().any(|v| matches!(v, Value::Char(b) if *b == c));
-    let text = designated(image, &args[1])?;
-    let mut rest = text.as_str();
+    let mut rest = text;
     if left {
         rest = rest.trim_start_matches(in_bag);
     }
@@ -229,25 +263,25 @@ fn trim(image: &Image, args: &[Value], left: bool, right: bool) -> Outcome {
 /// The text without certain characters at both ends.
 ///
 /// `(string-trim " " "  a b ")` => `"a b"`
-#[builtin(_, "characters string")]
-fn string_trim(image: &mut Image, args: &[Value]) -> Outcome {
-    trim(image, args, true, true)
+#[builtin]
+fn string_trim(characters: Sequence, string: String) -> Outcome {
+    trim(&characters, &string, true, true)
 }
 
 /// The text without certain characters at its start.
 ///
 /// `(string-left-trim "x" "xxhixx")` => `"hixx"`
-#[builtin(_, "characters string")]
-fn string_left_trim(image: &mut Image, args: &[Value]) -> Outcome {
-    trim(image, args, true, false)
+#[builtin]
+fn string_left_trim(characters: Sequence, string: String) -> Outcome {
+    trim(&characters, &string, true, false)
 }
 
 /// The text without certain characters at its end.
 ///
 /// `(string-right-trim "x" "xxhixx")` => `"xxhi"`
-#[builtin(_, "characters string")]
-fn string_right_trim(image: &mut Image, args: &[Value]) -> Outcome {
-    trim(image, args, false, true)
+#[builtin]
+fn string_right_trim(characters: Sequence, string: String) -> Outcome {
+    trim(&characters, &string, false, true)
 }
 
 /// The character of a string at an index from 0.
