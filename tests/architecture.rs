@@ -1,5 +1,5 @@
-//! Holds the rooms of `src` against `docs/architecture.md`: which room may use which, and
-//! that no folders use each other in a circle.
+//! Holds the sources against `docs/architecture.md` where the compiler does not: the table of
+//! crates, the rooms inside a crate, and that no folders use each other in a circle.
 //!
 //! The paths in the sources are read as text, re-exports are followed, and code for tests is
 //! passed over.
@@ -11,7 +11,7 @@ use std::path::Path;
 /// A path of modules below the root of the crate.
 type Module = Vec<String>;
 
-/// The modules of the crate and what each names.
+/// The modules of a crate and what each names.
 struct Sources {
     /// Every path that a module names, as written but made absolute.
     names: BTreeMap<Module, BTreeSet<Module>>,
@@ -22,14 +22,14 @@ struct Sources {
 }
 
 impl Sources {
-    fn read() -> Self {
+    /// The sources of the crate in a folder.
+    fn of(folder: &str) -> Self {
         let mut sources = Self {
             names: BTreeMap::new(),
             exports: BTreeMap::new(),
             texts: BTreeMap::new(),
         };
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        sources.read_folder(&root, &[]);
+        sources.read_folder(&root().join(folder), &[]);
         sources
     }
 
@@ -344,16 +344,34 @@ fn circle(uses: &BTreeMap<(String, String), String>) -> Option<Vec<String>> {
         .find_map(|(from, _)| visit(from, uses, &mut Vec::new(), &mut done))
 }
 
-/// The rooms that each room may use, from the table in `docs/architecture.md`.
-fn written() -> BTreeMap<String, BTreeSet<String>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/architecture.md");
-    let text = fs::read_to_string(path).expect("the architecture is written down");
+/// The folder of the project.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The crates that have Rust code in rooms.
+const CRATES: [&str; 9] = [
+    "src/closest_name",
+    "src/cram",
+    "src/front",
+    "src/lisp",
+    "src/robotics",
+    "src/session",
+    "src/spatial",
+    "src/sweep",
+    "src/view",
+];
+
+/// What each row of a table in `docs/architecture.md` may use, by the heading of its section.
+fn written(heading: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let text = fs::read_to_string(root().join("docs/architecture.md"));
+    let text = text.expect("the architecture is written down");
     let names = |cell: &str| -> Vec<String> {
         let parts = cell.split('`').skip(1).step_by(2);
         parts.map(str::to_owned).collect()
     };
-    let section = text.split("\n## Who may use whom\n").nth(1);
-    let section = section.expect("the section \"Who may use whom\"");
+    let section = text.split(&format!("\n## {heading}\n")).nth(1);
+    let section = section.expect("the section is there");
     let section = section.split("\n## ").next().unwrap_or_default();
     let rows = section.lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
@@ -365,17 +383,56 @@ fn written() -> BTreeMap<String, BTreeSet<String>> {
     .collect()
 }
 
+/// The crates of the project that a manifest names as dependencies of the library.
+fn dependencies(manifest: &str) -> BTreeSet<String> {
+    let section = manifest
+        .split("\n[dependencies]\n")
+        .nth(1)
+        .unwrap_or_default();
+    let lines = section.lines().take_while(|line| !line.starts_with('['));
+    lines
+        .filter_map(|line| line.strip_prefix("planwright-"))
+        .filter_map(|line| line.split(['.', ' ']).next())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn crates_use_each_other_as_the_architecture_says() {
+    let written = written("Who may use whom");
+    let manifest = |folder: &str| {
+        let text = fs::read_to_string(root().join(folder).join("Cargo.toml"));
+        text.expect("the crate has a manifest")
+    };
+    let mut real = BTreeMap::from([("planwright".to_owned(), dependencies(&manifest(".")))]);
+    let workspace = manifest(".");
+    let members = workspace
+        .split("default-members")
+        .next()
+        .unwrap_or_default();
+    for member in members.split('"').skip(1).step_by(2) {
+        let text = manifest(member);
+        let name = text
+            .lines()
+            .find_map(|line| line.strip_prefix("name = \"planwright-"));
+        let name = name.expect("the package has a name").trim_end_matches('"');
+        real.insert(name.to_owned(), dependencies(&text));
+    }
+    assert_eq!(real, written);
+}
+
 #[test]
 fn rooms_use_each_other_as_the_architecture_says() {
-    let sources = Sources::read();
     let mut wrong = Vec::new();
-    let written = written();
+    let written = written("The rooms of the physical half and of the views");
     let mut real: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for ((from, to), shown) in sources.uses_between_children(&[]) {
-        if !written.get(&from).is_some_and(|uses| uses.contains(&to)) {
-            wrong.push(format!("{from} must not use {to}: {shown}"));
+    for folder in ["src/robotics", "src/view"] {
+        for ((from, to), shown) in Sources::of(folder).uses_between_children(&[]) {
+            if !written.get(&from).is_some_and(|uses| uses.contains(&to)) {
+                wrong.push(format!("{from} must not use {to}: {shown}"));
+            }
+            real.entry(from).or_default().insert(to);
         }
-        real.entry(from).or_default().insert(to);
     }
     for (room, uses) in &written {
         for used in uses {
@@ -389,11 +446,18 @@ fn rooms_use_each_other_as_the_architecture_says() {
 
 #[test]
 fn no_folders_use_each_other_in_a_circle() {
-    let sources = Sources::read();
+    let mut wrong = Vec::new();
+    for folder in CRATES {
+        circles(&Sources::of(folder), &mut wrong);
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// Adds the circles between the folders of a crate.
+fn circles(sources: &Sources, wrong: &mut Vec<String>) {
     let folders: BTreeSet<&[String]> = (sources.names.keys())
         .map(|module| &module[..module.len().saturating_sub(1)])
         .collect();
-    let mut wrong = Vec::new();
     for folder in &folders {
         let mut uses = sources.uses_between_children(folder);
         let is_folder = |child: &String| {
@@ -410,15 +474,16 @@ fn no_folders_use_each_other_in_a_circle() {
             wrong.push(format!("in {}: {}", folder.join("::"), shown.join("; ")));
         }
     }
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
 #[test]
 fn only_one_module_names_the_physics_engine() {
-    let sources = Sources::read();
-    let named: Vec<String> = (sources.texts.iter())
-        .filter(|(_, text)| tokens(text).iter().any(|t| t.starts_with("rapier")))
-        .map(|(module, _)| module.join("::"))
-        .collect();
+    let names_it = |text: &str| tokens(text).iter().any(|t| t.starts_with("rapier"));
+    let mut named = Vec::new();
+    for folder in CRATES {
+        let texts = Sources::of(folder).texts;
+        let modules = texts.iter().filter(|(_, text)| names_it(text));
+        named.extend(modules.map(|(module, _)| module.join("::")));
+    }
     assert_eq!(named, ["world::physics", "world::physics::raw_contact"]);
 }

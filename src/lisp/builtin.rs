@@ -13,35 +13,35 @@ use super::native::{ControlFn, PureFn};
 use super::value::function::Function;
 use super::value::symbol::Sym;
 
-pub(crate) use from_value::{FromValue, all, keys, keyword, optional, required, wrong_count};
-pub(crate) use returned::Returned;
+pub use from_value::{FromValue, all, keys, keyword, optional, required, wrong_count};
+pub use returned::Returned;
 
-pub(crate) use super::image::Image;
-pub(crate) use super::native::BuiltinCall;
-pub(crate) use super::value::Value;
-pub(crate) use super::value::raise::Raise;
-pub(crate) use super::vm::calls::run;
-pub(crate) use super::vm::machine::Machine;
-pub(crate) use super::vm::step::Step;
+pub use super::image::Image;
+pub use super::native::BuiltinCall;
+pub use super::value::Value;
+pub use super::value::raise::Raise;
+pub use super::vm::calls::run;
+pub use super::vm::machine::Machine;
+pub use super::vm::step::Step;
 
 /// One builtin function.
-pub(crate) struct Builtin {
+pub struct Builtin {
     /// The name in upper case; the package is that of its table.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// The lambda list as the manual shows it (`"function list &rest lists"`). The
     /// number of arguments that a call may have is read from it.
-    pub(crate) lambda_list: &'static str,
+    pub lambda_list: &'static str,
     /// One or two sentences.
-    pub(crate) doc: &'static str,
+    pub doc: &'static str,
     /// Examples: `"(1+ 2) => 3"`; each is run as a test. The right side is what the
     /// prompt prints, several values separated by `" ; "`.
-    pub(crate) examples: &'static [&'static str],
+    pub examples: &'static [&'static str],
     /// The Rust function.
-    pub(crate) call: BuiltinCall,
+    pub call: BuiltinCall,
 }
 
 /// A pure builtin.
-pub(crate) const fn pure(
+pub const fn pure(
     name: &'static str,
     lambda_list: &'static str,
     doc: &'static str,
@@ -58,7 +58,7 @@ pub(crate) const fn pure(
 }
 
 /// A builtin that may call, wait or unwind.
-pub(crate) const fn control(
+pub const fn control(
     name: &'static str,
     lambda_list: &'static str,
     doc: &'static str,
@@ -76,19 +76,19 @@ pub(crate) const fn control(
 
 impl Builtin {
     /// A function object, under a name.
-    pub(crate) fn function(&self, image: &mut Image, name: Sym) -> Rc<Function> {
+    pub fn function(&self, image: &mut Image, name: Sym) -> Rc<Function> {
         image.native(name, self.arity(), self.call)
     }
 
     /// Fewest and most arguments, from the lambda list.
-    pub(crate) fn arity(&self) -> (u16, Option<u16>) {
+    pub fn arity(&self) -> (u16, Option<u16>) {
         arity(self.lambda_list)
     }
 }
 
 /// Fewest and most arguments of a function with a lambda list, written without its
 /// parentheses.
-pub(crate) fn arity(lambda_list: &str) -> (u16, Option<u16>) {
+pub fn arity(lambda_list: &str) -> (u16, Option<u16>) {
     let mut min = 0;
     let mut optional = 0;
     let mut in_optional = false;
@@ -113,23 +113,23 @@ pub(crate) fn arity(lambda_list: &str) -> (u16, Option<u16>) {
 pub(crate) type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
 
 /// A macro written in Rust, or a special operator.
-pub(crate) struct Operator {
+pub struct Operator {
     /// The name in upper case; the package is that of its table.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Shape of a form, after the operator.
-    pub(crate) lambda_list: &'static str,
+    pub lambda_list: &'static str,
     /// One or two sentences.
-    pub(crate) doc: &'static str,
+    pub doc: &'static str,
     /// Examples, as for builtins.
-    pub(crate) examples: &'static [&'static str],
+    pub examples: &'static [&'static str],
     /// How it expands; none for a special operator, which the compiler translates itself.
-    pub(crate) expand: Option<Expander>,
+    pub expand: Option<Expander>,
 }
 
 /// What the tables say about a name: a function or an operator written in Rust, or a definition
 /// written in Lisp.
 #[derive(Clone, Copy)]
-pub(crate) enum Entry {
+pub enum Entry {
     /// A function written in Rust.
     Builtin(&'static Builtin),
     /// A macro written in Rust or a special operator.
@@ -140,7 +140,7 @@ pub(crate) enum Entry {
 
 impl Entry {
     /// What kind of thing it is.
-    pub(crate) fn kind(self) -> &'static str {
+    pub fn kind(self) -> &'static str {
         match self {
             Entry::Builtin(_) => "function",
             Entry::Operator(operator) if operator.expand.is_none() => "special operator",
@@ -150,7 +150,7 @@ impl Entry {
     }
 
     /// The lambda list, without its parentheses.
-    pub(crate) fn lambda_list(self) -> &'static str {
+    pub fn lambda_list(self) -> &'static str {
         match self {
             Entry::Builtin(builtin) => builtin.lambda_list,
             Entry::Operator(operator) => operator.lambda_list,
@@ -159,7 +159,7 @@ impl Entry {
     }
 
     /// One or two sentences.
-    pub(crate) fn doc(self) -> &'static str {
+    pub fn doc(self) -> &'static str {
         match self {
             Entry::Builtin(builtin) => builtin.doc,
             Entry::Operator(operator) => operator.doc,
@@ -168,7 +168,7 @@ impl Entry {
     }
 
     /// Examples: a form, ` => `, and what the prompt prints.
-    pub(crate) fn examples(self) -> Vec<&'static str> {
+    pub fn examples(self) -> Vec<&'static str> {
         match self {
             Entry::Builtin(builtin) => builtin.examples.to_vec(),
             Entry::Operator(operator) => operator.examples.to_vec(),
@@ -180,7 +180,7 @@ impl Entry {
     }
 
     /// File and line of a definition in Lisp.
-    pub(crate) fn location(self) -> Option<String> {
+    pub fn location(self) -> Option<String> {
         match self {
             Entry::Library(definition) => Some(definition.location()),
             Entry::Builtin(_) | Entry::Operator(_) => None,

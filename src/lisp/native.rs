@@ -13,7 +13,7 @@ use super::vm::machine::Machine;
 use super::vm::step::Step;
 
 /// A builtin that returns at once and calls no Lisp function.
-pub(crate) type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
+pub type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
 /// A builtin that may call functions, wait, or unwind.
 pub(crate) type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
 /// A pure builtin with data of its own (a structure's accessor, a constant function).
@@ -23,7 +23,7 @@ type MadeControlFn = dyn Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Ra
 
 /// The Rust function of a builtin.
 #[derive(Clone, Copy)]
-pub(crate) enum BuiltinCall {
+pub enum BuiltinCall {
     /// Returns at once.
     Pure(PureFn),
     /// May call, wait or unwind.
@@ -83,7 +83,7 @@ impl MadeBody for Made {
 }
 
 /// A function written in Rust, ready to be called.
-pub(crate) enum NativeCall<'a> {
+pub enum NativeCall<'a> {
     /// Returns at once.
     Pure(PureFn),
     /// May call, wait or unwind.
@@ -97,7 +97,7 @@ pub(crate) enum NativeCall<'a> {
 impl Image {
     /// The Rust function of a native one.
     #[inline]
-    pub(crate) fn native_call<'a>(&self, native: &'a Native) -> NativeCall<'a> {
+    pub fn native_call<'a>(&self, native: &'a Native) -> NativeCall<'a> {
         match &native.body {
             NativeBody::Builtin(number) => match self.natives[*number as usize] {
                 BuiltinCall::Pure(f) => NativeCall::Pure(f),
@@ -127,7 +127,7 @@ impl Image {
     }
 
     /// A function object for a Rust function.
-    pub(crate) fn native(
+    pub fn native(
         &mut self,
         name: Sym,
         arity: (u16, Option<u16>),
@@ -141,7 +141,7 @@ impl Image {
 
 impl Function {
     /// A pure function of its arguments and of data. An image that is copied has it of a copy of these.
-    pub(crate) fn pure_of<D: Copied>(
+    pub fn pure_of<D: Copied>(
         name: Sym,
         arity: (u16, Option<u16>),
         data: D,
@@ -151,7 +151,7 @@ impl Function {
     }
 
     /// A control function of its arguments and of data. An image that is copied has it of a copy of these.
-    pub(crate) fn control_of<D: Copied>(
+    pub fn control_of<D: Copied>(
         name: Sym,
         arity: (u16, Option<u16>),
         data: D,
@@ -161,7 +161,7 @@ impl Function {
     }
 
     /// A control function that belongs to what runs: an image that has it cannot be copied.
-    pub(crate) fn made_control(
+    pub fn made_control(
         name: Sym,
         arity: (u16, Option<u16>),
         call: impl Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + 'static,

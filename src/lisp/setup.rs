@@ -15,7 +15,7 @@ use super::value::symbol::Sym;
 
 impl Image {
     /// The image that sessions start with, in `COMMON-LISP-USER`.
-    pub(crate) fn new() -> Image {
+    pub fn new() -> Image {
         let mut image = Image::bare();
         image.define_constant(known::NIL, Value::NIL);
         image.define_constant(known::T, Value::T);

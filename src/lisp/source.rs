@@ -4,29 +4,29 @@ use std::rc::Rc;
 
 /// Handle of a span of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-pub(crate) struct Place(pub(crate) u32);
+pub struct Place(pub u32);
 
 impl Place {
     /// No source text.
-    pub(crate) const NONE: Place = Place(0);
+    pub const NONE: Place = Place(0);
 
     /// Is there a source text?
-    pub(crate) fn is_some(self) -> bool {
+    pub fn is_some(self) -> bool {
         self != Place::NONE
     }
 }
 
 /// Handle of a source text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct SourceId(pub(crate) u32);
+pub struct SourceId(pub u32);
 
 /// One text that forms were read from: a file, or an input at the prompt.
 #[derive(Clone)]
-pub(crate) struct Source {
+pub struct Source {
     /// File name, or a name such as `prompt[3]`.
-    pub(crate) name: Rc<str>,
+    pub name: Rc<str>,
     /// The whole text.
-    pub(crate) text: Rc<str>,
+    pub text: Rc<str>,
     /// Is it a part of the language that is written in Lisp?
     is_library: bool,
     /// Byte offset of the start of each line.
@@ -75,14 +75,14 @@ struct Span {
 
 /// All source texts of an image, and the places in them.
 #[derive(Clone, Default)]
-pub(crate) struct Sources {
+pub struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
 }
 
 impl Sources {
     /// Adds a text.
-    pub(crate) fn add(&mut self, name: &str, text: &str) -> SourceId {
+    pub fn add(&mut self, name: &str, text: &str) -> SourceId {
         self.add_text(name, text, false)
     }
 
@@ -106,12 +106,12 @@ impl Sources {
     }
 
     /// Number of texts.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.sources.len()
     }
 
     /// Names and texts of programs, those of the language itself left out, from a number on.
-    pub(crate) fn programs_from(&self, first: usize) -> impl Iterator<Item = (&str, &str)> {
+    pub fn programs_from(&self, first: usize) -> impl Iterator<Item = (&str, &str)> {
         let sources = self.sources.iter().skip(first);
         sources
             .filter(|source| !source.is_library)
@@ -119,12 +119,12 @@ impl Sources {
     }
 
     /// The source text.
-    pub(crate) fn get(&self, id: SourceId) -> Option<&Source> {
+    pub fn get(&self, id: SourceId) -> Option<&Source> {
         self.sources.get(id.0 as usize)
     }
 
     /// Registers the bytes `start..end` of a source as a place.
-    pub(crate) fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+    pub fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
         self.spans.push(Span {
             source,
             start: offset(start),
@@ -134,20 +134,20 @@ impl Sources {
     }
 
     /// Is this a place in a program, not in the part of the language written in Lisp?
-    pub(crate) fn is_of_program(&self, place: Place) -> bool {
+    pub fn is_of_program(&self, place: Place) -> bool {
         let source = self.span(place).and_then(|span| self.get(span.source));
         source.is_some_and(|source| !source.is_library)
     }
 
     /// The text that a place covers.
-    pub(crate) fn text(&self, place: Place) -> Option<&str> {
+    pub fn text(&self, place: Place) -> Option<&str> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
         source.text.get(span.start as usize..span.end as usize)
     }
 
     /// The place of the bytes `start..end` of the text that a place covers.
-    pub(crate) fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
+    pub fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
         let span = self.span(place)?;
         let (source, first) = (span.source, span.start as usize);
         Some(self.place(source, first + start, first + end))
@@ -158,7 +158,7 @@ impl Sources {
     }
 
     /// Line and column of a place.
-    pub(crate) fn locate(&self, place: Place) -> Option<Location> {
+    pub fn locate(&self, place: Place) -> Option<Location> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
         let line = source

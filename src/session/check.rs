@@ -18,15 +18,15 @@ pub(super) use meant::hint;
 
 use super::Session;
 use super::dialogue::{Finding, Severity};
-use crate::lisp::compile;
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::notes::{Note, NoteKind};
-use crate::lisp::reader::Reader;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::known as names;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::VariableKind;
+use lisp::compile;
+use lisp::evaluator::nested;
+use lisp::image::notes::{Note, NoteKind};
+use lisp::reader::Reader;
+use lisp::source::Place;
+use lisp::value::Value;
+use lisp::value::known as names;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::VariableKind;
 
 impl Session {
     /// The mistakes in a text, in the order of the text.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::Session;
 use super::dialogue::{Completions, Converse, Repeat};
-use crate::lisp::image::input::Source;
+use lisp::image::input::Source;
 
 impl Repeat for Session {
     fn set_interactive(&mut self, is_interactive: bool) {

@@ -3,7 +3,7 @@
 
 use super::objects::Objects;
 use super::{Audience, Session, assist, console};
-use crate::lisp::value::release::FreesAll;
+use lisp::value::release::FreesAll;
 
 impl Session {
     /// A copy, made in a small part of the time that a new session takes to get as far. Programs that run many
@@ -12,7 +12,7 @@ impl Session {
     /// # Errors
     ///
     /// What there cannot be a copy of: tasks, an open file, a live view, a robot that moves.
-    pub(crate) fn copied(&self) -> Result<Session, &'static str> {
+    pub fn copied(&self) -> Result<Session, &'static str> {
         let Some(scheduler) = self.scheduler.copied() else {
             return Err("tasks");
         };

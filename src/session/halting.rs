@@ -2,9 +2,9 @@
 
 use super::Session;
 use super::dialogue::{Abort, Event};
-use crate::lisp::image::identity::aside;
-use crate::lisp::print::report::report;
-use crate::watch::{Cause, Halt, HaltKind, TaskId, TaskNews, TaskState};
+use lisp::image::identity::aside;
+use lisp::print::report::report;
+use view::watch::{Cause, Halt, HaltKind, TaskId, TaskNews, TaskState};
 
 impl Session {
     /// Tells the followers whether the session goes on. Call when an input has been dealt with;

@@ -3,8 +3,8 @@
 use super::Session;
 use super::dialogue::{Illustrate, Swept, Table};
 use super::tabulated::table_of;
-use crate::lisp::value::known;
-use crate::picture::{Image, View};
+use lisp::value::known;
+use view::picture::{Image, View};
 
 impl Illustrate for Session {
     fn description(&self, text: &str, at: usize) -> Option<String> {

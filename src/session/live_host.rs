@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::dialogue::Event;
 use super::host::SimulationHost;
-use crate::lisp::image::Image;
-use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::watch::WatchEvent;
+use cram::{Advance, Host, Reply, TaskId, Ticket};
+use lisp::image::Image;
+use view::watch::WatchEvent;
 
 /// The host, and the sink for what is printed meanwhile.
 pub(super) struct LiveHost<'a> {

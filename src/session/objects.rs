@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::dialogue::ObjectNumber;
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::image::extension::Extension;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::raise::Raise;
+use lisp::builtin::{Builtin, pure};
+use lisp::image::Image;
+use lisp::image::extension::Extension;
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use lisp::value::raise::Raise;
 
 /// Most values that are kept; beyond that, the oldest are forgotten.
 const MOST_OBJECTS: usize = 10_000;

@@ -1,16 +1,15 @@
 //! What a session starts with.
 
+use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
-use crate::lisp::guard::heap::HeapLimit;
-use crate::robot::{
-    KITCHEN_URDF, KinematicTree, MissingNames, PR2_DESCRIPTION, PR2_URDF, RobotDescription,
-};
-use crate::sexp::DataError;
-use crate::world::Models;
-use crate::world::noise::NoiseLevels;
-use crate::world::object_library::{OBJECTS, ObjectLibrary};
+use lisp::guard::heap::HeapLimit;
+use robotics::robot::{KinematicTree, MissingNames, RobotDescription};
+use robotics::sexp::DataError;
+use robotics::world::Models;
+use robotics::world::noise::NoiseLevels;
+use robotics::world::object_library::{OBJECTS, ObjectLibrary};
 
 /// What a session starts with.
 #[derive(Clone, Debug)]

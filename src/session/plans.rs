@@ -1,69 +1,22 @@
 //! The plans that are built in: `plans/lib`, which every session loads, and the demos, which are
 //! systems of their own.
 
+use plan_files::{DEMOS, LIBRARY};
+
 use super::{Ended, Session, SessionError};
-use crate::lisp::reader::Reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-
-/// Name and text of files of `plans/lib`.
-macro_rules! library {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../plans/lib/", $name)))),*]
-    };
-}
-
-/// The files, in the order in which they are loaded.
-const LIBRARY: &[(&str, &str)] = library![
-    "log.plan",
-    "robot.plan",
-    "events.plan",
-    "occasions.plan",
-    "retrying.plan",
-    "locations.plan",
-    "noise.plan",
-    "sweep-draws.plan",
-    "sweep-predicates.plan",
-    "sweeps.plan",
-    "going.plan",
-    "perceiving.plan",
-    "gripper.plan",
-    "arms.plan",
-    "picking-up.plan",
-    "placing.plan",
-    "containers.plan",
-    "navigating.plan",
-    "attempts.plan",
-    "household.plan",
-    "accessing.plan",
-    "searching.plan",
-    "fetching.plan",
-    "delivering.plan",
-    "transporting.plan",
-    "tutorial-package.plan",
-];
-
-/// Name and text of the demos' files, of `plans/demos`.
-const DEMOS: &[(&str, &str)] = &[
-    (
-        "plans/demos/pick-place-demo.plan",
-        include_str!("../../plans/demos/pick-place-demo.plan"),
-    ),
-    (
-        "plans/demos/household-demo.plan",
-        include_str!("../../plans/demos/household-demo.plan"),
-    ),
-];
+use lisp::reader::Reader;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::package::PackageTable;
 
 /// CRAM's systems with demos, and the names of the files that they consist of here.
-pub(in crate::session) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
+pub(crate) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
     ("cram_pr2_pick_place_demo", &[DEMOS[0].0, DEMOS[1].0]),
     ("cram_projection_demos", &[DEMOS[0].0, DEMOS[1].0]),
 ];
 
 /// The text of one of the demos' files.
-pub(in crate::session) fn demo_text(name: &str) -> Option<&'static str> {
+pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
     let (_, text) = DEMOS.iter().find(|(file, _)| *file == name)?;
     Some(text)
 }

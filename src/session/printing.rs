@@ -4,17 +4,17 @@ use super::Session;
 use super::check;
 use super::dialogue::screen::INTERRUPT;
 use super::dialogue::{Abort, ActionStep};
-use crate::lisp::condition;
-use crate::lisp::evaluator::nested;
-use crate::lisp::guard::stoppable;
-use crate::lisp::image::open_call::OpenCall;
-use crate::lisp::print;
-use crate::lisp::source::Location;
-use crate::lisp::types::type_of::type_of;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::{Raise, is_interrupt};
-use crate::lisp::value::symbol::Sym;
+use lisp::condition;
+use lisp::evaluator::nested;
+use lisp::guard::stoppable;
+use lisp::image::open_call::OpenCall;
+use lisp::print;
+use lisp::source::Location;
+use lisp::types::type_of::type_of;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::{Raise, is_interrupt};
+use lisp::value::symbol::Sym;
 
 /// Maximum number of enclosing actions shown with a condition.
 const MOST_ACTIONS: usize = 8;

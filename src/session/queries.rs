@@ -5,8 +5,8 @@
 //! links and joints are those of the URDF.
 
 use super::Session;
-use crate::robot::Side;
-use crate::spatial::Pose;
+use robotics::robot::Side;
+use spatial::Pose;
 
 impl Session {
     /// Simulated time (s) since the session began.
@@ -53,7 +53,7 @@ impl Session {
 
     /// Names of the objects that a hand holds.
     pub fn held_objects(&self, side: Side) -> Vec<String> {
-        crate::motion::held_objects(self.simulation().world(), side)
+        robotics::motion::held_objects(self.simulation().world(), side)
     }
 
     /// A hash of all bits of the world's state. The same inputs with the same seed give the

@@ -7,13 +7,13 @@ use std::rc::Rc;
 use super::dialogue::prompt_line::prompt_line;
 use super::dialogue::repeat::with_interrupt;
 use super::dialogue::{Event, Outcome, Screen};
-use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::image::Image;
-use crate::lisp::image::extension::Extension;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use lisp::builtin::{Builtin, pure};
+use lisp::image::Image;
+use lisp::image::extension::Extension;
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 
 /// The inputs of a session with their outputs.
 #[derive(Default)]

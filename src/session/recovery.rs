@@ -3,7 +3,7 @@
 use super::Session;
 use super::dialogue::{Abort, Event, Outcome};
 use crate::defect::Defect;
-use crate::watch::Cause;
+use view::watch::Cause;
 
 /// What people are asked to do.
 const REQUEST: &str = "This is a defect of planwright, not of your program. The world is as it was \

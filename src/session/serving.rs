@@ -10,11 +10,11 @@ use super::dialogue::{
 };
 use super::host::parts::View;
 use super::on_one_line;
-use crate::lisp::image::identity::aside;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use lisp::image::identity::aside;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::symbol::Sym;
 
 /// The variables that an input finds as the input before it has left them.
 const CARRIED: [Sym; 11] = [

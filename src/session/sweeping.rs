@@ -6,29 +6,29 @@ use std::rc::Rc;
 
 use super::Session;
 use super::dialogue::{Evaluate, Event, Outcome, Repeat};
-use crate::lisp::image::Image;
-use crate::lisp::image::extension::Extension;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::plan::Handlers;
-use crate::sweep::pairs::Pairs;
-use crate::sweep::{Drawn, Draws, Ending, Record};
+use cram::Handlers;
+use lisp::image::Image;
+use lisp::image::extension::Extension;
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use sweep::pairs::Pairs;
+use sweep::{Drawn, Draws, Ending, Record};
 
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
 /// computing. A plan that moves looks some thousands of times.
-pub(crate) const MOST_POLLS: u64 = 1_000_000;
+pub const MOST_POLLS: u64 = 1_000_000;
 /// Share of them after which cleaning up counts as endless, too.
 const CLEANING: u64 = 10;
 
 /// A sweep that a file defines.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Known {
+pub struct Known {
     /// Its name.
-    pub(crate) name: String,
+    pub name: String,
     /// How many worlds it asks for.
-    pub(crate) worlds: u64,
+    pub worlds: u64,
     /// The rate of success that it wants.
-    pub(crate) goal: Option<f64>,
+    pub goal: Option<f64>,
 }
 
 /// The world at hand, and what is known about sweeps.
@@ -156,21 +156,21 @@ impl Extension for Sweeping {
 
 impl Session {
     /// The sweeps that have been defined, in order.
-    pub(crate) fn known_sweeps(&mut self) -> Vec<Known> {
+    pub fn known_sweeps(&mut self) -> Vec<Known> {
         let ask = "(planwright::%describe-sweeps)";
         self.evaluate("sweep", ask, &mut |_| {});
         Sweeping::of(&mut self.image).0.borrow().known.clone()
     }
 
     /// The simplest values that the draws of the world at hand could have had.
-    pub(crate) fn simplest_draws(&mut self) -> Pairs<Drawn> {
+    pub fn simplest_draws(&mut self) -> Pairs<Drawn> {
         Sweeping::of(&mut self.image).0.borrow().simplest.clone()
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes
     /// them. After so many polls of the interrupt flag the world counts as endless. Call it in a
     /// session that has done nothing but load the file.
-    pub(crate) fn run_sweep_world(
+    pub fn run_sweep_world(
         &mut self,
         name: &str,
         seed: u64,

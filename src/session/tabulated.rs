@@ -2,11 +2,11 @@
 
 use super::dialogue::Table;
 use super::on_one_line;
-use crate::lisp::image::Image;
-use crate::lisp::image::identity::aside;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::plan::designator::value::as_designator;
+use cram::designator::value::as_designator;
+use lisp::image::Image;
+use lisp::image::identity::aside;
+use lisp::print;
+use lisp::value::Value;
 
 /// Most rows of a table.
 const MOST_ROWS: usize = 500;
@@ -53,9 +53,9 @@ pub(super) fn table_of(image: &Image, value: &Value) -> Option<Table> {
 #[cfg(test)]
 mod tests {
     use super::table_of;
-    use crate::lisp::value::known;
-    use crate::session::dialogue::Evaluate;
-    use crate::session::{Session, SessionOptions};
+    use crate::dialogue::Evaluate;
+    use crate::{Session, SessionOptions};
+    use lisp::value::known;
 
     #[test]
     fn lists_of_designators_are_tables() {

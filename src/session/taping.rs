@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::Session;
 use super::dialogue::Taping;
 use super::tape::{Frame, Part};
-use crate::watch::Cause;
+use view::watch::Cause;
 
 impl Taping for Session {
     fn fingerprint(&self) -> u32 {

@@ -5,13 +5,13 @@ use std::rc::Rc;
 use super::console::Suspended;
 use super::dialogue::{Abort, Event, Outcome};
 use super::{Ended, Session};
-use crate::lisp::evaluator::nested;
-use crate::lisp::guard::stoppable;
-use crate::lisp::reader;
-use crate::lisp::reader::Reader;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use lisp::evaluator::nested;
+use lisp::guard::stoppable;
+use lisp::reader;
+use lisp::reader::Reader;
+use lisp::source::Place;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 impl Session {
     /// Evaluates all forms of a text. Each is read after the previous ones have been evaluated,
@@ -124,7 +124,7 @@ impl Session {
     }
 
     fn evaluate_now(&mut self, form: &Value) -> Result<Value, Box<Raise>> {
-        let eval = crate::lisp::value::known::EVAL.into();
+        let eval = lisp::value::known::EVAL.into();
         nested::call_nested(&mut self.image, eval, vec![form.clone()])
     }
 }

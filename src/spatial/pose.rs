@@ -10,8 +10,7 @@ pub type Pose = Isometry3<f64>;
 /// A pose from a position (m) and a quaternion `[x, y, z, w]`, which is normalised.
 ///
 /// Returns `None` when the quaternion is zero or a number is not finite.
-#[cfg(test)]
-pub(crate) fn from_xyz_quaternion(xyz: [f64; 3], xyzw: [f64; 4]) -> Option<Pose> {
+pub fn from_xyz_quaternion(xyz: [f64; 3], xyzw: [f64; 4]) -> Option<Pose> {
     let [x, y, z, w] = xyzw;
     let q = Quaternion::new(w, x, y, z);
     let finite = xyz.iter().chain(&xyzw).all(|v| v.is_finite());
@@ -20,7 +19,7 @@ pub(crate) fn from_xyz_quaternion(xyz: [f64; 3], xyzw: [f64; 4]) -> Option<Pose>
 }
 
 /// A pose from a position (m) and the fixed-axis roll, pitch and yaw (rad) of a URDF `origin`.
-pub(crate) fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Pose {
+pub fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Pose {
     let [(sr, cr), (sp, cp), (sy, cy)] = rpy.map(|a| trig::sin_cos(a / 2.0));
     let q = Quaternion::new(
         cy * cp * cr + sy * sp * sr,
@@ -32,12 +31,12 @@ pub(crate) fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Pose {
 }
 
 /// The planar pose (x m, y m, yaw rad) as a spatial pose with z = 0.
-pub(crate) fn from_xy_yaw(x: f64, y: f64, yaw: f64) -> Pose {
+pub fn from_xy_yaw(x: f64, y: f64, yaw: f64) -> Pose {
     from_xyz_rpy([x, y, 0.0], [0.0, 0.0, yaw])
 }
 
 /// Heading (rad, in -π..π) of the pose's x axis projected onto the ground.
-pub(crate) fn yaw(pose: &Pose) -> f64 {
+pub fn yaw(pose: &Pose) -> f64 {
     let q = pose.rotation.quaternion();
     trig::atan2(
         2.0 * (q.w * q.k + q.i * q.j),
@@ -46,19 +45,19 @@ pub(crate) fn yaw(pose: &Pose) -> f64 {
 }
 
 /// Angle (rad) between the two orientations.
-pub(crate) fn angle_between(a: &Pose, b: &Pose) -> f64 {
+pub fn angle_between(a: &Pose, b: &Pose) -> f64 {
     let d = a.rotation.inverse() * b.rotation;
     2.0 * trig::atan2(d.imag().norm(), d.w.abs())
 }
 
 /// Distance (m) between the two origins.
-pub(crate) fn distance_between(a: &Pose, b: &Pose) -> f64 {
+pub fn distance_between(a: &Pose, b: &Pose) -> f64 {
     (a.translation.vector - b.translation.vector).norm()
 }
 
 /// The pose at `fraction` (0..1) of the motion from `a` to `b`: the origin moves in a straight
 /// line, and the orientation turns uniformly about one axis through the smaller angle.
-pub(crate) fn between(a: &Pose, b: &Pose, fraction: f64) -> Pose {
+pub fn between(a: &Pose, b: &Pose, fraction: f64) -> Pose {
     let origin = a.translation.vector + (b.translation.vector - a.translation.vector) * fraction;
     let turn = a.rotation.inverse() * b.rotation;
     let (imag, w) = (turn.imag(), turn.w);

@@ -6,7 +6,7 @@ use super::Pose;
 
 /// A convex solid in its own frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Shape {
+pub enum Shape {
     /// A box centred on the origin; full edge lengths (m) along x, y, z.
     Box {
         /// Edge lengths (m).
@@ -28,7 +28,7 @@ pub(crate) enum Shape {
 
 impl Shape {
     /// Radius (m) of the ball around the origin that holds the solid.
-    pub(crate) fn bounding_radius(&self) -> f64 {
+    pub fn bounding_radius(&self) -> f64 {
         match self {
             Self::Box { size: [x, y, z] } => libm::hypot(libm::hypot(*x, *y), *z) / 2.0,
             Self::Cylinder { radius, length } => libm::hypot(*radius, length / 2.0),
@@ -39,11 +39,11 @@ impl Shape {
 
 /// A shape with its pose in the frame of the link or object that it belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct PlacedShape {
+pub struct PlacedShape {
     /// The solid.
-    pub(crate) shape: Shape,
+    pub shape: Shape,
     /// Pose of the solid's frame in the frame of its owner.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// Linear colour, red green blue alpha in 0..1, if the source gives one.
-    pub(crate) color: Option<[f32; 4]>,
+    pub color: Option<[f32; 4]>,
 }

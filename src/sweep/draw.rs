@@ -23,7 +23,7 @@ fn finalised(number: u64) -> u64 {
 }
 
 /// The hash FNV-1a of a path, 64 bits.
-pub(crate) fn fnv1a(path: &str) -> u64 {
+pub fn fnv1a(path: &str) -> u64 {
     path.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
@@ -31,11 +31,11 @@ pub(crate) fn fnv1a(path: &str) -> u64 {
 
 /// The numbers of one path.
 #[derive(Clone, Debug)]
-pub(crate) struct Draws(Pcg64);
+pub struct Draws(Pcg64);
 
 impl Draws {
     /// The numbers of a path in a world of a sweep with that seed.
-    pub(crate) fn new(seed: u64, world: u64, path: &str) -> Self {
+    pub fn new(seed: u64, world: u64, path: &str) -> Self {
         Self(Pcg64::new(
             u128::from(mix(seed, world)),
             u128::from(fnv1a(path)),
@@ -43,12 +43,12 @@ impl Draws {
     }
 
     /// 64 random bits.
-    pub(crate) fn bits(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0.next_u64()
     }
 
     /// A number from 0 up to, but not including, 1, with 53 random bits.
-    pub(crate) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         // 53 bits fit into a double exactly.
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }

@@ -28,20 +28,20 @@ const MOST_NAMED: usize = 6;
 
 /// What a draw has to do with failures.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Effect {
+pub struct Effect {
     /// The path of the draw.
-    pub(crate) name: String,
+    pub name: String,
     /// The corrected probability that this is chance.
-    pub(crate) p: f64,
+    pub p: f64,
     /// Where failures are most frequent.
-    pub(crate) worst: Option<Part>,
+    pub worst: Option<Part>,
 }
 
 /// A part of all worlds, and how many of them fail.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Part {
+pub struct Part {
     /// What is so in them.
-    pub(crate) condition: String,
+    pub condition: String,
     /// How many of them fail, and how many there are.
     failed: Count,
     /// The same of all others.
@@ -49,7 +49,7 @@ pub(crate) struct Part {
 }
 
 /// Which draws explain failures, the most likely cause first.
-pub(crate) struct Influence {
+pub struct Influence {
     effects: Vec<Effect>,
     /// Parts that several draws together tell apart.
     tree: Option<Tree>,
@@ -59,7 +59,7 @@ pub(crate) struct Influence {
 
 impl Influence {
     /// Looks at all draws of the records.
-    pub(crate) fn of(records: &[Record]) -> Self {
+    pub fn of(records: &[Record]) -> Self {
         let tried: Vec<&Record> = records.iter().filter(|r| r.outcome.counts()).collect();
         let fails: Vec<bool> = tried.iter().map(|r| !r.is_success()).collect();
         let failed = fails.iter().filter(|fails| **fails).count();
@@ -87,7 +87,7 @@ impl Influence {
     }
 
     /// The draws that have an effect.
-    pub(crate) fn significant(&self) -> impl Iterator<Item = &Effect> {
+    pub fn significant(&self) -> impl Iterator<Item = &Effect> {
         self.effects.iter().filter(|effect| effect.p < SIGNIFICANT)
     }
 }
@@ -240,7 +240,7 @@ impl Display for Influence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Drawn, Ending};
+    use crate::{Drawn, Ending};
 
     /// Worlds with ten numbers, which fail with a probability that the numbers decide.
     fn worlds(seed: u64, rate: impl Fn(&[f64]) -> f64) -> Vec<Record> {

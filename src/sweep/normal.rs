@@ -2,7 +2,7 @@
 
 /// The standard normal deviate below which the share `p` of the distribution lies; `p` is between 0
 /// and 1, both excluded. Algorithm AS 241 (Wichura, 1988), accurate to about 1 part in 10^16.
-pub(crate) fn normal_quantile(p: f64) -> f64 {
+pub fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180625 - q * q;

@@ -9,7 +9,7 @@ use super::record::Record;
 
 /// How two plans did in the same worlds.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Comparison {
+pub struct Comparison {
     /// Names of the two plans.
     names: [String; 2],
     /// Worlds that both could try.
@@ -22,7 +22,7 @@ pub(crate) struct Comparison {
 
 /// Whether looks at two plans have decided which one is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Decision {
+pub enum Decision {
     /// No look has.
     Open,
     /// The last one has.
@@ -39,7 +39,7 @@ const MOST_WORLDS: usize = 20;
 
 impl Comparison {
     /// Compares records of the same worlds. Worlds that one of the two could not try do not count.
-    pub(crate) fn new(names: [String; 2], first: &[Record], second: &[Record]) -> Self {
+    pub fn new(names: [String; 2], first: &[Record], second: &[Record]) -> Self {
         let mut comparison = Self {
             names,
             count: 0,
@@ -73,14 +73,14 @@ impl Comparison {
 
     /// The interval of the difference of the rates, the second plan's less the first one's: Newcombe's
     /// method 10 (1998).
-    pub(crate) fn difference(&self) -> Interval {
+    pub fn difference(&self) -> Interval {
         let [a, b] = self.discordant();
         let neither = self.count - self.both - a - b;
         newcombe([self.both, b, a, neither], CONFIDENCE)
     }
 
     /// What the looks say about which plan is better, in words.
-    pub(crate) fn verdict(&self, decision: Decision) -> String {
+    pub fn verdict(&self, decision: Decision) -> String {
         let [a, b] = &self.names;
         let [only_a, only_b] = self.discordant();
         let better = if only_b > only_a { b } else { a };
@@ -139,7 +139,7 @@ fn newcombe([both, first, second, neither]: [usize; 4], confidence: f64) -> Inte
 
 /// The error that a look after so many worlds may have, if there are looks at 200, 400, 800 … worlds and
 /// all of them together may err with a probability; `None` if there is no look.
-pub(crate) fn error_at_look(count: u64, error: f64) -> Option<f64> {
+pub fn error_at_look(count: u64, error: f64) -> Option<f64> {
     const FIRST: u64 = 200;
     if count == 0 || !count.is_multiple_of(FIRST) || !(count / FIRST).is_power_of_two() {
         return None;
@@ -152,12 +152,12 @@ pub(crate) fn error_at_look(count: u64, error: f64) -> Option<f64> {
 
 /// Whether one of two plans is better, after a look with that error at the worlds in which only the
 /// first, and only the second one worked.
-pub(crate) fn is_decided(only: [usize; 2], error: f64) -> bool {
+pub fn is_decided(only: [usize; 2], error: f64) -> bool {
     mcnemar(only) < error
 }
 
 /// Whether the interval of a rate is as narrow as wanted after a look with that error.
-pub(crate) fn is_narrow(hits: usize, count: usize, error: f64, width: f64) -> bool {
+pub fn is_narrow(hits: usize, count: usize, error: f64, width: f64) -> bool {
     let [low, high] = wilson(hits, count, 1.0 - error);
     high - low <= width
 }
@@ -208,8 +208,8 @@ fn p_text(p: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::Ending;
-    use crate::sweep::draw::Draws;
+    use crate::Ending;
+    use crate::draw::Draws;
 
     #[test]
     fn mcnemar_is_that_of_a_table() {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Names with values, in order.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Pairs<T>(pub(crate) Vec<(String, T)>);
+pub struct Pairs<T>(pub Vec<(String, T)>);
 
 impl<T> Default for Pairs<T> {
     fn default() -> Self {
@@ -19,13 +19,13 @@ impl<T> Default for Pairs<T> {
 
 impl<T> Pairs<T> {
     /// The value of a name.
-    pub(crate) fn get(&self, name: &str) -> Option<&T> {
+    pub fn get(&self, name: &str) -> Option<&T> {
         let found = self.0.iter().find(|(known, _)| known == name);
         found.map(|(_, value)| value)
     }
 
     /// Sets the value of a name.
-    pub(crate) fn set(&mut self, name: &str, value: T) {
+    pub fn set(&mut self, name: &str, value: T) {
         match self.0.iter_mut().find(|(known, _)| known == name) {
             Some((_, place)) => *place = value,
             None => self.0.push((name.to_owned(), value)),
@@ -33,7 +33,7 @@ impl<T> Pairs<T> {
     }
 
     /// All of them, in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 }

@@ -44,7 +44,7 @@ pub(crate) fn at_least(hits: usize, count: usize, confidence: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::draw::Draws;
+    use crate::draw::Draws;
 
     /// Values of SciPy's `binomtest(…).proportion_ci(method="wilson")`.
     #[test]

@@ -12,7 +12,7 @@ use super::pairs::Pairs;
 /// How a world ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Ending {
+pub enum Ending {
     /// No condition left the plan, and everything expected holds.
     Success,
     /// A condition left the plan.
@@ -33,7 +33,7 @@ pub(crate) enum Ending {
 
 impl Ending {
     /// Whether the plan was tried at all.
-    pub(crate) fn counts(self) -> bool {
+    pub fn counts(self) -> bool {
         self != Self::Invalid
     }
 
@@ -60,7 +60,7 @@ impl fmt::Display for Ending {
 /// A value that was drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
-pub(crate) enum Drawn {
+pub enum Drawn {
     /// Whether something is so.
     Flag(bool),
     /// An integer.
@@ -73,7 +73,7 @@ pub(crate) enum Drawn {
 
 impl Drawn {
     /// It as a number; a flag is 0 or 1.
-    pub(crate) fn number(&self) -> Option<f64> {
+    pub fn number(&self) -> Option<f64> {
         match self {
             Self::Flag(is_set) => Some(f64::from(u8::from(*is_set))),
             Self::Integer(number) => Some(*number as f64),
@@ -96,44 +96,44 @@ impl fmt::Display for Drawn {
 
 /// What came of one world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Record {
+pub struct Record {
     /// Its number.
-    pub(crate) world: u64,
+    pub world: u64,
     /// How it ended.
-    pub(crate) outcome: Ending,
+    pub outcome: Ending,
     /// The class of the condition, the expectation, or the variable that found no place.
-    pub(crate) class: Option<String>,
+    pub class: Option<String>,
     /// The cause: the kind of failure of the last motion that failed, or why there was no place.
-    pub(crate) cause: Option<String>,
+    pub cause: Option<String>,
     /// The bodies that touched, or would have.
-    pub(crate) bodies: Vec<String>,
+    pub bodies: Vec<String>,
     /// Whether each expectation holds.
-    pub(crate) expectations: Pairs<bool>,
+    pub expectations: Pairs<bool>,
     /// What was drawn, by path.
-    pub(crate) draws: Pairs<Drawn>,
+    pub draws: Pairs<Drawn>,
     /// The faults that were injected.
-    pub(crate) faults: Vec<String>,
+    pub faults: Vec<String>,
     /// Simulated time that the plan took (s).
-    pub(crate) time: f64,
+    pub time: f64,
     /// Steps of the world since it began.
-    pub(crate) steps: u64,
+    pub steps: u64,
     /// How far the base has driven (m).
-    pub(crate) distance: f64,
+    pub distance: f64,
     /// How many motions failed, by class; the plan may have handled them.
-    pub(crate) failures: Pairs<u64>,
+    pub failures: Pairs<u64>,
     /// How often the handlers of the plan have handled each failure that they name, by file, line and
     /// failure.
     #[serde(default)]
-    pub(crate) handlers: Pairs<u64>,
+    pub handlers: Pairs<u64>,
     /// What was measured.
-    pub(crate) measures: Pairs<Drawn>,
+    pub measures: Pairs<Drawn>,
     /// The hash of the world at the end.
-    pub(crate) hash: String,
+    pub hash: String,
 }
 
 impl Record {
     /// A world about which nothing is known yet but how it ended.
-    pub(crate) fn new(world: u64, outcome: Ending) -> Self {
+    pub fn new(world: u64, outcome: Ending) -> Self {
         Self {
             world,
             outcome,
@@ -154,19 +154,19 @@ impl Record {
     }
 
     /// Whether the plan worked.
-    pub(crate) fn is_success(&self) -> bool {
+    pub fn is_success(&self) -> bool {
         self.outcome == Ending::Success
     }
 
     /// The line of JSON, without its end.
-    pub(crate) fn line(&self) -> String {
+    pub fn line(&self) -> String {
         // Nothing in a record fails to be written: names are texts, and numbers that are not finite
         // become null.
         serde_json::to_string(self).unwrap_or_default()
     }
 
     /// Why it ended as it did: worlds with the same kind are counted together.
-    pub(crate) fn kind(&self) -> [String; 3] {
+    pub fn kind(&self) -> [String; 3] {
         let class = match (&self.outcome, &self.class) {
             (Ending::Expectation, Some(name)) => format!("expectation {name}"),
             (_, Some(class)) => class.clone(),

@@ -9,7 +9,7 @@ use super::rate::{at_least, wilson};
 use super::record::Record;
 
 /// Confidence of all intervals.
-pub(crate) const CONFIDENCE: f64 = 0.95;
+pub const CONFIDENCE: f64 = 0.95;
 /// Most worlds that are named as examples of a kind of failure.
 const MOST_EXAMPLES: usize = 3;
 /// Most kinds of failures that are listed.
@@ -21,37 +21,37 @@ const MANY_INVALID: f64 = 0.2;
 
 /// What a sweep is called and wants.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Title {
+pub struct Title {
     /// Its name.
-    pub(crate) name: String,
+    pub name: String,
     /// The seed.
-    pub(crate) seed: u64,
+    pub seed: u64,
     /// The rate of success that is wanted, if any.
-    pub(crate) goal: Option<f64>,
+    pub goal: Option<f64>,
 }
 
 /// The worlds that ended in the same way.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Kind {
+pub struct Kind {
     /// Class, cause and bodies.
-    pub(crate) kind: [String; 3],
+    pub kind: [String; 3],
     /// The worlds, in order.
-    pub(crate) worlds: Vec<u64>,
+    pub worlds: Vec<u64>,
 }
 
 /// What all worlds of a sweep say together.
-pub(crate) struct Summary<'r> {
+pub struct Summary<'r> {
     title: &'r Title,
     records: &'r [Record],
     /// Worlds in which the plan was tried.
-    pub(crate) tried: usize,
+    pub tried: usize,
     /// Worlds in which it worked.
     pub(crate) successes: usize,
 }
 
 impl<'r> Summary<'r> {
     /// A summary of records, which are in the order of their worlds.
-    pub(crate) fn new(title: &'r Title, records: &'r [Record]) -> Self {
+    pub fn new(title: &'r Title, records: &'r [Record]) -> Self {
         let tried = records.iter().filter(|r| r.outcome.counts()).count();
         let successes = records.iter().filter(|r| r.is_success()).count();
         Self {
@@ -63,18 +63,18 @@ impl<'r> Summary<'r> {
     }
 
     /// The number of worlds.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.records.len() as u64
     }
 
     /// The share of worlds in which the plan worked.
-    pub(crate) fn rate(&self) -> f64 {
+    pub fn rate(&self) -> f64 {
         self.successes as f64 / (self.tried as f64).max(1.0)
     }
 
     /// Whether the goal is met; true if there is none. A goal is met if the worlds that were
     /// tried, of which there must be one, worked as often as wanted.
-    pub(crate) fn meets_goal(&self) -> bool {
+    pub fn meets_goal(&self) -> bool {
         let Some(goal) = self.title.goal else {
             return true;
         };
@@ -82,7 +82,7 @@ impl<'r> Summary<'r> {
     }
 
     /// The kinds of failures, the most frequent first.
-    pub(crate) fn kinds(&self) -> Vec<Kind> {
+    pub fn kinds(&self) -> Vec<Kind> {
         let failed = |r: &&Record| r.outcome.counts() && !r.is_success();
         kinds(self.records.iter().filter(failed))
     }
@@ -330,7 +330,7 @@ impl Display for Summary<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Drawn, Ending};
+    use crate::{Drawn, Ending};
 
     #[test]
     fn worlds_are_told_apart_by_what_went_wrong() {

@@ -163,7 +163,7 @@ impl Display for Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::feature::Level;
+    use crate::feature::Level;
 
     /// Worlds with ten numbers, the first of which is missing in some, and a kind.
     fn features(seed: u64, count: u64) -> Vec<Feature> {

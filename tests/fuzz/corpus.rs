@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::front::transcript::Transcript;
+use crate::transcript::Transcript;
 
 /// Greatest size (bytes) of a piece.
 const MOST_BYTES: usize = 2000;
@@ -64,7 +64,7 @@ pub(super) fn programs() -> Vec<Vec<u8>> {
         inputs("tests/conformance", ".transcript"),
         inputs("docs", ".md"),
         forms("src/lisp/library", ".lisp"),
-        forms("src/plan/library", ".lisp"),
+        forms("src/cram/library", ".lisp"),
         forms("plans/lib", ".plan"),
     ]
     .concat()

@@ -7,14 +7,15 @@ use std::sync::{Arc, LazyLock};
 
 use super::corpus;
 use super::run::{Taker, Target};
-use crate::front::prompt::Earlier;
-use crate::front::transcript::{Transcript, Verdict, blessed};
-use crate::robot::{KinematicTree, PR2_DESCRIPTION, PR2_URDF, RobotDescription};
-use crate::watch::live::{History, Origin};
-use crate::watch::recording::{RecordingError, read_recording};
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::object_library::{OBJECTS, ObjectLibrary};
-use crate::world::{Models, RobotConfiguration, World};
+use crate::prompt::Earlier;
+use crate::transcript::{Transcript, Verdict, blessed};
+use descriptions::{PR2_DESCRIPTION, PR2_URDF};
+use robotics::robot::{KinematicTree, RobotDescription};
+use robotics::world::grasp_library::{GRASPS, GraspLibrary};
+use robotics::world::object_library::{OBJECTS, ObjectLibrary};
+use robotics::world::{Models, RobotConfiguration, World};
+use view::watch::live::{History, Origin};
+use view::watch::recording::{RecordingError, read_recording};
 
 pub(super) fn targets() -> Vec<Target> {
     vec![
@@ -233,7 +234,7 @@ fn urdf() -> Taker {
             let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp").unwrap();
             let models = Models::new(PR2.tree.clone(), PR2.description.clone(), kitchen, objects);
             let joints = models.description.start_positions(&models.robot);
-            let base = crate::spatial::Pose::identity();
+            let base = spatial::Pose::identity();
             let mut world = World::new(Arc::new(models), RobotConfiguration { base, joints });
             for _ in 0..3 {
                 world.step();

@@ -1,7 +1,7 @@
 //! What fuzzing has found, as tests.
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// The values of the last form of a text.
 fn values(text: &str) -> Vec<String> {

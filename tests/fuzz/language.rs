@@ -3,11 +3,11 @@
 
 use super::corpus;
 use super::run::{Taker, Target};
-use crate::lisp::Image;
-use crate::lisp::guard::heap::HeapLimit;
-use crate::lisp::reader::{Completeness, Lexer, Reader, Token, TokenKind, is_complete};
-use crate::session::dialogue::{Converse, Evaluate, Event, Outcome, Repeat};
-use crate::session::{LogLevel, Session, SessionOptions};
+use lisp::Image;
+use lisp::guard::heap::HeapLimit;
+use lisp::reader::{Completeness, Lexer, Reader, Token, TokenKind, is_complete};
+use session::dialogue::{Converse, Evaluate, Event, Outcome, Repeat};
+use session::{LogLevel, Session, SessionOptions};
 
 /// What an image or a session takes before another is made: texts leave names and objects.
 const MOST_INPUTS: usize = 2000;

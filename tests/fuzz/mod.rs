@@ -54,7 +54,7 @@ fn short_run() {
 #[test]
 #[ignore = "runs as long as it is asked to"]
 fn long_run() {
-    crate::defect::keep_caught_panics_quiet();
+    session::defect::keep_caught_panics_quiet();
     run::abort_when_stuck();
     let found = run::with_large_stack(|| {
         run::all(&targets(), &run::Plan::of_environment(), &mut |line| {

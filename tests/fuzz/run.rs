@@ -9,8 +9,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::mutation::Mutation;
-use crate::defect;
-use crate::lisp::guard::set_stack_budget;
+use lisp::guard::set_stack_budget;
+use session::defect;
 
 /// What takes inputs.
 pub(super) struct Target {

@@ -10,7 +10,7 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 use serde_json::json;
 
 use super::client::{Client, connect, greeting, receive, start};
-use crate::front::jupyter::zmtp::encoded;
+use crate::jupyter::zmtp::encoded;
 
 #[test]
 fn messages_without_the_right_signature_are_not_answered() {

@@ -8,10 +8,10 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use crate::front::command::open_default;
-use crate::front::jupyter::zmtp::{encoded, read_frame};
-use crate::front::jupyter::{Author, Connection, Interrupter, Kernel, Settings, Signer};
-use crate::session::dialogue::Evaluate;
+use crate::command::open_default;
+use crate::jupyter::zmtp::{encoded, read_frame};
+use crate::jupyter::{Author, Connection, Interrupter, Kernel, Settings, Signer};
+use session::dialogue::Evaluate;
 
 /// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(60);

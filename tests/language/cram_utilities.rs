@@ -1,8 +1,8 @@
 //! Lazy lists, patterns, unification and functors, as CRAM's own tests expect them.
 
-use super::standard::check;
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use super::checked::check;
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 #[test]
 fn lists_compute_no_more_than_is_asked_for() {

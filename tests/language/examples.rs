@@ -1,8 +1,8 @@
 //! Every example in the tables of builtins and operators is run: what the manual shows is
 //! what happens.
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// What the prompt prints for the values of the last form, or the report of what went wrong.
 fn shown(session: &mut Session, form: &str) -> String {

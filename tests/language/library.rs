@@ -1,14 +1,14 @@
 //! The part of the language that is written in Lisp: every definition is compiled and shown.
 
-use crate::lisp::Image;
-use crate::lisp::builtin::arity;
-use crate::lisp::library::definition::Kind;
-use crate::lisp::library::definition_of;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::symbol::FunctionCell;
-use crate::session::{Session, SessionOptions};
+use lisp::Image;
+use lisp::builtin::arity;
+use lisp::library::definition::Kind;
+use lisp::library::definition_of;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::function::{Body, Function};
+use lisp::value::symbol::FunctionCell;
+use session::{Session, SessionOptions};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -43,7 +43,7 @@ fn every_definition_can_be_compiled() {
         let deferred = function.as_deferred().expect("only such were taken");
         let forced = image.force(deferred);
         let forced = forced.unwrap_or_else(|raise| {
-            let condition = crate::lisp::condition::make(image, &raise).unwrap_or(Value::NIL);
+            let condition = lisp::condition::make(image, &raise).unwrap_or(Value::NIL);
             let report = print::to_string(image, &condition, false);
             panic!("{location:?} fails: {report}")
         });
@@ -109,7 +109,7 @@ fn compiling_a_definition_leaves_no_trace() {
             .filter(|(name, _)| name != "SYSTEM" && name != "KEYWORD")
             .collect()
     };
-    let counter = crate::lisp::value::known::V_GENSYM_COUNTER;
+    let counter = lisp::value::known::V_GENSYM_COUNTER;
     let before = (
         counts(image),
         print::to_string(image, image.special(counter), true),

@@ -3,9 +3,9 @@
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{Session, SessionOptions};
 use proptest::prelude::*;
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{Session, SessionOptions};
 
 fn session() -> Session {
     Session::new(&SessionOptions::default()).unwrap()

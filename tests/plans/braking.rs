@@ -6,9 +6,9 @@ use std::rc::Rc;
 use nalgebra::Vector2;
 
 use super::cook::Cook;
-use crate::session::dialogue::Repeat;
-use crate::world::World;
-use crate::world::physics::STEP_SECONDS;
+use robotics::world::World;
+use robotics::world::physics::STEP_SECONDS;
+use session::dialogue::Repeat;
 
 /// Where the base was (m) after each step.
 #[derive(Clone, Default)]

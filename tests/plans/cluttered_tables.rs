@@ -10,10 +10,10 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
-use crate::robot::Side;
-use crate::spatial::Pose;
-use crate::spatial::pose::distance_between;
-use crate::world::{AllowedPairs, BodyName, World};
+use robotics::robot::Side;
+use robotics::world::{AllowedPairs, BodyName, World};
+use spatial::Pose;
+use spatial::pose::distance_between;
 
 /// What stands on the table.
 const TYPES: [&str; 10] = [

@@ -4,10 +4,10 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
-use crate::motion::can_stand;
-use crate::robot::JointKind;
-use crate::spatial::Pose;
-use crate::spatial::pose::{angle_between, distance_between};
+use robotics::motion::can_stand;
+use robotics::robot::JointKind;
+use spatial::Pose;
+use spatial::pose::{angle_between, distance_between};
 
 const FUNCTIONS: &str = "
     (in-package :pp-tut)
@@ -44,7 +44,7 @@ impl Cook {
 
     fn parked(&self) -> bool {
         let world = self.session.simulation().world();
-        crate::robot::Side::BOTH
+        robotics::robot::Side::BOTH
             .into_iter()
             .all(|side| world.handle_hold(side).is_none())
     }
@@ -497,7 +497,7 @@ fn run(name: &str, joint: &str, wanted: f64, seed: u64) -> Run {
     cook.done(FUNCTIONS);
     let mut rng = Pcg64::seed_from_u64(seed);
     let [x, y, yaw] = somewhere(&cook, &mut rng);
-    let (s, c) = crate::spatial::trig::sin_cos(yaw / 2.0);
+    let (s, c) = spatial::trig::sin_cos(yaw / 2.0);
     cook.done(&format!(
         "(btr-utils:move-robot '(({x} {y} 0) (0 0 {s} {c})))"
     ));
@@ -537,10 +537,10 @@ fn run(name: &str, joint: &str, wanted: f64, seed: u64) -> Run {
 fn how_often_containers_are_opened_and_closed() {
     let starts: u64 = std::env::var("STARTS").map_or(20, |s| s.parse().unwrap());
     let wanted_names = std::env::var("NAMES").unwrap_or_default();
-    let models = crate::tests::world::fixture::models();
+    let models = crate::measured::models();
     let (mut all, mut good) = (0, 0);
     println!("| container | opened | closed | contents kept | failures |\n|---|---|---|---|---|");
-    for container in crate::location::containers(&models) {
+    for container in robotics::location::containers(&models) {
         let joint = models.kitchen.joint(container.joint);
         let name = models.kitchen.link(container.link).name.replace('_', "-");
         let is_drawer = joint.kind == JointKind::Prismatic;

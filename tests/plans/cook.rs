@@ -1,10 +1,10 @@
 //! Somebody who works with the robot in the kitchen, for the tests of what plans do there.
 
 use super::overlaps::Overlaps;
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{Session, SessionOptions};
-use crate::spatial::Pose;
 use nalgebra::Vector3;
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{Session, SessionOptions};
+use spatial::Pose;
 
 /// A session with the tutorial's skills loaded.
 pub(crate) struct Cook {

@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use super::cook::Cook;
-use crate::session::dialogue::{Evaluate, Outcome};
-use crate::session::{Session, SessionOptions};
-use crate::spatial::Pose;
 use nalgebra::Vector3;
+use session::dialogue::{Evaluate, Outcome};
+use session::{Session, SessionOptions};
+use spatial::Pose;
 
 const DEMO: &str = include_str!("../../plans/demos/table-setting.plan");
 const LOAD: &str = "(ros-load:load-system \"cram_pr2_pick_place_demo\")";
@@ -151,7 +151,7 @@ fn a_bowl_is_set_out_from_its_drawer_and_cleaned_away() {
 #[test]
 fn the_varied_kitchen_differs_in_where_furniture_stands_alone() {
     let body = |text: &'static str| text.split_once("<robot").unwrap().1.lines();
-    let [varied, usual] = [VARIED, crate::robot::KITCHEN_URDF].map(body);
+    let [varied, usual] = [VARIED, descriptions::KITCHEN_URDF].map(body);
     assert_eq!(varied.clone().count(), usual.clone().count());
     let different = varied.zip(usual).filter(|(a, b)| a != b);
     let origins = different.inspect(|(a, _)| assert!(a.trim().starts_with("<origin"), "{a}"));

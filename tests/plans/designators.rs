@@ -1,7 +1,7 @@
 //! Designators in plans: own actions, own process modules, and what they fail with.
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// What a session prints for a text, after a package that uses everything is entered.
 fn printed(text: &str) -> String {

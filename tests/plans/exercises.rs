@@ -4,12 +4,12 @@
 use std::collections::BTreeMap;
 
 use super::overlaps::Overlaps;
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{Session, SessionOptions};
-use crate::spatial::{Pose, trig};
 use nalgebra::Vector3;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{Session, SessionOptions};
+use spatial::{Pose, trig};
 
 /// A solution, as a person has loaded it.
 struct Exercise {

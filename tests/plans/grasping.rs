@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::cook::Cook;
-use crate::world::World;
+use robotics::world::World;
 
 /// Where the open hand of a robot with parked arms drops things.
 fn fell(cook: &Cook) -> bool {

@@ -6,16 +6,16 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::location::{
+use nalgebra::Vector3;
+use robotics::location::{
     BaseQuery, Constraint, Direction, Distances, Item, Orientation, PlaceQuery, Position, Query,
     Relation, Scene, Stream, Support, Target, What, link_named,
 };
-use crate::robot::Side;
-use crate::spatial::pose::{angle_between, from_xy_yaw, yaw};
-use crate::spatial::{Pose, trig};
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::{Models, RobotConfiguration, World};
-use nalgebra::Vector3;
+use robotics::robot::Side;
+use robotics::world::grasp_library::{GRASPS, GraspLibrary};
+use robotics::world::{Models, RobotConfiguration, World};
+use spatial::pose::{angle_between, from_xy_yaw, yaw};
+use spatial::{Pose, trig};
 
 /// Limits of x and y (m) and height (m) of surfaces, as measured in the kitchen, and how many
 /// quarter turns their frames are turned.

@@ -1,7 +1,7 @@
 //! Generators, validators and solutions of locations, of plans' own kinds.
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// A package with generators and validators of its own, the first generator in use.
 const PACKAGE: &str = "(defpackage :places (:use :common-lisp :desig))

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::cook::Cook;
-use crate::spatial::{Pose, pose};
+use spatial::{Pose, pose};
 
 /// The pose that a text evaluates to, from its printed form.
 fn read_pose(shown: &str) -> Pose {

@@ -1,9 +1,9 @@
 //! Plans whose robot makes errors.
 
 use super::cook::Cook;
-use crate::session::dialogue::Evaluate;
-use crate::session::{Session, SessionOptions};
-use crate::spatial::pose;
+use session::dialogue::Evaluate;
+use session::{Session, SessionOptions};
+use spatial::pose;
 
 /// As what type the robot sees the bottle in front of it if it looks for objects of a type, with
 /// some noise.

@@ -6,7 +6,7 @@ use rand_pcg::rand_core::SeedableRng;
 use super::containers::somewhere;
 use super::cook::Cook;
 use super::deliveries::REACHABLE_P;
-use crate::spatial::{pose, trig};
+use spatial::{pose, trig};
 
 /// Where something is that is to be brought to the island.
 struct Store {

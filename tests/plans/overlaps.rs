@@ -3,9 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::robot::Side;
-use crate::session::Session;
-use crate::world::{AllowedPairs, BodyName, World};
+use robotics::robot::Side;
+use robotics::world::{AllowedPairs, BodyName, World};
+use session::Session;
 
 /// What was seen of a session so far.
 pub(crate) struct Overlaps {

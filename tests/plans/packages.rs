@@ -1,11 +1,11 @@
 //! What the packages of plans export is there.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::plan::prolog::facts;
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use cram::prolog::facts;
+use lisp::image::Image;
+use lisp::value::package::PackageTable;
+use lisp::value::symbol::{FunctionCell, Sym};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// Words of forms that mean something only inside them, and what rules and plans define for
 /// the program to ask.

@@ -75,7 +75,7 @@ fn a_round_object_that_is_put_down_with_another_heading_is_logged() {
         "(with-simulated-robot {})",
         place(-0.8, 2.0, 0.96)
     ));
-    let turned = crate::spatial::pose::yaw(&cook.pose("BOTTLE-1")).to_degrees();
+    let turned = spatial::pose::yaw(&cook.pose("BOTTLE-1")).to_degrees();
     let line = said.lines().find(|line| line.contains("is round"));
     match line {
         Some(line) => assert!(

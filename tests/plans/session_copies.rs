@@ -1,7 +1,7 @@
 //! Copies of sessions, in which the worlds of a sweep run.
 
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{LogLevel, Session, SessionOptions};
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{LogLevel, Session, SessionOptions};
 
 /// Everything that a program can define and change.
 const FILE: &str = r##"

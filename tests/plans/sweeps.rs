@@ -1,8 +1,8 @@
 //! Sweeps: one plan in many worlds.
 
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{LogLevel, Session, SessionOptions};
-use crate::sweep::{Drawn, Ending, Record};
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{LogLevel, Session, SessionOptions};
+use sweep::{Drawn, Ending, Record};
 
 fn session(text: &str) -> Session {
     let options = SessionOptions {

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// A folder of systems, which is deleted at the end of the test.
 struct Folder(PathBuf);

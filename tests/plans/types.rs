@@ -1,11 +1,11 @@
 //! The table of types of actions and motions cannot lie: every row, with every name and every
 //! key, is performed, and does what it says or ends in a failure of the world.
 
-use crate::plan::designator::schema::{self, Key, Kind, TypeRow};
-use crate::plan::designator::value::Class;
-use crate::robot::Side;
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use cram::designator::schema::{self, Key, Kind, TypeRow};
+use cram::designator::value::Class;
+use robotics::robot::Side;
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// A bottle on the table in front of the robot, which has seen it, and values that designators
 /// refer to.
@@ -331,8 +331,7 @@ fn an_action_of_the_users_own_is_known_at_once_everywhere() {
         ":LEFT"
     );
     let complete = |text: &str| -> Vec<String> {
-        let found =
-            crate::session::dialogue::Converse::completions(&table.session, text, text.len());
+        let found = session::dialogue::Converse::completions(&table.session, text, text.len());
         found.candidates.into_iter().map(|c| c.text).collect()
     };
     assert_eq!(complete("(an action (type wav"), ["waving"]);

@@ -2,10 +2,10 @@
 //! time, and that nothing goes through anything on the way.
 
 use super::overlaps::Overlaps;
-use crate::robot::Side;
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{Session, SessionOptions};
 use nalgebra::Vector3;
+use robotics::robot::Side;
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{Session, SessionOptions};
 
 const PLAN: &str = include_str!("../../plans/tutorial/move-bottle.plan");
 

@@ -1,7 +1,7 @@
 //! Looking around after an interrupt.
 
 use super::talk::{BOTTLE, Talk};
-use crate::session::dialogue::{Converse, Evaluate, Outcome, Repeat};
+use session::dialogue::{Converse, Evaluate, Outcome, Repeat};
 
 const DRIVE: &str = "(with-simulated-robot
   (let ((?there (make-pose \"map\" '((0.7 0 0) (0 0 0 1)))) (count 1))

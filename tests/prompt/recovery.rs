@@ -1,7 +1,7 @@
 //! A panic in the middle of an input: the session goes on, and nothing is lost.
 
-use crate::session::dialogue::{Converse, Evaluate, Event, Outcome, Repeat};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Converse, Evaluate, Event, Outcome, Repeat};
+use session::{Session, SessionOptions};
 
 /// What is told of an unhandled condition, or of the values.
 fn say(session: &mut Session, text: &str) -> (Outcome, String) {

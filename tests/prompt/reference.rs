@@ -1,7 +1,7 @@
 //! `docs/reference.md` is what `planwright reference` prints.
 
-use crate::front::manual;
-use crate::session::{Session, SessionOptions};
+use crate::manual;
+use session::{Session, SessionOptions};
 
 #[test]
 fn the_reference_is_current() {

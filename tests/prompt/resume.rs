@@ -8,10 +8,10 @@ use std::sync::atomic::AtomicBool;
 
 use proptest::prelude::*;
 
-use crate::front::prompt::{Beginning, Keeper, Wanted, open, resume};
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Evaluate, Event, Repeat};
-use crate::session::{Session, SessionOptions};
+use crate::prompt::{Beginning, Keeper, Wanted, open, resume};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Converse, Evaluate, Event, Repeat};
+use session::{Session, SessionOptions};
 
 /// A folder that is removed with the value.
 pub(super) struct Folder(PathBuf);

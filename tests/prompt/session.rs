@@ -2,9 +2,9 @@
 //! hints and saved transcripts.
 
 use super::talk::{BOTTLE, Talk};
-use crate::front::transcript::{Transcript, Verdict, replay};
-use crate::session::dialogue::{Converse, Evaluate, Outcome, Repeat};
-use crate::session::{Session, SessionOptions};
+use crate::transcript::{Transcript, Verdict, replay};
+use session::dialogue::{Converse, Evaluate, Outcome, Repeat};
+use session::{Session, SessionOptions};
 
 #[test]
 fn rewinding_counts_the_forms_that_changed_the_world() {
@@ -286,7 +286,7 @@ fn planning_that_is_interrupted_has_no_effect() {
 #[test]
 fn every_step_of_the_tour_works() {
     let mut talk = Talk::new();
-    let steps = crate::session::functions::tour::STEPS;
+    let steps = session::functions::tour::STEPS;
     let (last, good) = steps.split_last().expect("there are steps");
     for step in good {
         let (shown, outcome) = talk.take(step.form);

@@ -1,7 +1,7 @@
 //! What newcomers type: words from other systems, names without their package, mistakes.
 
 use super::talk::{BOTTLE, NOWHERE, Talk};
-use crate::session::dialogue::{Converse, Evaluate, Outcome};
+use session::dialogue::{Converse, Evaluate, Outcome};
 
 #[test]
 fn words_from_other_systems_do_what_they_mean() {

@@ -1,7 +1,7 @@
 //! Evaluations that stand still: what can be seen and done there.
 
 use super::talk::{BOTTLE, FIND_BOTTLE, NOWHERE, Talk};
-use crate::session::dialogue::{Converse, Evaluate, Outcome};
+use session::dialogue::{Converse, Evaluate, Outcome};
 
 #[test]
 fn an_unbound_variable_stands_still_until_a_value_is_given() {

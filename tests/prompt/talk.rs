@@ -1,8 +1,8 @@
 //! A session and a person who talks to it, without a terminal.
 
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Evaluate, Outcome, Repeat, Screen};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Converse, Evaluate, Outcome, Repeat, Screen};
+use session::{Session, SessionOptions};
 
 /// A session that a person talks to.
 pub(super) struct Talk {

@@ -6,9 +6,9 @@ use std::fs;
 use std::path::Path;
 use std::thread;
 
-use crate::front::transcript::{Transcript, Verdict, replay_all};
-use crate::session::Session;
-use crate::session::dialogue::Repeat;
+use crate::transcript::{Transcript, Verdict, replay_all};
+use session::Session;
+use session::dialogue::Repeat;
 
 const KNOWN: &str = "tests/conformance/known-differences.txt";
 const FOLDERS: [(&str, &str); 4] = [
@@ -39,7 +39,7 @@ fn only_known_entries_differ() {
 }
 
 fn open() -> Result<Session, String> {
-    crate::front::command::open_default()
+    crate::command::open_default()
 }
 
 /// The transcripts in a folder, by name; a folder that is not there holds none.

@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::front::transcript::{Transcript, Verdict, replay, replay_all};
-use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome, Repeat, Stop};
+use crate::transcript::{Transcript, Verdict, replay, replay_all};
+use session::dialogue::{Abort, Evaluate, Event, Finding, Outcome, Repeat, Stop};
 
 /// `print X` prints X without ending the line, `fail X` ends the input, `quit` the
 /// session, `count` gives the number of inputs so far; else a word is its own value.

@@ -6,8 +6,8 @@ use std::sync::mpsc;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use crate::front::command::open_default;
-use crate::front::swank::{Ended, Server, ServerOptions, Stopper};
+use crate::command::open_default;
+use crate::swank::{Ended, Server, ServerOptions, Stopper};
 
 /// How long a client waits for a message.
 const PATIENCE: Duration = Duration::from_secs(120);

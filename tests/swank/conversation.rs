@@ -1,7 +1,7 @@
 //! What a client asks from its first message on.
 
 use super::client::{Client, Served, quoted, shown};
-use crate::front::swank::{Ended, ServerOptions, Version};
+use crate::swank::{Ended, ServerOptions, Version};
 
 #[test]
 fn a_client_connects_and_evaluates() {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::client::Served;
-use crate::front::swank::ServerOptions;
+use crate::swank::ServerOptions;
 
 #[test]
 fn garbage_ends_only_its_own_connection() {

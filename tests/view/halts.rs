@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::viewed::{Viewed, viewed};
-use crate::session::dialogue::{Evaluate, Outcome, Repeat};
+use session::dialogue::{Evaluate, Outcome, Repeat};
 
 fn stopped_viewed() -> Viewed {
     let mut viewed = viewed();

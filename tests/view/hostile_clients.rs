@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::viewed::{Viewed, viewed};
-use crate::session::{Session, SessionOptions};
+use session::{Session, SessionOptions};
 
 /// The page and its streams, as one who knows the address gets them. A browser would try again
 /// if a connection were lost; this does not.

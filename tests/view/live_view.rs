@@ -8,8 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use super::viewed::viewed;
-use crate::session::dialogue::{Evaluate, Outcome};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Outcome};
+use session::{Session, SessionOptions};
 
 /// Moves arms and torso for some simulated seconds.
 const EXERCISE: &str = "(in-package :pp-tut)

@@ -1,16 +1,17 @@
 //! What is to be seen in pictures of the world.
 
-use crate::perception::{Camera, Sight};
-use crate::picture::animation::{Shot, write_gif};
-use crate::picture::render::segments;
-use crate::picture::scene::{Kind, Owner};
-use crate::picture::{
+use crate::measured::{models, parked as carry};
+use nalgebra::Point3;
+use robotics::perception::{Camera, Sight};
+use robotics::world::{PartKey, World};
+use spatial::Pose;
+use spatial::pose::from_xyz_rpy;
+use view::picture::animation::{Shot, write_gif};
+use view::picture::render::segments;
+use view::picture::scene::{Kind, Owner};
+use view::picture::{
     CameraPicture, FloorMap, Image, Looks, Scene, View, ViewError, map_scene, render,
 };
-use crate::spatial::Pose;
-use crate::tests::world::fixture::{at, carry, models};
-use crate::world::{PartKey, World};
-use nalgebra::Point3;
 
 const WIDTH: usize = 320;
 const HEIGHT: usize = 240;
@@ -352,4 +353,9 @@ fn a_gif_tells_every_frame_and_always_the_same() {
         delays.push((frame.delay, frame.width < 320));
     }
     assert_eq!(delays, [(7, false), (14, true), (7, true)]);
+}
+
+/// The pose of an upright thing at a position (m).
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    from_xyz_rpy([x, y, z], [0.0; 3])
 }

@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::session::dialogue::{Evaluate, Event};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
 
 /// A session, and a folder of its own.
 struct Desk {

@@ -3,12 +3,12 @@
 
 use std::path::PathBuf;
 
-use crate::session::dialogue::{Evaluate, Outcome};
-use crate::session::{Session, SessionOptions};
-use crate::watch::live::{History, Origin};
-use crate::watch::recording::read::Recording;
-use crate::watch::recording::{RecordingError, read_recording};
-use crate::watch::{Kind, Press, TaskState, WatchEvent};
+use session::dialogue::{Evaluate, Outcome};
+use session::{Session, SessionOptions};
+use view::watch::live::{History, Origin};
+use view::watch::recording::read::Recording;
+use view::watch::recording::{RecordingError, read_recording};
+use view::watch::{Kind, Press, TaskState, WatchEvent};
 
 const EXERCISE: &str = "(in-package :pp-tut)
     (init-projection)

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::session::dialogue::{Evaluate, Outcome};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Outcome};
+use session::{Session, SessionOptions};
 
 /// Moves, fails and retries, and prints what would end a script.
 const EXERCISE: &str = "(in-package :pp-tut)

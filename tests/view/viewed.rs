@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::session::dialogue::{Evaluate, Event, Outcome};
-use crate::session::{Session, SessionOptions};
+use session::dialogue::{Evaluate, Event, Outcome};
+use session::{Session, SessionOptions};
 
 /// A session with its live view open, and where that is.
 pub(super) struct Viewed {

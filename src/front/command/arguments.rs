@@ -229,7 +229,7 @@ fn positive_factor(text: &str) -> Result<f64, String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::command::arguments::*;
+    use crate::command::arguments::*;
     use clap::CommandFactory;
 
     fn parsed(arguments: &[&str]) -> Result<Arguments, clap::Error> {

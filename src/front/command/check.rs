@@ -7,7 +7,7 @@ use super::arguments::Options;
 use super::failure::{CommandError, Status, read};
 use super::open::open;
 use super::paint::Paint;
-use crate::session::dialogue::{Evaluate, Finding};
+use session::dialogue::{Evaluate, Finding};
 
 /// Checks the files in the order in which they would be loaded and prints the findings.
 pub(crate) fn check(options: &Options, files: &[PathBuf]) -> Result<Status, CommandError> {

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::front::jupyter::{InstallError, KernelError, NotebookError};
-use crate::front::prompt::{JournalError, ReplError};
-use crate::picture::ViewError;
-use crate::session::WatchError;
-use crate::watch::live::PlaceError;
-use crate::watch::recording::RecordingError;
+use crate::jupyter::{InstallError, KernelError, NotebookError};
+use crate::prompt::{JournalError, ReplError};
+use session::WatchError;
+use view::picture::ViewError;
+use view::watch::live::PlaceError;
+use view::watch::recording::RecordingError;
 
 /// How a command ended that could do its work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

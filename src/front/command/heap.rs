@@ -3,7 +3,7 @@
 use std::fs;
 use std::sync::OnceLock;
 
-use crate::lisp::guard::heap::HeapLimit;
+use lisp::guard::heap::HeapLimit;
 
 /// How to learn how many bytes are in use; not known where planwright is embedded.
 static IN_USE: OnceLock<fn() -> usize> = OnceLock::new();

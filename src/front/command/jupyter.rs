@@ -9,13 +9,13 @@ use super::arguments::{LogLevel, Options};
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
 use super::replay::report;
-use crate::front::jupyter::{
+use crate::jupyter::{
     Connection, Interrupter, Kernel, KernelError, Place, Settings, Specification, notebook,
     outputs, watch,
 };
-use crate::front::transcript::{Transcript, Verdict};
-use crate::picture::View;
-use crate::session::dialogue::Evaluate;
+use crate::transcript::{Transcript, Verdict};
+use session::dialogue::Evaluate;
+use view::picture::View;
 
 /// Width and height of the picture by which the kernel is known (pixels).
 const LOGO: usize = 64;

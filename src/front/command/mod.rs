@@ -33,10 +33,10 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use crate::defect;
 use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
+use session::defect;
 
 #[cfg(test)]
 pub(crate) use open::open_default;

@@ -11,9 +11,9 @@ use super::arguments::Arguments;
 use super::arguments::{LogLevel, Options};
 use super::failure::CommandError;
 use super::heap;
-use crate::lisp::guard::set_stack_budget;
-use crate::session::dialogue::Evaluate;
-use crate::session::{self, Session, SessionOptions};
+use lisp::guard::set_stack_budget;
+use session::dialogue::Evaluate;
+use session::{self, Session, SessionOptions};
 
 /// Bytes of stack for nested forms; the threads of all commands have more.
 pub(super) const COMPILER_STACK: usize = 48 << 20;

@@ -13,10 +13,10 @@ use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::paint::Paint;
 use super::run::run_in;
-use crate::picture::View;
-use crate::picture::animation::{Shot, write_gif};
-use crate::picture::view::FIELD_OF_VIEW;
-use crate::session::Filming;
+use session::Filming;
+use view::picture::View;
+use view::picture::animation::{Shot, write_gif};
+use view::picture::view::FIELD_OF_VIEW;
 
 /// What to draw, from which viewpoint, and to which file.
 #[derive(Args, Debug)]
@@ -184,7 +184,7 @@ fn angle(text: &str) -> Result<f64, String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::command::picture::*;
+    use crate::command::picture::*;
 
     #[test]
     fn a_point_is_three_numbers() {

@@ -8,9 +8,9 @@ use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::prompt::open_journals;
 use super::watching;
-use crate::front::prompt::{Doubt, Keeper, Opened, excerpt, resume, settle_doubts};
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};
+use crate::prompt::{Doubt, Keeper, Opened, excerpt, resume, settle_doubts};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};
 
 /// Takes inputs as the prompt would, each as soon as it is complete, and prints what the prompt
 /// would print. Continues after an unhandled condition. Keeps a journal only if the user asks

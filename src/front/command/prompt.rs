@@ -8,8 +8,8 @@ use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::paint::Paint;
 use super::watching;
-use crate::front::prompt;
-use crate::front::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
+use crate::prompt;
+use crate::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
 
 /// Runs the prompt, in a fresh session or in a resumed one.
 pub(crate) fn prompt(

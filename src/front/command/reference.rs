@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use super::failure::{CommandError, Status};
-use crate::front::manual;
-use crate::session::{Session, SessionOptions};
+use crate::manual;
+use session::{Session, SessionOptions};
 
 /// Prints the manual of what is built in; options make no difference.
 pub(crate) fn print() -> Result<Status, CommandError> {

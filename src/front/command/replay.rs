@@ -8,7 +8,7 @@ use super::arguments::Options;
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
 use super::paint::Paint;
-use crate::front::transcript::{Transcript, Verdict, blessed, replay_all};
+use crate::transcript::{Transcript, Verdict, blessed, replay_all};
 
 /// Replays the files and prints the differences, or rewrites the expected output.
 pub(crate) fn replay(

@@ -9,9 +9,7 @@ use super::failure::{CommandError, Status, read};
 use super::open::{open, open_session};
 use super::paint::Paint;
 use super::watching::{self, Writing};
-use crate::session::dialogue::{
-    Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort,
-};
+use session::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
 /// Loads the files, then evaluates the forms, up to the first unhandled condition. Output goes
 /// to standard output, the condition to standard error.
@@ -160,9 +158,9 @@ impl Text {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::command::arguments::ColorWhen;
-    use crate::front::command::run::*;
-    use crate::lisp::source::Location;
+    use crate::command::arguments::ColorWhen;
+    use crate::command::run::*;
+    use lisp::source::Location;
 
     fn abort(place: Option<Location>) -> Abort {
         Abort {

@@ -7,9 +7,9 @@ use super::arguments::Options;
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
 use super::paint::Paint;
-use crate::front::prompt;
-use crate::front::prompt::{Opened, ReplOptions};
-use crate::front::transcript::{Transcript, replay_first};
+use crate::prompt;
+use crate::prompt::{Opened, ReplOptions};
+use crate::transcript::{Transcript, replay_first};
 
 /// A journal could not be resumed to the same state, which depends on the transcript.
 const UNKEPT: &str = "; Nothing typed here is kept; (save-transcript \"FILE\") saves all of it.";

@@ -11,8 +11,8 @@ use super::arguments::{Options, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::watching;
-use crate::front::swank::{Ended, Server, ServerOptions, Stopper, Version, secret};
-use crate::session::dialogue::Converse;
+use crate::swank::{Ended, Server, ServerOptions, Stopper, Version, secret};
+use session::dialogue::Converse;
 
 /// Options of the server.
 #[derive(Args, Clone, Debug, Default)]

@@ -9,8 +9,8 @@ use std::thread;
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use crate::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
-use crate::watch::recording::{RecordingError, read_recording};
+use view::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
+use view::watch::recording::{RecordingError, read_recording};
 
 /// Serves the page with the recording until interrupted.
 ///

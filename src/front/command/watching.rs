@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 
 use super::arguments::WatchArguments;
 use super::failure::CommandError;
-use crate::session::Session;
-use crate::session::dialogue::Evaluate;
-use crate::watch::live::open_in_browser;
+use session::Session;
+use session::dialogue::Evaluate;
+use view::watch::live::open_in_browser;
 
 /// How long to wait for a browser to show the page.
 const BROWSER_START: Duration = Duration::from_secs(5);

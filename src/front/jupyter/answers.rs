@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use crate::front::prompt::indent::indentation;
-use crate::front::prompt::pasted::Inputs;
-use crate::lisp::reader::{Completeness, is_complete};
-use crate::session::dialogue::Illustrate;
+use crate::prompt::indent::indentation;
+use crate::prompt::pasted::Inputs;
+use lisp::reader::{Completeness, is_complete};
+use session::dialogue::Illustrate;
 
 /// The byte at which a character of a text begins; clients count characters.
 fn byte_at(text: &str, character: usize) -> usize {

@@ -12,13 +12,11 @@ use super::message::Request;
 use super::publisher::Publisher;
 use super::question::Questions;
 use super::settings::Settings;
-use crate::front::prompt::pasted::Inputs;
-use crate::lisp::image::input::Source;
-use crate::session::dialogue::prompt_line::prompt_line;
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{
-    Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop, Table,
-};
+use crate::prompt::pasted::Inputs;
+use lisp::image::input::Source;
+use session::dialogue::prompt_line::prompt_line;
+use session::dialogue::screen::input_name;
+use session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop, Table};
 
 /// Least time between two lines of progress.
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(250);

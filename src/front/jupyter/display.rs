@@ -5,10 +5,10 @@ use std::io;
 use serde_json::{Value, json};
 
 use super::cell::Yielded;
-use crate::front::sweep_report::{axes, escaped, fragment, heat_map};
-use crate::picture::Image;
-use crate::session::dialogue::{Swept, Table};
-use crate::watch::base64;
+use crate::sweep_report::{axes, escaped, fragment, heat_map};
+use session::dialogue::{Swept, Table};
+use view::picture::Image;
+use view::watch::base64;
 
 /// Most failing worlds in the table of a sweep.
 const MOST_LISTED: usize = 50;

@@ -24,7 +24,7 @@ use super::question::Questions;
 use super::settings::Settings;
 use super::signature::Signer;
 use super::zmtp::{Kind, PeerNumber, Socket};
-use crate::session::dialogue::Illustrate;
+use session::dialogue::Illustrate;
 
 /// How many requests may wait; whoever sends more waits.
 const MOST_WAITING: usize = 1024;

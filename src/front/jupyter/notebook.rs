@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::front::transcript::{Transcript, session_blocks};
+use crate::transcript::{Transcript, session_blocks};
 
 /// The notebook of a Markdown file, as JSON, for the kernel of that name.
 pub(crate) fn notebook(file: &str, text: &str, kernel: &str) -> String {

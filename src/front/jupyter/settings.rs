@@ -1,6 +1,6 @@
 //! What a person may set: by a line such as `%pictures off` at the beginning of a cell.
 
-use crate::picture::View;
+use view::picture::View;
 
 /// Width and height of a picture of the world (pixels) by default, and their limits.
 const SIZE: [usize; 2] = [400, 300];

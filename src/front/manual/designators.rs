@@ -1,9 +1,9 @@
 //! The chapters on actions and motions: their types and keys.
 
 use super::{code, codes, line};
-use crate::lisp::image::Image;
-use crate::plan::designator::schema::{self, Key, TypeRow};
-use crate::plan::designator::value::Class;
+use cram::designator::schema::{self, Key, TypeRow};
+use cram::designator::value::Class;
+use lisp::image::Image;
 
 pub(crate) fn write(to: &mut String, image: &Image) {
     line(to, "\n## Actions\n");

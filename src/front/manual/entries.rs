@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::{code, line};
-use crate::lisp::builtin::Entry;
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageId;
-use crate::lisp::value::symbol::Sym;
+use lisp::builtin::Entry;
+use lisp::image::Image;
+use lisp::value::package::PackageId;
+use lisp::value::symbol::Sym;
 
 /// What the manual says about a package.
 pub(crate) struct PackageChapter {
@@ -78,7 +78,7 @@ impl PackageChapter {
             line(to, &format!("{doc}\n"));
         }
         if !self.nicknames.is_empty() {
-            let names = crate::front::manual::codes(self.nicknames.iter().map(AsRef::as_ref));
+            let names = crate::manual::codes(self.nicknames.iter().map(AsRef::as_ref));
             line(to, &format!("Also called {names}.\n"));
         }
         for entry in &self.entries {

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::{code, line};
-use crate::lisp::image::Image;
-use crate::lisp::value::class::Class;
+use lisp::image::Image;
+use lisp::value::class::Class;
 
 pub(crate) fn write(to: &mut String, image: &Image) {
     line(to, "\n## Failures\n");

@@ -1,8 +1,8 @@
 //! The chapter on Prolog goals: the functors that need no rules.
 
 use super::{code, line};
-use crate::lisp::image::Image;
-use crate::plan::prolog::facts;
+use cram::prolog::facts;
+use lisp::image::Image;
 
 pub(crate) fn write(to: &mut String, image: &Image) {
     line(to, "\n## Prolog goals\n");

@@ -12,7 +12,7 @@ mod objects;
 
 use std::fmt::Write;
 
-use crate::session::Session;
+use session::Session;
 
 const INTRODUCTION: &str = include_str!("introduction.md");
 const DIFFERENCES: &str = include_str!("differences.md");

@@ -1,8 +1,8 @@
 //! The chapter on objects: what can be spawned, and how the robot grasps it.
 
 use super::line;
-use crate::world::grasp_library::GraspLibrary;
-use crate::world::object_library::ObjectLibrary;
+use robotics::world::grasp_library::GraspLibrary;
+use robotics::world::object_library::ObjectLibrary;
 
 pub(crate) fn write(to: &mut String, objects: &ObjectLibrary, grasps: &GraspLibrary) {
     line(to, "\n## Objects and grasps\n");

@@ -8,14 +8,14 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::{AT_TABLE, models, parked};
-use crate::motion::{
+use robotics::motion::{
     CollisionMode, Drive, Motion, MotionStatus, MoveJoints, MoveTcp, PlannedTrajectory, PoseGoal,
     TcpPath, TrajectoryAxes,
 };
-use crate::robot::{RobotDescription, Side};
-use crate::spatial::pose::{from_xy_yaw, from_xyz_rpy};
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::{RobotConfiguration, World};
+use robotics::robot::{RobotDescription, Side};
+use robotics::world::grasp_library::{GRASPS, GraspLibrary};
+use robotics::world::{RobotConfiguration, World};
+use spatial::pose::{from_xy_yaw, from_xyz_rpy};
 
 /// What stands on the table: types with grasps, and their height (m) when they are spawned.
 const TYPES: [(&str, f64); 5] = [
@@ -136,7 +136,7 @@ pub fn cluttered_drives(
                 ..world.robot_configuration().clone()
             };
             let mut checker = world.collision_checker();
-            if checker.is_free(&robot, &crate::world::AllowedPairs::none(), 0.001) {
+            if checker.is_free(&robot, &robotics::world::AllowedPairs::none(), 0.001) {
                 break robot;
             }
         };

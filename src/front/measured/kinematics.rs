@@ -1,13 +1,12 @@
 //! Forward and inverse kinematics, and reading the robot's description.
 
+use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use std::hint::black_box;
 
 use super::Stopwatch;
-use crate::robot::{
-    ArmPositions, KITCHEN_URDF, KinematicTree, PR2_DESCRIPTION, PR2_URDF, RobotDescription, Side,
-};
-use crate::spatial::Pose;
-use crate::spatial::pose::from_xyz_rpy;
+use robotics::robot::{ArmPositions, KinematicTree, RobotDescription, Side};
+use spatial::Pose;
+use spatial::pose::from_xyz_rpy;
 
 /// Pseudo-random shares (0..1) that do not depend on the time or the platform.
 struct Shares(u64);

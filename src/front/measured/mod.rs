@@ -17,9 +17,9 @@ pub use motion::{arms, drives, trajectories};
 pub use pictures::pictures;
 pub use world::{collisions, sight, snapshots, steps};
 
-use crate::spatial::Pose;
-use crate::spatial::pose::{from_xy_yaw, from_xyz_rpy};
-use crate::world::{Models, RobotConfiguration, World};
+use robotics::world::{Models, RobotConfiguration, World};
+use spatial::Pose;
+use spatial::pose::{from_xy_yaw, from_xyz_rpy};
 
 /// Measures pieces of work.
 pub trait Stopwatch {
@@ -31,12 +31,12 @@ pub trait Stopwatch {
 }
 
 /// The built-in robot in its kitchen.
-fn models() -> Arc<Models> {
+pub(crate) fn models() -> Arc<Models> {
     Arc::new(Models::pr2_in_kitchen().expect("the built-in models are right"))
 }
 
 /// The robot at (m, m, degrees) with parked arms and its torso at the height (m).
-fn parked(models: &Models, [x, y, degrees]: [f64; 3], torso: f64) -> RobotConfiguration {
+pub(crate) fn parked(models: &Models, [x, y, degrees]: [f64; 3], torso: f64) -> RobotConfiguration {
     let mut joints = models.robot.zero_positions();
     joints.set(models.description.torso.joint, torso);
     for arm in &models.description.arms {

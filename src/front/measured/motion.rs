@@ -3,14 +3,14 @@
 use std::hint::black_box;
 
 use super::{AT_TABLE, Stopwatch, models, parked, spawn};
-use crate::motion::axis_group::AxisGroup;
-use crate::motion::drive_plan::plan_drive;
-use crate::motion::trajectory::Trajectory;
-use crate::motion::{CollisionMode, Motion, MoveJoints, MoveTcp, PoseGoal, TcpPath};
-use crate::robot::Side;
-use crate::spatial::Pose;
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::{RobotConfiguration, World};
+use robotics::motion::axis_group::AxisGroup;
+use robotics::motion::drive_plan::plan_drive;
+use robotics::motion::trajectory::Trajectory;
+use robotics::motion::{CollisionMode, Motion, MoveJoints, MoveTcp, PoseGoal, TcpPath};
+use robotics::robot::Side;
+use robotics::world::grasp_library::{GRASPS, GraspLibrary};
+use robotics::world::{RobotConfiguration, World};
+use spatial::Pose;
 
 /// Time parametrisation of a path.
 pub fn trajectories(stopwatch: &mut dyn Stopwatch) {

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use super::{AT_TABLE, Stopwatch, models, parked, spawn};
-use crate::picture::{Scene, View, render};
-use crate::world::World;
+use robotics::world::World;
+use view::picture::{Scene, View, render};
 
 /// Building the scene, drawing it from every view, and encoding a picture.
 pub fn pictures(stopwatch: &mut dyn Stopwatch) {

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use super::{AT_TABLE, Stopwatch, models, parked, spawn};
-use crate::perception::Sight;
-use crate::world::{AllowedPairs, Models, RobotConfiguration, World};
+use robotics::perception::Sight;
+use robotics::world::{AllowedPairs, Models, RobotConfiguration, World};
 
 /// The kitchen with ten objects at rest and the robot in front of the table.
 fn furnished() -> World {

@@ -13,7 +13,7 @@ use rustyline::{CompletionType, Context, Helper, Result};
 use super::highlight::highlighted;
 use super::pasted::Inputs;
 use super::shape::Shape;
-use crate::session::dialogue::Serve;
+use session::dialogue::Serve;
 
 /// The evaluator, which also knows what could be typed.
 pub(crate) type Shared = Rc<RefCell<dyn Serve>>;

@@ -1,6 +1,6 @@
 //! Colours an input while it is typed.
 
-use crate::lisp::reader::{Lexer, Token, TokenKind};
+use lisp::reader::{Lexer, Token, TokenKind};
 
 const STRING: &str = "\x1b[32m";
 const COMMENT: &str = "\x1b[2m";
@@ -108,7 +108,7 @@ impl Parentheses {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::prompt::highlight::*;
+    use crate::prompt::highlight::*;
 
     /// The text with colours shown as letters in braces.
     fn shown(text: &str, cursor: usize) -> String {

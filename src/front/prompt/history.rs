@@ -30,7 +30,7 @@ fn state_path(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::prompt::history::*;
+    use crate::prompt::history::*;
 
     fn path(variables: &[(&str, &str)]) -> Option<PathBuf> {
         state_path(|name| {

@@ -1,6 +1,6 @@
 //! How far continuation lines of an input are indented.
 
-use crate::lisp::reader::{Lexer, TokenKind};
+use lisp::reader::{Lexer, TokenKind};
 
 /// Number of blanks at the start of the line after `before`, whose own first line starts at
 /// column `first_column`, after the prompt.
@@ -213,7 +213,7 @@ impl<'a> Cursor<'a> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::prompt::indent::*;
+    use crate::prompt::indent::*;
 
     fn indented(before: &str) -> usize {
         indentation(before, 0)

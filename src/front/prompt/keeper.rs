@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::rc::Rc;
 
 use super::journal::{Earlier, End, Journal, Lineage, Recorded, Tape, Taped, copied, fingerprint};
-use crate::session::dialogue::Converse;
-use crate::session::tape::Frame;
+use session::dialogue::Converse;
+use session::tape::Frame;
 
 /// Keeps inputs in a journal, if there is one.
 #[derive(Debug, Default)]

@@ -29,13 +29,13 @@ use std::time::Duration;
 use rustyline::error::ReadlineError;
 use thiserror::Error;
 
-use crate::picture::InlinePictures;
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Outcome, Screen, Serve, evaluate_on};
 use assist::Shared;
 use editor::LineEditor;
 use pasted::Inputs;
 use serving::Serving;
+use session::dialogue::screen::input_name;
+use session::dialogue::{Outcome, Screen, Serve, evaluate_on};
+use view::picture::InlinePictures;
 
 pub(crate) use journal::{Beginning, Earlier, JournalError, Opened, Wanted, open};
 pub(crate) use keeper::Keeper;

@@ -3,10 +3,10 @@
 
 use std::borrow::Cow;
 
-use crate::front::transcript::Transcript;
-use crate::lisp::reader::{Lexer, TokenKind};
-use crate::session::dialogue::is_whole;
-use crate::session::dialogue::prompt_line::prompt_line;
+use crate::transcript::Transcript;
+use lisp::reader::{Lexer, TokenKind};
+use session::dialogue::is_whole;
+use session::dialogue::prompt_line::prompt_line;
 
 /// The inputs found in text typed or pasted at the prompt.
 #[derive(PartialEq, Eq, Debug)]
@@ -166,7 +166,7 @@ fn is_written(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::prompt::pasted::*;
+    use crate::prompt::pasted::*;
 
     fn inputs(text: &str) -> (Vec<String>, usize) {
         let found = Inputs::of(text);

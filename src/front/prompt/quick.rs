@@ -13,9 +13,9 @@ use super::journal::{
 };
 use super::keeper::Keeper;
 use super::resume::{Progress, evaluate_again};
-use crate::session::dialogue::Converse;
-use crate::session::dialogue::screen::input_name;
-use crate::session::tape::Frame;
+use session::dialogue::Converse;
+use session::dialogue::screen::input_name;
+use session::tape::Frame;
 
 /// What came of playing a tape.
 pub(super) enum Played {

@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::journal::{Earlier, End, Recorded};
 use super::keeper::Keeper;
 use super::quick::{Played, Quick};
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Event};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Converse, Event};
 
 /// What to do with an input of which nobody knows whether it ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Keeper, Repl, input_name};
-use crate::front::swank::{Ended, Keep, Server, ServerError, ServerOptions, Stopper, secret};
-use crate::session::dialogue::{Serve, evaluate_on};
+use crate::swank::{Ended, Keep, Server, ServerError, ServerOptions, Stopper, secret};
+use session::dialogue::{Serve, evaluate_on};
 
 /// The server that Ctrl-C stops, while there is one.
 #[derive(Clone, Default)]

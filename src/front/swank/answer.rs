@@ -2,7 +2,7 @@
 
 use super::definitions::location;
 use super::sexp::Sexp;
-use crate::session::dialogue::{Finding, ObjectNumber, Severity};
+use session::dialogue::{Finding, ObjectNumber, Severity};
 
 /// How a request that evaluates is answered.
 pub(super) enum Answer {

@@ -3,7 +3,7 @@
 use super::hub::Request;
 use super::package_text::package_of;
 use super::sexp::Sexp;
-use crate::session::dialogue::{KnownSymbol, Names, current_parameter, parameters};
+use session::dialogue::{KnownSymbol, Names, current_parameter, parameters};
 
 /// What marks the place of the cursor in a form.
 const CURSOR: &str = "swank:%cursor-marker%";
@@ -145,7 +145,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::session::dialogue::{KnownDescription, KnownFunction};
+    use session::dialogue::{KnownDescription, KnownFunction};
 
     fn told(form: &str) -> Option<String> {
         let symbol = KnownSymbol {

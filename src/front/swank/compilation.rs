@@ -8,7 +8,7 @@ use super::definitions::buffer_source;
 use super::engine::Engine;
 use super::hub::Request;
 use super::sexp::Sexp;
-use crate::session::dialogue::Finding;
+use session::dialogue::Finding;
 
 /// Lines and columns up to which a text is shifted to where it stands in its buffer.
 const MOST_SHIFT: usize = 1_000_000;

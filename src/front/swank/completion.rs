@@ -5,7 +5,7 @@ use super::hub::Request;
 use super::package_text::package_of;
 use super::sexp::Sexp;
 use super::version::Version;
-use crate::session::dialogue::{KnownSymbol, Names, parameters};
+use session::dialogue::{KnownSymbol, Names, parameters};
 
 /// Maximum number of completions.
 const MOST: usize = 500;

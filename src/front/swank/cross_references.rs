@@ -5,7 +5,7 @@ use super::engine::Engine;
 use super::hub::Request;
 use super::package_text::package_name;
 use super::sexp::Sexp;
-use crate::session::dialogue::{Relation, Unrecorded};
+use session::dialogue::{Relation, Unrecorded};
 
 /// The relation that a client names so.
 fn relation(name: &str) -> Option<Relation> {

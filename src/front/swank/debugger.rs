@@ -8,8 +8,8 @@ use super::engine::Engine;
 use super::hub::{Client, Request};
 use super::question::THREAD;
 use super::sexp::Sexp;
-use crate::session::dialogue::screen::INTERRUPT;
-use crate::session::dialogue::{Need, StackFrame, Stop};
+use session::dialogue::screen::INTERRUPT;
+use session::dialogue::{Need, StackFrame, Stop};
 
 /// Number of frames that are shown at first.
 const FIRST_FRAMES: usize = 20;

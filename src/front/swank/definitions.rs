@@ -5,9 +5,9 @@ use std::path::Path;
 use super::hub::Request;
 use super::package_text::package_of;
 use super::sexp::Sexp;
-use crate::lisp::source::Location;
-use crate::session::dialogue::screen::is_input_name;
-use crate::session::dialogue::{Definition, Names};
+use lisp::source::Location;
+use session::dialogue::screen::is_input_name;
+use session::dialogue::{Definition, Names};
 
 /// How a text is called that was sent from a buffer without a file.
 const BUFFER: &str = "buffer ";

@@ -3,7 +3,7 @@
 use super::hub::Request;
 use super::package_text::package_of;
 use super::sexp::Sexp;
-use crate::session::dialogue::{KnownSymbol, Names};
+use session::dialogue::{KnownSymbol, Names};
 
 fn symbol<'n>(names: &'n Names, request: &Request) -> Result<&'n KnownSymbol, String> {
     let typed = request.text(0).unwrap_or_default();

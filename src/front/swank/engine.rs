@@ -18,10 +18,10 @@ use super::levels::{Ended, Pending};
 use super::package_text::package_name;
 use super::question::Questions;
 use super::sexp::Sexp;
-use crate::defect;
-use crate::lisp::image::input::Source;
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
+use lisp::image::input::Source;
+use session::defect;
+use session::dialogue::screen::input_name;
+use session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
 
 /// How long the session's thread waits before it brings what is known about names up to date.
 const REST: Duration = Duration::from_millis(150);

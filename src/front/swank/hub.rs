@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use super::outbox::Outbox;
 use super::sexp::Sexp;
 use super::version::Version;
-use crate::session::dialogue::Names;
+use session::dialogue::Names;
 
 /// How often somebody who waits for a text looks whether the wait is over.
 const LOOKING: Duration = Duration::from_millis(10);

@@ -6,7 +6,7 @@ use super::answer::Answer;
 use super::engine::Engine;
 use super::hub::Request;
 use super::sexp::Sexp;
-use crate::session::dialogue::{Inspection, ObjectNumber};
+use session::dialogue::{Inspection, ObjectNumber};
 
 /// Number of parts that are shown at first, and of texts in one answer.
 const FIRST_PARTS: usize = 100;

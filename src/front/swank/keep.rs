@@ -1,6 +1,6 @@
 //! Who keeps the inputs of a session.
 
-use crate::session::dialogue::Serve;
+use session::dialogue::Serve;
 
 /// Keeps inputs, so that the session can be resumed.
 pub(crate) trait Keep {

@@ -8,7 +8,7 @@ use super::documentation;
 use super::hub::Request;
 use super::sexp::Sexp;
 use super::version::Version;
-use crate::session::dialogue::Names;
+use session::dialogue::Names;
 
 /// Whether a request is one of these.
 pub(super) fn is_quick(operation: &str) -> bool {

@@ -5,9 +5,9 @@ use super::debugger;
 use super::engine::Engine;
 use super::hub::{self, Request};
 use super::sexp::Sexp;
-use crate::defect::Defect;
-use crate::session::dialogue::Outcome;
-use crate::session::dialogue::screen::INTERRUPT;
+use session::defect::Defect;
+use session::dialogue::Outcome;
+use session::dialogue::screen::INTERRUPT;
 
 /// A request whose evaluation has stopped.
 pub(super) struct Pending {

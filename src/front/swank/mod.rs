@@ -2,7 +2,7 @@
 //!
 //! The session lives in one thread, which evaluates for all clients, one request after another.
 //! Each connection has a thread that reads and one that writes. What needs no evaluation, such as
-//! completions, is answered from [`Names`](crate::session::dialogue::Names): by the session's
+//! completions, is answered from [`Names`](session::dialogue::Names): by the session's
 //! thread, or, while that evaluates something, by the connection's own.
 //!
 //! Nothing that a client sends ends the server, and no client can hold up another one's

@@ -1,6 +1,6 @@
 //! The package that a buffer says it is in.
 
-use crate::session::dialogue::Names;
+use session::dialogue::Names;
 
 /// The name in the text of a package designator: `pp-tut`, `:pp-tut`, `#:pp-tut` or `"PP-TUT"`.
 pub(super) fn package_name(text: &str) -> &str {

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::hub::{Client, Hub};
 use super::sexp::Sexp;
-use crate::session::dialogue::ShownAhead;
+use session::dialogue::ShownAhead;
 
 /// The number of the session's thread.
 pub(super) const THREAD: Sexp = Sexp::Int(1);

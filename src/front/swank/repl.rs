@@ -6,7 +6,7 @@ use super::hub::Request;
 use super::outbox::Outbox;
 use super::package_text::package_name;
 use super::sexp::Sexp;
-use crate::session::dialogue::ObjectNumber;
+use session::dialogue::ObjectNumber;
 
 fn result(text: &str) -> Sexp {
     Sexp::list([

@@ -15,7 +15,7 @@ use super::engine::Engine;
 use super::hub::{Ended, Hub};
 use super::keep::Keep;
 use super::version::Version;
-use crate::session::dialogue::Serve;
+use session::dialogue::Serve;
 
 /// Maximum number of connections at a time.
 const MOST_CONNECTIONS: usize = 32;

@@ -1,8 +1,8 @@
 //! Records for other programs: a table as CSV, a test report as JUnit XML, a page as HTML.
 
-use crate::sweep::Record;
-use crate::sweep::influence::Influence;
-use crate::sweep::summary::{Summary, Title};
+use sweep::Record;
+use sweep::influence::Influence;
+use sweep::summary::{Summary, Title};
 
 /// Most failing worlds that the page lists.
 const MOST_LISTED: usize = 500;
@@ -113,7 +113,7 @@ pub(crate) fn junit(title: &Title, records: &[Record]) -> String {
     };
     case(
         "the plan ends without a condition".to_owned(),
-        worlds(&|r| !r.is_success() && r.outcome != crate::sweep::Ending::Expectation),
+        worlds(&|r| !r.is_success() && r.outcome != sweep::Ending::Expectation),
     );
     for name in names(tried().flat_map(|r| r.expectations.iter().map(|(name, _)| name))) {
         let failing = worlds(&|r| r.expectations.get(name) == Some(&false));
@@ -247,7 +247,7 @@ pub(crate) fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Drawn, Ending};
+    use sweep::{Drawn, Ending};
 
     fn records() -> Vec<Record> {
         let mut records: Vec<Record> = (0..3).map(|i| Record::new(i, Ending::Success)).collect();

@@ -1,8 +1,8 @@
 //! Where a plan works: the share of successes over two draws, as a picture.
 
-use crate::picture::{Image, Line};
-use crate::sweep::Record;
-use crate::sweep::influence::Influence;
+use sweep::Record;
+use sweep::influence::Influence;
+use view::picture::{Image, Line};
 
 /// Cells along either axis.
 const CELLS: usize = 16;
@@ -132,7 +132,7 @@ fn shade(share: f64) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::{Drawn, Ending};
+    use sweep::{Drawn, Ending};
 
     #[test]
     fn half_of_the_picture_is_red_where_the_plan_fails() {

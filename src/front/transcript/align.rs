@@ -240,7 +240,7 @@ impl Costs {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::align::*;
+    use crate::transcript::align::*;
     use proptest::prelude::*;
 
     fn lines(text: &str) -> Vec<String> {

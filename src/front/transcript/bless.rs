@@ -55,7 +55,7 @@ fn new_lines(difference: &Difference) -> Vec<&str> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::bless::*;
+    use crate::transcript::bless::*;
     use proptest::prelude::*;
 
     /// Blesses a transcript with the given outputs of its entries.

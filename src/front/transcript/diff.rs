@@ -109,8 +109,8 @@ fn range(start: usize, length: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::parse::Transcript;
-    use crate::front::transcript::verdict::Verdict;
+    use crate::transcript::parse::Transcript;
+    use crate::transcript::verdict::Verdict;
 
     /// The diff of a transcript's only entry, against an output.
     fn diff(text: &str, output: &str) -> Vec<String> {

@@ -64,7 +64,7 @@ impl<'a> Fence<'a> {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::markdown::*;
+    use crate::transcript::markdown::*;
 
     fn blocks(text: &str) -> Vec<(usize, usize)> {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();

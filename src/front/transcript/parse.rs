@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::markdown::session_blocks;
-use crate::session::dialogue::prompt_line::{PromptLine, prompt_line};
-use crate::session::dialogue::{ends_in_quotes, is_whole};
+use session::dialogue::prompt_line::{PromptLine, prompt_line};
+use session::dialogue::{ends_in_quotes, is_whole};
 
 /// A file of inputs, each with its expected output.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -126,7 +126,7 @@ pub(crate) fn without_blank_end<'a>(lines: impl Iterator<Item = &'a str>) -> Vec
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::parse::*;
+    use crate::transcript::parse::*;
 
     fn parsed(text: &str) -> Vec<(usize, String, Vec<String>)> {
         Transcript::parse("a.transcript", text)

@@ -36,7 +36,7 @@ pub(crate) fn line_matches(expected: &str, actual: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::front::transcript::pattern::*;
+    use crate::transcript::pattern::*;
 
     #[test]
     fn without_wildcards_lines_are_compared_but_for_blanks_at_the_end() {

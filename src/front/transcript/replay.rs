@@ -8,9 +8,9 @@ use std::thread;
 
 use super::parse::Transcript;
 use super::verdict::Verdict;
-use crate::session::dialogue::repeat::{Repeat, split_interrupt};
-use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Outcome, Screen};
+use session::dialogue::repeat::{Repeat, split_interrupt};
+use session::dialogue::screen::input_name;
+use session::dialogue::{Outcome, Screen};
 
 /// Runs the inputs of a transcript one after the other.
 ///

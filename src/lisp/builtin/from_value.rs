@@ -2,24 +2,24 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtins::keywords;
-use crate::lisp::builtins::strings::designated;
-use crate::lisp::image::Image;
-use crate::lisp::stream::Stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance};
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::hash_table::HashTable;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Sequence, character, index};
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::Sym;
+use crate::builtins::keywords;
+use crate::builtins::strings::designated;
+use crate::image::Image;
+use crate::stream::Stream;
+use crate::value::Value;
+use crate::value::class::{Class, Instance};
+use crate::value::cons::Cons;
+use crate::value::function::Function;
+use crate::value::hash_table::HashTable;
+use crate::value::known;
+use crate::value::number;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Sequence, character, index};
+use crate::value::string::LispString;
+use crate::value::symbol::Sym;
 
 /// A type of arguments.
-pub(crate) trait FromValue<'a>: Sized {
+pub trait FromValue<'a>: Sized {
     /// Is `NIL` a value of the type? If not, it stands for an optional argument that is not given.
     const HAS_NIL: bool = false;
 
@@ -29,7 +29,7 @@ pub(crate) trait FromValue<'a>: Sized {
 
 /// A required argument.
 #[inline]
-pub(crate) fn required<'a, T: FromValue<'a>>(
+pub fn required<'a, T: FromValue<'a>>(
     image: &mut Image,
     value: &'a Value,
 ) -> Result<T, Box<Raise>> {
@@ -38,7 +38,7 @@ pub(crate) fn required<'a, T: FromValue<'a>>(
 
 /// An optional argument or a keyword argument.
 #[inline]
-pub(crate) fn optional<'a, T: FromValue<'a>>(
+pub fn optional<'a, T: FromValue<'a>>(
     image: &mut Image,
     value: Option<&'a Value>,
 ) -> Result<Option<T>, Box<Raise>> {
@@ -49,7 +49,7 @@ pub(crate) fn optional<'a, T: FromValue<'a>>(
 }
 
 /// All further arguments.
-pub(crate) fn all<'a, T: FromValue<'a>>(
+pub fn all<'a, T: FromValue<'a>>(
     image: &mut Image,
     values: &'a [Value],
 ) -> Result<Vec<T>, Box<Raise>> {
@@ -61,14 +61,14 @@ pub(crate) fn all<'a, T: FromValue<'a>>(
 
 /// The name of a keyword argument.
 #[derive(Clone, Copy)]
-pub(crate) struct Keyword {
+pub struct Keyword {
     name: &'static str,
     /// The symbol, if Rust code names it.
     known: Option<Sym>,
 }
 
 /// The keyword argument of a name.
-pub(crate) const fn keyword(name: &'static str) -> Keyword {
+pub const fn keyword(name: &'static str) -> Keyword {
     Keyword {
         name,
         known: known::keyword(name),
@@ -77,7 +77,7 @@ pub(crate) const fn keyword(name: &'static str) -> Keyword {
 
 /// The keyword arguments with these names in `args`, which holds nothing but keyword arguments.
 #[inline]
-pub(crate) fn keys<'a, const N: usize>(
+pub fn keys<'a, const N: usize>(
     image: &mut Image,
     args: &'a [Value],
     names: [Keyword; N],
@@ -92,7 +92,7 @@ pub(crate) fn keys<'a, const N: usize>(
 /// The error of a call with fewer or more arguments than the function has. The machine has counted
 /// them by the lambda list, which agrees with the function.
 #[cold]
-pub(crate) fn wrong_count() -> Box<Raise> {
+pub fn wrong_count() -> Box<Raise> {
     Raise::program("invalid number of arguments")
 }
 

@@ -1,11 +1,11 @@
 //! What the Rust functions of builtins return.
 
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::raise::Raise;
 
 /// A type that a builtin's function may return: all that is a value, or the result of such.
 /// `()` is `NIL`, a tuple several values, an `Option` or a `Vec` a value or `NIL` or a list.
-pub(crate) trait Returned {
+pub trait Returned {
     /// The values of the call, or the condition that it signals.
     fn returned(self) -> Result<Value, Box<Raise>>;
 }

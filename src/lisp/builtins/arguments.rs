@@ -1,13 +1,13 @@
 //! What destructuring lambda lists expand into: checks of a list of arguments.
 
-use crate::lisp::builtin::{Builtin, Entry};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Entry};
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

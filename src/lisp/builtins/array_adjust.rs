@@ -5,15 +5,15 @@ use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{dimensions, element_type, is_adjustable, row_major};
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Array;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::elements::{Displacement, Elements};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{checked_element, text_of};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Array;
+use crate::value::element_type::ElementType;
+use crate::value::elements::{Displacement, Elements};
+use crate::value::raise::Raise;
+use crate::value::sequence::{checked_element, text_of};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,9 +1,9 @@
 //! Errors about indices of arrays.
 
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
 pub(crate) fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {

@@ -1,6 +1,6 @@
 //! Making arrays.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
@@ -8,17 +8,17 @@ use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
 use super::settled_types;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::guard::{MOST_ELEMENTS, reserve};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::elements::{Displacement, Elements};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Sequence, checked_element, index, list_items, text_of};
-use crate::lisp::value::string::LispString;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::guard::{MOST_ELEMENTS, reserve};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::elements::{Displacement, Elements};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Sequence, checked_element, index, list_items, text_of};
+use crate::value::string::LispString;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -28,13 +28,13 @@ pub(super) const MAX_RANK: usize = 128;
 /// Keyword arguments of `make-array` and `adjust-array`.
 pub(crate) struct Options {
     /// The value of all elements.
-    pub(crate) element: Option<Value>,
+    pub element: Option<Value>,
     /// Nested sequences of the elements.
-    pub(crate) contents: Option<Value>,
+    pub contents: Option<Value>,
     /// The type of the elements, as it is stored, if it is given.
     pub(crate) element_type: Option<ElementType>,
     /// May the array be adjusted?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     fill_pointer: Option<Value>,
     displaced_to: Option<Value>,
     offset: Option<Value>,

@@ -3,16 +3,16 @@
 use std::slice;
 
 use super::array_index;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::elements::displacement;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{checked_element, index};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::element_type::ElementType;
+use crate::value::elements::displacement;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{checked_element, index};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

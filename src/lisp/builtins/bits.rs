@@ -1,16 +1,16 @@
 //! Bit arrays: the logical operations on all bits.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{bit_array_type, dimensions, element_type};
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Array;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::array::Array;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

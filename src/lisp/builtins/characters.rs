@@ -1,13 +1,13 @@
 //! Characters: codes, names, case, digits, comparison.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::reader::ascii_name::ascii_name;
-use crate::lisp::reader::char_name::{char_name as special_name, char_named};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::reader::ascii_name::ascii_name;
+use crate::reader::char_name::{char_name as special_name, char_named};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -29,7 +29,7 @@ pub(crate) fn upcase(c: char) -> char {
 }
 
 /// The lower-case form, where that is one character.
-pub(crate) fn downcase(c: char) -> char {
+pub fn downcase(c: char) -> char {
     match single_lower(c) {
         Some(l) if l.to_uppercase().eq([c]) => l,
         _ => c,

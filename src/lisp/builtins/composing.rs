@@ -4,18 +4,18 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::print::{self, Call};
-use crate::lisp::stream::Stream;
-use crate::lisp::types::{TypeCheck, typep};
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Document;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Calls, run};
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::print::{self, Call};
+use crate::stream::Stream;
+use crate::types::{TypeCheck, typep};
+use crate::value::Value;
+use crate::value::document::Document;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Calls, run};
+use crate::vm::fiber::Dynamic;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// Composes a text, making the calls that it needs, and passes it on. `compose` receives the texts
 /// of calls and records those that are missing.

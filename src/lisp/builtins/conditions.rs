@@ -1,16 +1,16 @@
 //! Builtins that make conditions and read their slots.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::object::access::unbound_slot;
-use crate::lisp::object::instance;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::ClassKind;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::object::access::unbound_slot;
+use crate::object::instance;
+use crate::value::Value;
+use crate::value::class::ClassKind;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// The format control of a simple condition.
 ///

@@ -1,21 +1,21 @@
 //! What an element must satisfy to be found, counted, removed or replaced: `:test`,
 //! `:test-not`, `:key`, or a predicate.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::equality;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::callable::{builtin_name, callable};
-use crate::lisp::vm::calls::Calls;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::equality;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::callable::{builtin_name, callable};
+use crate::vm::calls::Calls;
 
 /// A function that is applied to elements before they are tested; none is the identity.
 #[derive(Clone)]
-pub(crate) struct Key(Option<Value>);
+pub struct Key(Option<Value>);
 
 impl Key {
     /// From the value of a `:key` argument.
-    pub(crate) fn new(image: &Image, key: Option<Value>) -> Result<Key, Box<Raise>> {
+    pub fn new(image: &Image, key: Option<Value>) -> Result<Key, Box<Raise>> {
         let Some(key) = key.filter(Value::is_true) else {
             return Ok(Key(None));
         };
@@ -25,7 +25,7 @@ impl Key {
     }
 
     /// The value that is tested for an element.
-    pub(crate) async fn of(&self, calls: &Calls, element: Value) -> Value {
+    pub async fn of(&self, calls: &Calls, element: Value) -> Value {
         match &self.0 {
             None => element,
             Some(key) => calls.call1(key, element).await,
@@ -34,11 +34,11 @@ impl Key {
 }
 
 /// A comparison of two values that calls no function of a program.
-pub(crate) type Compare = fn(&Value, &Value) -> bool;
+pub type Compare = fn(&Value, &Value) -> bool;
 
 /// How two values are compared.
 #[derive(Clone)]
-pub(crate) enum Test {
+pub enum Test {
     /// By identity.
     Eq,
     /// By `eql`.
@@ -55,7 +55,7 @@ pub(crate) enum Test {
 
 impl Test {
     /// From the values of `:test` and `:test-not` arguments.
-    pub(crate) fn new(
+    pub fn new(
         image: &Image,
         test: Option<Value>,
         test_not: Option<Value>,
@@ -89,7 +89,7 @@ impl Test {
     }
 
     /// Do two values match? The function receives them in this order.
-    pub(crate) async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
+    pub async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
         match self {
             Test::Eq => a.is_eq(b),
             Test::Eql => a.is_eql(b),
@@ -102,7 +102,7 @@ impl Test {
 }
 
 /// A condition on elements.
-pub(crate) struct Criterion {
+pub struct Criterion {
     kind: Kind,
     key: Key,
 }
@@ -114,7 +114,7 @@ enum Kind {
 
 impl Criterion {
     /// Elements that match an item.
-    pub(crate) fn item(item: Value, test: Test, key: Key) -> Criterion {
+    pub fn item(item: Value, test: Test, key: Key) -> Criterion {
         Criterion {
             kind: Kind::Item { item, test },
             key,
@@ -122,7 +122,7 @@ impl Criterion {
     }
 
     /// Elements for which a predicate returns true, or false if `expected` is false.
-    pub(crate) fn predicate(
+    pub fn predicate(
         image: &Image,
         predicate: &Value,
         expected: bool,
@@ -138,7 +138,7 @@ impl Criterion {
     }
 
     /// The item and the test, if elements are compared as they are and without calls of functions.
-    pub(crate) fn simple(&self) -> Option<(&Value, Compare)> {
+    pub fn simple(&self) -> Option<(&Value, Compare)> {
         match &self.kind {
             Kind::Item { item, test } if self.key.0.is_none() => Some((item, test.simple()?)),
             _ => None,

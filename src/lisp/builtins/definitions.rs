@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::compile::{keep_place, setf};
-use crate::lisp::image::Image;
-use crate::lisp::image::setf_expander::SetfExpander;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::compile::{keep_place, setf};
+use crate::image::Image;
+use crate::image::setf_expander::SetfExpander;
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Entry};
-use crate::lisp::image::Image;
-use crate::lisp::library::definition_of;
-use crate::lisp::object::method::MethodObject;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Entry};
+use crate::image::Image;
+use crate::library::definition_of;
+use crate::object::method::MethodObject;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
+use crate::{builtin, builtins};
 
 /// The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a
 /// function, class or method.

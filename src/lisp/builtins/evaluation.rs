@@ -2,19 +2,19 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::compile;
-use crate::lisp::guard::descend;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::compile;
+use crate::guard::descend;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::FunctionCell;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -55,7 +55,7 @@ fn eql(a: &Value, b: &Value) -> Result<Value> {
 /// `(equal '(1 "a") '(1 "a"))` => `T`
 #[builtin]
 fn equal(a: &Value, b: &Value) -> Result<Value> {
-    Ok(crate::lisp::value::equality::equal(a, b).into())
+    Ok(crate::value::equality::equal(a, b).into())
 }
 
 /// Like EQUAL; numbers by value, letters without case, arrays by element.
@@ -63,7 +63,7 @@ fn equal(a: &Value, b: &Value) -> Result<Value> {
 /// `(equalp "A" "a")` => `T`
 #[builtin]
 fn equalp(a: &Value, b: &Value) -> Result<Value> {
-    Ok(crate::lisp::value::equality::equalp(a, b).into())
+    Ok(crate::value::equality::equalp(a, b).into())
 }
 
 /// Is it a function?
@@ -92,7 +92,7 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
 }
 
 /// Evaluates a form at top level.
-pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
     descend()?;
     let (form, _) = compile::macroexpand(machine.image, form)?;
     if let Value::Cons(cons) = &form {

@@ -1,7 +1,7 @@
 //! Files, by the names that the machine knows them by: opening, finding, deleting, renaming. Relative
 //! names begin in the directory that the program was started in; texts are UTF-8.
 
-use crate::lisp::value::string::LispString;
+use crate::value::string::LispString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind};
 use std::rc::Rc;
@@ -10,16 +10,16 @@ use std::time::UNIX_EPOCH;
 use super::keywords;
 use super::shown::shown;
 use super::strings::string;
-use crate::closest_name::closest_name;
-use crate::lisp::builtin::{Builtin, FromValue};
-use crate::lisp::image::Image;
-use crate::lisp::stream::{Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::Pathname;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::stream::Elements;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, FromValue};
+use crate::image::Image;
+use crate::stream::{Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::Pathname;
+use crate::value::raise::Raise;
+use crate::value::stream::Elements;
+use crate::{builtin, builtins};
+use closest_name::closest_name;
 
 type Outcome = Result<Value, Box<Raise>>;
 

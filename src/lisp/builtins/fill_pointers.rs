@@ -1,12 +1,12 @@
 //! Vectors with fill pointers: pushing and popping.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{character, element, index};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{character, element, index};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

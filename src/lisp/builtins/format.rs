@@ -2,20 +2,20 @@
 
 use super::composing::compose;
 use super::streams::or_method;
-use crate::lisp::builtin::{Builtin, Operator};
-use crate::lisp::image::Image;
-use crate::lisp::print::format::Control;
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Operator};
+use crate::image::Image;
+use crate::print::format::Control;
+use crate::stream;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// Macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[Operator] = &[Operator {
+pub static OPERATORS: &[Operator] = &[Operator {
     name: "FORMATTER",
     lambda_list: "control",
     doc: "A function that writes its arguments to a stream as the control string says.",

@@ -1,26 +1,24 @@
 //! Builtins on generic functions and methods.
 
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, FromValue, Operator};
-use crate::lisp::image::Image;
-use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
-use crate::lisp::object::combine::{invoke_method, no_next_method};
-use crate::lisp::object::dispatch::no_applicable_method_error;
-use crate::lisp::object::effective::applicable_methods;
-use crate::lisp::object::method::{
-    MethodObject, add_method, method_value, remove_method, specializer,
-};
-use crate::lisp::object::{defmethod, text};
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{GenericFunction, Method};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, FromValue, Operator};
+use crate::image::Image;
+use crate::object::combination::{define_combination, expand_define_method_combination};
+use crate::object::combine::{invoke_method, no_next_method};
+use crate::object::dispatch::no_applicable_method_error;
+use crate::object::effective::applicable_methods;
+use crate::object::method::{MethodObject, add_method, method_value, remove_method, specializer};
+use crate::object::{defmethod, text};
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::generic::{GenericFunction, Method};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::{builtin, builtins};
 
 /// Called when no method of a generic function applies. Add methods to do something else.
 ///

@@ -7,33 +7,33 @@ use std::rc::Rc;
 
 use super::packages;
 use super::strings::designated;
-use crate::lisp::builtin::{Builtin, Entry};
-use crate::lisp::image::Image;
-use crate::lisp::image::extension::Extension;
-use crate::lisp::library::definition_of;
-use crate::lisp::object::method::extended_function;
-use crate::lisp::print;
-use crate::lisp::stream;
-use crate::lisp::types::type_of::type_of;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind, Instance};
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::package::{Access, PackageTable};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Entry};
+use crate::image::Image;
+use crate::image::extension::Extension;
+use crate::library::definition_of;
+use crate::object::method::extended_function;
+use crate::print;
+use crate::stream;
+use crate::types::type_of::type_of;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind, Instance};
+use crate::value::copy::Copier;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::package::{Access, PackageTable};
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::{builtin, builtins};
 
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Tells what a name means to the layers above the language, which keep it in the image. It holds
 /// nothing of an image.
-pub(crate) struct Topics(pub(crate) Box<MeaningsOf>);
+pub struct Topics(pub Box<MeaningsOf>);
 
 impl Extension for Topics {
     fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
@@ -45,11 +45,11 @@ impl Extension for Topics {
 type MeaningsOf = dyn Fn(&Image, Sym) -> Vec<Topic>;
 
 /// A meaning of a name.
-pub(crate) struct Topic {
+pub struct Topic {
     /// What it is, such as `action`.
-    pub(crate) kind: &'static str,
+    pub kind: &'static str,
     /// What is known about it, in lines.
-    pub(crate) text: String,
+    pub text: String,
 }
 
 /// What a symbol means to the layers above.
@@ -59,7 +59,7 @@ fn topics(image: &Image, sym: Sym) -> Vec<Topic> {
 }
 
 /// What a symbol means to the layers above, in lines.
-pub(crate) fn topics_of(image: &Image, sym: Sym) -> String {
+pub fn topics_of(image: &Image, sym: Sym) -> String {
     let topics = topics(image, sym).into_iter();
     topics.map(|topic| topic.text).collect()
 }
@@ -114,7 +114,7 @@ fn shown(image: &Image, value: &Value) -> String {
     print::to_string(image, value, true)
 }
 
-pub(crate) fn of_symbol(image: &Image, sym: Sym) -> String {
+pub fn of_symbol(image: &Image, sym: Sym) -> String {
     let data = image.symbol(sym);
     let value = Value::symbol(sym);
     if image.is_keyword(sym) {
@@ -141,28 +141,28 @@ pub(crate) fn of_symbol(image: &Image, sym: Sym) -> String {
 }
 
 /// What is known about a symbol's function or operator.
-pub(crate) struct Signature {
+pub struct Signature {
     /// What it is.
-    pub(crate) kind: &'static str,
+    pub kind: &'static str,
     /// The lambda list, without its parentheses, in lower case.
-    pub(crate) lambda_list: String,
+    pub lambda_list: String,
     /// The documentation.
-    pub(crate) doc: Option<String>,
+    pub doc: Option<String>,
     /// Examples of calls.
-    pub(crate) examples: Vec<&'static str>,
+    pub examples: Vec<&'static str>,
     /// File and line of a definition of the language in Lisp.
-    pub(crate) location: Option<String>,
+    pub location: Option<String>,
 }
 
 impl Signature {
     /// The shape of a call.
-    pub(crate) fn call(&self, image: &Image, sym: Sym) -> String {
+    pub fn call(&self, image: &Image, sym: Sym) -> String {
         call(image, sym, &self.lambda_list)
     }
 }
 
 /// What is known about a symbol's function or operator; none if it has none.
-pub(crate) fn signature(image: &Image, sym: Sym) -> Option<Signature> {
+pub fn signature(image: &Image, sym: Sym) -> Option<Signature> {
     if let Some(entry) = image.entry(sym) {
         return Some(Signature {
             kind: entry.kind(),

@@ -1,15 +1,15 @@
 //! Questions about the implementation.
 
 use super::array_make::MAX_RANK;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::guard::MOST_ELEMENTS;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::VariableKind;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::guard::MOST_ELEMENTS;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::symbol::VariableKind;
+use crate::{builtin, builtins};
 
 /// The name of the implementation.
 ///

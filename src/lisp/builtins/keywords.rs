@@ -1,14 +1,14 @@
 //! Keyword arguments of builtins.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The values of the keyword arguments `names` in `args`, which holds nothing but keyword
 /// arguments; the first of several counts.
-pub(crate) fn parse<const N: usize>(
+pub fn parse<const N: usize>(
     image: &Image,
     args: &[Value],
     names: [Sym; N],
@@ -61,6 +61,6 @@ pub(crate) fn given<'a, const N: usize>(
 }
 
 /// An optional argument of a builtin by position: its value, or `None` if it is not given or `NIL`.
-pub(crate) fn optional(args: &[Value], index: usize) -> Option<&Value> {
+pub fn optional(args: &[Value], index: usize) -> Option<&Value> {
     args.get(index).filter(|value| value.is_true())
 }

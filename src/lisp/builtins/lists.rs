@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, FromValue};
-use crate::lisp::guard::{MOST_ELEMENTS, Pace, reserve};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, FromValue};
+use crate::guard::{MOST_ELEMENTS, Pace, reserve};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cons::Cons;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{self, ListBuilder, ListWalk, last_pair};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

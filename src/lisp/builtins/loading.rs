@@ -3,23 +3,23 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::reader::{Outcome, Reader};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::{Pathname, file_name};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::reader::{Outcome, Reader};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::{Pathname, file_name};
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::fiber::Dynamic;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
-pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+pub fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
     load_and_tell(machine, name, text, false)
 }
 
@@ -104,9 +104,9 @@ fn restore(machine: &mut Machine<'_>) {
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
         let name = stream.file.as_deref().unwrap_or("stream").to_owned();
-        let (text, from) = crate::lisp::stream::rest(machine.image, &args[0])?;
+        let (text, from) = crate::stream::rest(machine.image, &args[0])?;
         let text = text.get(from..).unwrap_or_default();
-        crate::lisp::stream::advance(machine.image, &args[0], text.len())?;
+        crate::stream::advance(machine.image, &args[0], text.len())?;
         let shows_values = announce(machine, &name, &args[1..])?;
         return load_and_tell(machine, &name, text, shows_values);
     }
@@ -136,7 +136,7 @@ fn announce(machine: &mut Machine<'_>, name: &str, args: &[Value]) -> Result<boo
     let shows_values = is_wanted(wanted(known::K_PRINT, known::V_LOAD_PRINT));
     if shows_name {
         let text = format!("; Loading {name}\n");
-        crate::lisp::stream::write(machine.image, &Value::NIL, &text)?;
+        crate::stream::write(machine.image, &Value::NIL, &text)?;
     }
     Ok(shows_values)
 }

@@ -2,16 +2,16 @@
 //! `mapcon`.
 
 use super::lists::nconc_all;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::ListBuilder;
-use crate::lisp::vm::callable::callable;
-use crate::lisp::vm::calls::{Args, Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::ListBuilder;
+use crate::vm::callable::callable;
+use crate::vm::calls::{Args, Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,19 +1,19 @@
 //! What classes, generic functions and methods consist of.
 
-use crate::lisp::builtins::generic_functions::Generic;
-use crate::lisp::value::generic::Method;
+use crate::builtins::generic_functions::Generic;
+use crate::value::generic::Method;
 use std::rc::Rc;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::object::method::method_value;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Initform, SlotDefinition};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{Accessor, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::object::method::method_value;
+use crate::value::Value;
+use crate::value::class::{Class, Initform, SlotDefinition};
+use crate::value::function::Function;
+use crate::value::generic::{Accessor, Specializer};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

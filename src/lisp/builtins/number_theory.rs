@@ -1,16 +1,16 @@
 //! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, FromValue};
-use crate::lisp::image::Image;
-use crate::lisp::reader::numeric::parse_integer as read_integer;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::number::ByteSpecifier;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, FromValue};
+use crate::image::Image;
+use crate::reader::numeric::parse_integer as read_integer;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::number::ByteSpecifier;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -456,9 +456,8 @@ fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
             known::K_JUNK_ALLOWED,
         ],
     )?;
-    let sequence = crate::lisp::value::sequence::Sequence::Str(string.clone());
-    let bounds =
-        crate::lisp::value::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let sequence = crate::value::sequence::Sequence::Str(string.clone());
+    let bounds = crate::value::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let radix = match radix {
         None => 10,
         Some(Value::Int(n @ 2..=36)) => u32::try_from(n).unwrap_or(10),

@@ -1,13 +1,13 @@
 //! Arithmetic, comparison, and division with rounding.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::number::Rounding;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::number::Rounding;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -441,7 +441,7 @@ fn divide_to_float(number: &Value, divisor: Option<&Value>, rounding: Rounding) 
 
 /// Constants of numbers, and the variable `*random-state*`.
 pub(crate) fn define_constants(image: &mut Image) {
-    use crate::lisp::value::package::PackageTable;
+    use crate::value::package::PackageTable;
     let constants: &[(&str, Value)] = &[
         (
             "MOST-POSITIVE-FIXNUM",

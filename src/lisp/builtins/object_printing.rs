@@ -1,12 +1,12 @@
 //! Builtins for programs that print objects in a form of their own.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::print::{self, Calls, Settings};
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::print::{self, Calls, Settings};
+use crate::stream;
+use crate::value::Value;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 /// Prints an object. Add methods to print instances of your classes in a form of your own.
 ///

@@ -2,17 +2,17 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, Operator};
-use crate::lisp::image::Image;
-use crate::lisp::object::define::{self, no_class};
-use crate::lisp::object::{access, class_of, defclass, instance, update};
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Operator};
+use crate::image::Image;
+use crate::object::define::{self, no_class};
+use crate::object::{access, class_of, defclass, instance, update};
+use crate::value::Value;
+use crate::value::class::Instance;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// Makes an instance of a class.
 ///
@@ -170,7 +170,7 @@ fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rais
 }
 
 /// The macros.
-pub(crate) static OPERATORS: &[Operator] = &[
+pub static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFCLASS",
         lambda_list: "name (&rest superclasses) (&rest slots) &rest options",

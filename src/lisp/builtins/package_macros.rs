@@ -7,15 +7,15 @@ use super::packages::{
 };
 use super::shown::shown;
 use super::strings;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::{Access, PackageId};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::list_items;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::{Access, PackageId};
+use crate::value::raise::Raise;
+use crate::value::sequence::list_items;
+use crate::value::symbol::Sym;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -3,13 +3,13 @@
 use super::packages::{names, one_or_more, or_current, package_error};
 use super::property_lists::symbol;
 use super::shown::shown;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageId;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::package::PackageId;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

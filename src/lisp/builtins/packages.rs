@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::{Builtin, FromValue};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::{Access, PackageId, PackageTable};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::list_items;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, FromValue};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::{Access, PackageId, PackageTable};
+use crate::value::raise::Raise;
+use crate::value::sequence::list_items;
+use crate::value::symbol::Sym;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -22,7 +22,7 @@ pub(crate) fn package_error(report: impl Into<String>, package: &Value) -> Box<R
 }
 
 /// The package that a designator denotes, if there is one.
-pub(crate) fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
+pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
     match designator {
         Value::Package(id) => Ok(Some(*id)),
         other => Ok(image
@@ -67,7 +67,7 @@ pub(crate) fn or_current(
 }
 
 /// `:EXTERNAL`, `:INTERNAL`, `:INHERITED` or `NIL`.
-pub(crate) fn status(access: Option<Access>) -> Value {
+pub fn status(access: Option<Access>) -> Value {
     match access {
         Some(Access::External) => known::K_EXTERNAL.into(),
         Some(Access::Internal) => known::K_INTERNAL.into(),
@@ -87,7 +87,7 @@ pub(crate) fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
 
 /// The symbols accessible in a package, those present first, then the inherited ones, by
 /// name.
-pub(crate) fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
+pub fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
     let this = image.packages.get(package);
     let mut found: Vec<Sym> = this.symbols.values().map(|(sym, _)| *sym).collect();
     let mut inherited: BTreeMap<&str, Sym> = BTreeMap::new();
@@ -218,11 +218,7 @@ pub(super) fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, 
 }
 
 /// Makes a package.
-pub(crate) fn make(
-    image: &mut Image,
-    name: &str,
-    nicknames: &[String],
-) -> Result<PackageId, Box<Raise>> {
+pub fn make(image: &mut Image, name: &str, nicknames: &[String]) -> Result<PackageId, Box<Raise>> {
     let short: Vec<&str> = nicknames.iter().map(String::as_str).collect();
     image.packages.make(name, &short).ok_or_else(|| {
         let taken = std::iter::once(name)

@@ -2,15 +2,15 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::cons::{self, Cons};
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::{Rounds, Value};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::cons::{self, Cons};
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::{Rounds, Value};
+use crate::{builtin, builtins};
 
-use crate::lisp::value::sequence;
+use crate::value::sequence;
 
 type Outcome = Result<Value, Box<Raise>>;
 

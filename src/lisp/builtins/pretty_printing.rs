@@ -1,21 +1,21 @@
 //! What the pretty printer's macros and functions, which are written in Lisp, need of streams.
 
-use crate::lisp::value::string::LispString;
+use crate::value::string::LispString;
 use std::rc::Rc;
 
 use super::composing::compose;
 use super::streams::stream_of;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::print::{self, Settings, SharedLabels};
-use crate::lisp::stream::{self, Stream};
-use crate::lisp::value::Value;
-use crate::lisp::value::document::{Document, Newline, Tab};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::print::{self, Settings, SharedLabels};
+use crate::stream::{self, Stream};
+use crate::value::Value;
+use crate::value::document::{Document, Newline, Tab};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

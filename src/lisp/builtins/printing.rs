@@ -3,20 +3,20 @@
 use super::composing::compose;
 use super::keywords;
 use super::streams::or_method;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::print::{self, Case, Settings};
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::print::{self, Case, Settings};
+use crate::stream;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -482,7 +482,7 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
     }
     let mut start = String::from("#<");
     if with_type.is_true() {
-        let name = crate::lisp::object::class_of(image, object).name;
+        let name = crate::object::class_of(image, object).name;
         start.push_str(&print::to_string(image, &name.into(), true));
     }
     // A blank follows the type and comes before the identity, also if nothing stands between; one is

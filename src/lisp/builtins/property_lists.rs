@@ -1,14 +1,14 @@
 //! Property lists, those of symbols included.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::value::{Rounds, Value};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::value::{Rounds, Value};
+use crate::{builtin, builtins};
 
-use crate::lisp::value::sequence::{ListWalk, circular};
+use crate::value::sequence::{ListWalk, circular};
 
 type Outcome = Result<Value, Box<Raise>>;
 

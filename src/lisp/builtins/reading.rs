@@ -4,20 +4,20 @@ use std::rc::Rc;
 
 use super::keywords;
 use super::streams::or_method;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader::readtable::{LetterCase, Readtable};
-use crate::lisp::reader::{Completeness, ReadError, Reader, is_complete};
-use crate::lisp::stream::{self, Stream};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::vm::computation::{Computation, Progress, compute};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::print;
+use crate::reader::readtable::{LetterCase, Readtable};
+use crate::reader::{Completeness, ReadError, Reader, is_complete};
+use crate::stream::{self, Stream};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::vm::computation::{Computation, Progress, compute};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -142,7 +142,7 @@ fn set_readtable_case(case_value: &Value, readtable: &Value) -> Outcome {
 }
 
 /// Gives `*readtable*` its value.
-pub(crate) fn define_variables(image: &mut Image) {
+pub fn define_variables(image: &mut Image) {
     image.define_special(known::V_READTABLE, Value::foreign(Readtable::default()));
 }
 
@@ -241,9 +241,9 @@ impl Reading {
     fn take(
         &mut self,
         image: &mut Image,
-        outcome: Result<crate::lisp::reader::Outcome, ReadError>,
+        outcome: Result<crate::reader::Outcome, ReadError>,
     ) -> Result<Option<Progress<Value>>, Box<Raise>> {
-        use crate::lisp::reader::Outcome;
+        use crate::reader::Outcome;
         let form = match outcome {
             Ok(Outcome::Evaluate(form)) => {
                 return Ok(Some(Progress::Call {

@@ -1,14 +1,14 @@
 //! All tables of builtins and operators, by package.
 
 use super::*;
-use crate::lisp::builtin::{Builtin, Operator};
-use crate::lisp::compile;
-use crate::lisp::image::Image;
-use crate::lisp::loop_macro;
-use crate::lisp::value::package::PackageTable;
+use crate::builtin::{Builtin, Operator};
+use crate::compile;
+use crate::image::Image;
+use crate::loop_macro;
+use crate::value::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
-pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
+pub static FUNCTIONS: &[&[Builtin]] = &[
     characters::COMPARISONS,
     characters::TABLE,
     conditions::TABLE,
@@ -107,7 +107,7 @@ pub(crate) static SETTERS: &[&[Builtin]] = &[
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[&[Operator]] = &[
+pub static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
     loop_macro::OPERATORS,
@@ -122,7 +122,7 @@ pub(crate) static SYSTEM_OPERATORS: &[&[Operator]] =
     &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
 
 /// Installs everything in an image.
-pub(crate) fn install(image: &mut Image) {
+pub fn install(image: &mut Image) {
     for table in FUNCTIONS {
         image.install(PackageTable::CL, table);
     }

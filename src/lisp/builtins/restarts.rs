@@ -2,16 +2,16 @@
 
 use std::cell::RefCell;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::evaluator::restart::Restart;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, Calls};
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::evaluator::restart::Restart;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, Calls};
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

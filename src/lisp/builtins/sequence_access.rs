@@ -1,19 +1,19 @@
 //! Parts of sequences: length, elements, subsequences, copies, filling, joining.
 
-use crate::lisp::builtins::lists::Size;
+use crate::builtins::lists::Size;
 use std::rc::Rc;
 
 use super::array_index;
 use super::lists::nreverse_onto;
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::guard::reserve;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::guard::reserve;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::raise::Raise;
+use crate::value::sequence::{self, Bounds, Kind, Sequence, index};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

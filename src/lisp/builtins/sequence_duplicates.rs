@@ -5,16 +5,16 @@ use std::collections::HashSet;
 use super::criterion::{Key, Test};
 use super::keywords;
 use super::sequence_change::removed;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::hash_table::{HashKey, HashTest};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::vm::calls::{Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::hash_table::{HashKey, HashTest};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::vm::calls::{Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 struct Duplicates {
     sequence: Sequence,

@@ -2,16 +2,16 @@
 
 use super::criterion::{Key, Test};
 use super::keywords;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::vm::calls::{Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::vm::calls::{Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// Two parts of sequences and how their elements are compared.
 struct Pair {

@@ -1,13 +1,13 @@
 //! Operations on types within builtins that cannot wait: the calls that they ask for are made at once.
 
-use crate::lisp::evaluator::nested::call_nested;
-use crate::lisp::image::Image;
-use crate::lisp::types::parse;
-use crate::lisp::types::sequence_types::SequenceType;
-use crate::lisp::types::specifier::{Answers, Stop};
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::raise::Raise;
+use crate::evaluator::nested::call_nested;
+use crate::image::Image;
+use crate::types::parse;
+use crate::types::sequence_types::SequenceType;
+use crate::types::specifier::{Answers, Stop};
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::raise::Raise;
 
 /// The actual element type of an array that is made for elements of a type.
 pub(super) fn element_type(

@@ -1,17 +1,17 @@
 //! Signalling conditions, and throwing.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::evaluator::signal::Declined;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::evaluator::signal::Declined;
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -76,7 +76,7 @@ async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> 
 }
 
 /// Makes the condition that arguments designate and signals it.
-pub(crate) fn signal_with(
+pub fn signal_with(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
     default: Sym,

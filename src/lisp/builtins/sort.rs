@@ -2,16 +2,16 @@
 
 use super::criterion::Key;
 use super::settled_types::sequence_type;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Sequence, conses, relink};
-use crate::lisp::vm::callable::{builtin_name, callable};
-use crate::lisp::vm::calls::{Calls, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Sequence, conses, relink};
+use crate::vm::callable::{builtin_name, callable};
+use crate::vm::calls::{Calls, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// An item with the value by which it is compared.
 #[derive(Clone)]

@@ -3,8 +3,8 @@
 //! Names without a meaning here are symbols, too, so that programs that use them as symbols read
 //! the same everywhere.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageTable;
+use crate::image::Image;
+use crate::value::package::PackageTable;
 
 const NAMES: &str = "\
 &ALLOW-OTHER-KEYS &AUX &BODY &ENVIRONMENT &KEY &OPTIONAL &REST &WHOLE * ** ***

@@ -5,14 +5,14 @@ use std::rc::Rc;
 
 use super::streams::{at_end, stream_of};
 use super::strings::string;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence, index, text_of};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::stream::{self, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence, index, text_of};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,19 +1,19 @@
 //! Making streams, combining them, and what they are made of.
 
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::Sym;
+use crate::value::string::LispString;
+use crate::value::symbol::Sym;
 use std::rc::Rc;
 
 use super::keywords;
 use super::streams::stream_of;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::stream::{self, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

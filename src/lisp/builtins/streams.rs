@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::keywords;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::stream::{self, Elements, Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::stream::{self, Elements, Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -143,7 +143,7 @@ fn clear_input(image: &mut Image, stream: Option<&Value>) -> Outcome {
 }
 
 /// The result of reading at the end: the end-of-file value, or an error.
-pub(crate) fn at_end(
+pub fn at_end(
     image: &Image,
     stream: Option<&Value>,
     error: Option<&Value>,

@@ -5,13 +5,13 @@ use std::rc::Rc;
 
 use super::characters::upcase;
 use super::strings::designated;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence};
-use crate::lisp::value::string::LispString;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

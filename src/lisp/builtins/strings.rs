@@ -1,18 +1,18 @@
 //! Strings: case, trimming, characters, making.
 
-use crate::lisp::builtins::lists::Size;
+use crate::builtins::lists::Size;
 use std::rc::Rc;
 
 use super::array_index;
 use super::characters::{downcase, upcase};
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{Bounds, Sequence, character, index};
-use crate::lisp::value::string::LispString;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence, character, index};
+use crate::value::string::LispString;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -35,7 +35,7 @@ pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Rai
 }
 
 /// A value as a string.
-pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
+pub fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s),
         _ => Err(Raise::type_error(value, known::STRING)),

@@ -1,13 +1,13 @@
 //! Builtins on structures.
 
-use crate::lisp::builtin::{Builtin, Operator};
-use crate::lisp::image::Image;
-use crate::lisp::structure::define::{copy_structure, define_structure, make_structure};
-use crate::lisp::structure::expand::expand_defstruct;
-use crate::lisp::structure::typed::define_typed_structure;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::{Builtin, Operator};
+use crate::image::Image;
+use crate::structure::define::{copy_structure, define_structure, make_structure};
+use crate::structure::expand::expand_defstruct;
+use crate::structure::typed::define_typed_structure;
+use crate::value::Value;
+use crate::value::raise::Raise;
+use crate::{builtin, builtins};
 
 /// A structure of the same type with the same slot values.
 ///

@@ -2,17 +2,17 @@
 
 use super::property_lists::symbol;
 use super::strings::string;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::index;
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::vm::callable::callable;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::index;
+use crate::value::string::LispString;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::vm::callable::callable;
+use crate::{builtin, builtins};
 use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -1,9 +1,9 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::{Value, number};
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::raise::Raise;
+use crate::value::{Value, number};
+use crate::{builtin, builtins};
 
 /// The base to the power.
 ///

@@ -1,24 +1,24 @@
 //! Builtins on types: `typep`, `subtypep`, `type-of`, `coerce`, `deftype`.
 
 use super::settled_types::element_type;
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::types::asking;
-use crate::lisp::types::coerce::coerce;
-use crate::lisp::types::emptiness::is_subtype;
-use crate::lisp::types::parse::parse;
-use crate::lisp::types::specifier::{Answers, Stop};
-use crate::lisp::types::subtype::Verdict;
-use crate::lisp::types::test::typep_with;
-use crate::lisp::types::type_of;
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::types::asking;
+use crate::types::coerce::coerce;
+use crate::types::emptiness::is_subtype;
+use crate::types::parse::parse;
+use crate::types::specifier::{Answers, Stop};
+use crate::types::subtype::Verdict;
+use crate::types::test::typep_with;
+use crate::types::type_of;
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
+use crate::{builtin, builtins};
 
 /// Is the object of the type?
 ///
@@ -75,7 +75,7 @@ fn typep_operation(
     answers: &mut Answers,
 ) -> Result<Value, Stop> {
     if let Some(part) = untestable(&args[1]) {
-        let part = crate::lisp::object::text(image, &part);
+        let part = crate::object::text(image, &part);
         return Err(Raise::simple(format!(
             "Nothing can be tested for being {part}: such a type is for declarations."
         ))

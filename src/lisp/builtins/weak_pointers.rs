@@ -1,14 +1,14 @@
 //! Weak pointers: objects that refer to others without keeping them.
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::value::weak::Reference;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::value::weak::Reference;
+use crate::{builtin, builtins};
 
 /// A weak pointer; without a reference if its object was gone when the image was copied.
 struct WeakPointer(Option<Reference>);

@@ -10,18 +10,18 @@ use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
 };
 use super::special_forms;
-use crate::closest_name::closest_name;
-use crate::lisp::evaluator::nested;
-use crate::lisp::guard::{Pace, Stopped, descend, leave, look, reason};
-use crate::lisp::image::Image;
-use crate::lisp::image::notes::NoteKind;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::{Code, Parameters};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::evaluator::nested;
+use crate::guard::{Pace, Stopped, descend, leave, look, reason};
+use crate::image::Image;
+use crate::image::notes::NoteKind;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::code::{Code, Parameters};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use closest_name::closest_name;
 
 /// Result of compiling.
 pub(super) type Compiled<T> = Result<T, Box<Raise>>;
@@ -29,14 +29,14 @@ pub(super) type Compiled<T> = Result<T, Box<Raise>>;
 /// The compiler at work on one top-level form.
 pub(super) struct Compiler<'a> {
     /// The image that the form belongs to.
-    pub(crate) image: &'a mut Image,
+    pub image: &'a mut Image,
     functions: Vec<FunctionContext>,
     current: usize,
     pace: Pace,
     /// Why the compiler is to be left.
     stopped: Option<Stopped>,
     /// The place of the innermost enclosing form that has one.
-    pub(crate) place: Place,
+    pub place: Place,
 }
 
 impl<'a> Compiler<'a> {
@@ -186,13 +186,13 @@ impl<'a> Compiler<'a> {
     /// Checks that a name can be bound as a variable.
     pub(crate) fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
         let Some(sym) = name.as_symbol() else {
-            let shown = crate::lisp::print::to_string(self.image, name, true);
+            let shown = crate::print::to_string(self.image, name, true);
             return Err(self.program_error(format!(
                 "{shown} is not a symbol and cannot be used as a local variable."
             )));
         };
         if self.image.symbol(sym).kind == VariableKind::Constant {
-            let shown = crate::lisp::print::to_string(self.image, name, true);
+            let shown = crate::print::to_string(self.image, name, true);
             let what = if self.image.is_keyword(sym) {
                 "a keyword"
             } else {
@@ -207,7 +207,7 @@ impl<'a> Compiler<'a> {
 
     /// The error for a symbol that cannot stand for a form since it is a special variable.
     pub(crate) fn special_symbol_macro(&self, name: Sym) -> Box<Raise> {
-        let shown = crate::lisp::print::to_string(self.image, &name.into(), true);
+        let shown = crate::print::to_string(self.image, &name.into(), true);
         self.program_error(format!(
             "{shown} is a special variable and cannot be a symbol macro."
         ))
@@ -313,7 +313,7 @@ impl<'a> Compiler<'a> {
                 ));
             }
             _ => {
-                let shown = crate::lisp::print::to_string(self.image, head, true);
+                let shown = crate::print::to_string(self.image, head, true);
                 return Err(self.program_error(format!(
                     "illegal function call\n{shown} is not the name of a function; a list that is data needs a quote: '(…)"
                 )));

@@ -6,18 +6,18 @@ use super::analyze::{Compiled, Compiler};
 use super::lambda_list::{LambdaList, Optional};
 use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Parameters;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::code::Parameters;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// A body without its declarations and documentation.
 pub(super) struct Body {
-    pub(crate) forms: Value,
+    pub forms: Value,
     /// Names declared special.
     pub(crate) specials: Vec<Sym>,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// Splits the declarations, and a documentation string if one is allowed, from a body.

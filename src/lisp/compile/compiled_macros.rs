@@ -1,11 +1,11 @@
 //! Macros that the compiler translates itself, for speed, as if they were special operators. To programs
 //! they are macros: `macroexpand` and programs that walk code see what they stand for.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::form;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::form::form;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 type Expansion = Result<Value, Box<Raise>>;
 

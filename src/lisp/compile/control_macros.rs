@@ -1,14 +1,14 @@
 //! The conditionals and loops that programs use most, in Rust because each expansion takes time
 //! when a file is loaded. The others are in Lisp, in `library/control.lisp`.
 
-use crate::lisp::guard::Pace;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{form, progn, quoted as quote, split_body};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::guard::Pace;
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::form::{form, progn, quoted as quote, split_body};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
 

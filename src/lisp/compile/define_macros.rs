@@ -1,13 +1,13 @@
 //! The defining macros that the Lisp library itself is written with, and `define-setf-expander`.
 //! The others are in `library/definitions.lisp`.
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{doc_form, form, quoted as quote, split_body, style_warning};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::form::{doc_form, form, quoted as quote, split_body, style_warning};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
 

@@ -1,12 +1,12 @@
 //! Destructuring lambda lists: `destructuring-bind` and the arguments of macros.
 
 use super::lambda_list::LambdaList;
-use crate::lisp::guard::descend;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::guard::descend;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Bindings for `let*` that destructure a list.
 struct Bindings<'a> {
@@ -52,7 +52,7 @@ impl Bindings<'_> {
                 Ok(())
             }
             other => {
-                let shown = crate::lisp::print::to_string(self.image, other, true);
+                let shown = crate::print::to_string(self.image, other, true);
                 Err(Raise::program(format!(
                     "{shown} cannot be bound: a symbol or a list of symbols was expected"
                 )))
@@ -202,7 +202,7 @@ pub(crate) fn macro_function(
         environment: environment.clone(),
     };
     bindings.take_apart(&parsed, &whole, 1)?;
-    let parts = crate::lisp::value::form::split_body(body);
+    let parts = crate::value::form::split_body(body);
     let block = Value::list_with_tail([known::BLOCK.into(), name.into()], parts.forms);
     let mut let_form = vec![known::LET_STAR.into(), Value::list(bindings.list)];
     let_form.extend(parts.declarations);

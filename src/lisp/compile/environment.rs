@@ -1,13 +1,13 @@
 //! Environments: what a macro function can find out about the scope of its call.
 
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::foreign::{Foreign, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The scope of a macro call, as a value.
 pub(super) struct Environment(Scope);

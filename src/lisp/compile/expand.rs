@@ -2,15 +2,15 @@
 
 use super::analyze::keep_place;
 use super::environment;
-use crate::lisp::evaluator::nested;
-use crate::lisp::guard::look;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::FunctionCell;
+use crate::evaluator::nested;
+use crate::guard::look;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::raise::Raise;
+use crate::value::symbol::FunctionCell;
 
 /// Expands a form once with global macros; `None` if it is not a macro call.
-pub(crate) fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
+pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
     macroexpand_1_in(image, form, &Value::NIL)
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn macroexpand_1_in(
 }
 
 /// Expands a form until it is not a macro call; also returns whether it was one.
-pub(crate) fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
+pub fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
     macroexpand_in(image, form, &Value::NIL)
 }
 

@@ -1,51 +1,51 @@
 //! Lambda lists, ordinary and destructuring.
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// An optional parameter.
 #[derive(Clone)]
-pub(crate) struct Optional {
+pub struct Optional {
     /// Its name, or the pattern in a destructuring lambda list.
-    pub(crate) pattern: Value,
+    pub pattern: Value,
     /// The form of its default.
-    pub(crate) default: Value,
+    pub default: Value,
     /// The variable that tells whether it was supplied.
-    pub(crate) supplied: Option<Sym>,
+    pub supplied: Option<Sym>,
 }
 
 /// A keyword parameter.
 #[derive(Clone)]
-pub(crate) struct Key {
+pub struct Key {
     /// The keyword (or other symbol) that names it in a call.
-    pub(crate) keyword: Sym,
-    pub(crate) parameter: Optional,
+    pub keyword: Sym,
+    pub parameter: Optional,
 }
 
 #[derive(Clone, Default)]
 pub(crate) struct LambdaList {
     /// `&whole`.
-    pub(crate) whole: Option<Value>,
+    pub whole: Option<Value>,
     /// `&environment`.
-    pub(crate) environment: Option<Sym>,
+    pub environment: Option<Sym>,
     /// Required parameters: names, or patterns.
-    pub(crate) required: Vec<Value>,
+    pub required: Vec<Value>,
     /// Optional parameters.
-    pub(crate) optional: Vec<Optional>,
+    pub optional: Vec<Optional>,
     /// `&rest` or `&body`, or a dotted tail.
-    pub(crate) rest: Option<Value>,
+    pub rest: Option<Value>,
     /// Is there a `&key`?
-    pub(crate) has_keys: bool,
+    pub has_keys: bool,
     /// Keyword parameters.
-    pub(crate) keys: Vec<Key>,
+    pub keys: Vec<Key>,
     /// `&allow-other-keys`.
-    pub(crate) allow_other_keys: bool,
+    pub allow_other_keys: bool,
     /// `&aux` variables and their forms.
-    pub(crate) aux: Vec<(Sym, Value)>,
+    pub aux: Vec<(Sym, Value)>,
 }
 
 #[derive(Clone, Copy, PartialEq, PartialOrd)]

@@ -13,12 +13,12 @@ pub(crate) mod destructure;
 mod emit;
 mod environment;
 mod expand;
-pub(crate) mod lambda_list;
+pub mod lambda_list;
 mod node;
 mod operators;
 mod quasiquote;
 mod scope;
-pub(crate) mod setf;
+pub mod setf;
 mod special_forms;
 
 use std::rc::Rc;
@@ -30,18 +30,20 @@ use super::value::function::Function;
 use super::value::raise::Raise;
 
 pub(crate) use analyze::keep_place;
-pub(crate) use emit::is_inlined;
+pub use emit::is_inlined;
 pub(crate) use environment::local_macro;
-pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
-pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
+pub use expand::{macroexpand, macroexpand_1};
+pub(crate) use expand::{macroexpand_1_in, macroexpand_in};
+pub use operators::OPERATORS;
+pub(crate) use operators::{SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 
 /// Compiles a form at top level into the code of a function without parameters.
-pub(crate) fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
+pub fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
     analyze::Compiler::new(image).compile_toplevel(form)
 }
 
 /// Compiles a `lambda` expression into a function without free variables.
-pub(crate) fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
+pub fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
     let code = compile_form(image, form)?;
     // The code of a `(lambda …)` at top level makes exactly that one closure.
     match code.inner.first() {

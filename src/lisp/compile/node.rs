@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::scope::{Block, Tagbody, Var};
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Parameters;
-use crate::lisp::value::symbol::Sym;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::code::Parameters;
+use crate::value::symbol::Sym;
 
 /// What a call calls.
 pub(crate) enum Target {
@@ -27,11 +27,11 @@ pub(crate) enum Binding {
 /// An optional or key parameter.
 pub(crate) struct Default {
     /// The parameter's own variable: the slot that the machine fills.
-    pub(crate) var: Rc<Var>,
+    pub var: Rc<Var>,
     /// The value if it is not supplied.
-    pub(crate) init: Node,
+    pub init: Node,
     /// The variable that tells whether it was supplied.
-    pub(crate) supplied: Option<Binding>,
+    pub supplied: Option<Binding>,
 }
 
 /// What happens at the start of a function, in order.
@@ -47,22 +47,22 @@ pub(crate) enum Prologue {
 /// A function expression.
 pub(crate) struct LambdaNode {
     /// Name for backtraces and printing.
-    pub(crate) name: Value,
+    pub name: Value,
     /// The parameters as the machine fills them.
-    pub(crate) parameters: Parameters,
+    pub parameters: Parameters,
     /// Variables of the parameter slots.
-    pub(crate) slots: Vec<Rc<Var>>,
+    pub slots: Vec<Rc<Var>>,
     /// Defaults and auxiliary variables.
     pub(crate) prologue: Vec<Prologue>,
-    pub(crate) body: Node,
+    pub body: Node,
     /// Free variables, in the order of the closure's captures.
-    pub(crate) free: Vec<Rc<Var>>,
+    pub free: Vec<Rc<Var>>,
     /// The number of the function.
-    pub(crate) id: usize,
+    pub id: usize,
     /// The lambda list as written.
-    pub(crate) lambda_list: Value,
+    pub lambda_list: Value,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// A piece of program.

@@ -2,7 +2,7 @@
 //! special operators.
 
 use super::{compiled_macros, control_macros, define_macros, destructure, quasiquote, setf};
-use crate::lisp::builtin::{Expander, Operator};
+use crate::builtin::{Expander, Operator};
 
 const fn special(
     name: &'static str,
@@ -222,7 +222,7 @@ pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
 ];
 
 /// Macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[Operator] = &[
+pub static OPERATORS: &[Operator] = &[
     macro_(
         "LAMBDA",
         "lambda-list &body body",

@@ -1,10 +1,10 @@
 //! Backquote: templates to forms that build them.
 
-use crate::lisp::guard::descend;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::guard::descend;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// The form that `(quasiquote template)` expands into.
 pub(crate) fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
@@ -144,7 +144,7 @@ fn splice(image: &mut Image, item: &Value, depth: usize) -> Result<Option<Value>
 
 fn rebuild(
     image: &mut Image,
-    head: crate::lisp::Sym,
+    head: crate::Sym,
     inner: &Value,
     depth: usize,
 ) -> Result<Value, Box<Raise>> {
@@ -160,11 +160,11 @@ fn quote(value: Value) -> Value {
     Value::list([known::QUOTE.into(), value])
 }
 
-fn quote_function(name: crate::lisp::Sym) -> Value {
+fn quote_function(name: crate::Sym) -> Value {
     Value::list([known::FUNCTION.into(), name.into()])
 }
 
-fn call<I>(name: crate::lisp::Sym, args: I) -> Value
+fn call<I>(name: crate::Sym, args: I) -> Value
 where
     I: IntoIterator<Item = Value>,
     I::IntoIter: DoubleEndedIterator,

@@ -3,23 +3,23 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::symbol::Sym;
 
 /// A lexical variable (or local function, or identity of a block).
 pub(crate) struct Var {
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// The function that binds it.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Does an inner function refer to it?
     pub(crate) captured: Cell<bool>,
     /// Is it ever assigned after its binding?
-    pub(crate) assigned: Cell<bool>,
+    pub assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
-    pub(crate) slot: Cell<u32>,
+    pub slot: Cell<u32>,
     /// Does the program read it?
-    pub(crate) used: Cell<bool>,
+    pub used: Cell<bool>,
 }
 
 impl Var {
@@ -59,30 +59,30 @@ pub(crate) enum DynamicKind {
 }
 
 pub(crate) struct Block {
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// The function it is in.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// The variable that holds its identity.
-    pub(crate) identity: Rc<Var>,
+    pub identity: Rc<Var>,
     /// Must it be left by unwinding?
-    pub(crate) dynamic: Cell<bool>,
+    pub dynamic: Cell<bool>,
     /// Is it ever left by `return-from`?
-    pub(crate) used: Cell<bool>,
+    pub used: Cell<bool>,
 }
 
 pub(crate) struct Tagbody {
     /// The tags: symbols or integers.
-    pub(crate) tags: Vec<Value>,
+    pub tags: Vec<Value>,
     /// The function it is in.
-    pub(crate) owner: usize,
+    pub owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// The variable that holds its identity.
-    pub(crate) identity: Rc<Var>,
+    pub identity: Rc<Var>,
     /// Must its tags be reached by unwinding?
-    pub(crate) dynamic: Cell<bool>,
+    pub dynamic: Cell<bool>,
 }
 
 /// One link of the chain of scopes, innermost first.
@@ -183,9 +183,9 @@ impl Scope {
 /// A function that is being compiled.
 pub(crate) struct FunctionContext {
     /// The number of the function around it.
-    pub(crate) outer: Option<usize>,
+    pub outer: Option<usize>,
     /// Variables of outer functions that it refers to, in order of first use.
-    pub(crate) free: RefCell<Vec<Rc<Var>>>,
+    pub free: RefCell<Vec<Rc<Var>>>,
     /// Dynamic entries that are open at this point.
-    pub(crate) dynamic: RefCell<Vec<DynamicKind>>,
+    pub dynamic: RefCell<Vec<DynamicKind>>,
 }

@@ -1,31 +1,31 @@
 //! Generalised places: `setf` and the macros that modify a place.
 
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::image::setf_expander::SetfExpander;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::image::setf_expander::SetfExpander;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A setf expansion: evaluate `values` into `temps` in order, bind `stores` to the new values, then
 /// evaluate `setter`; `getter` reads the place.
-pub(crate) struct Expansion {
+pub struct Expansion {
     /// Variables for the place's subforms.
     pub(crate) temps: Vec<Value>,
     /// The subforms.
-    pub(crate) values: Vec<Value>,
+    pub values: Vec<Value>,
     /// Variables for the new values.
     pub(crate) stores: Vec<Value>,
     /// The form that stores.
-    pub(crate) setter: Value,
+    pub setter: Value,
     /// The form that reads.
     pub(crate) getter: Value,
 }
 
 /// The setf expansion of a place.
-pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
+pub fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
         Value::Symbol(..) => {
             if let Some(inner) = symbol_macro(image, place)? {

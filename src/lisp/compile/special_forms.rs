@@ -6,12 +6,12 @@ use super::analyze::{Compiled, Compiler};
 use super::body::parse_body;
 use super::node::{Binding, Node};
 use super::scope::{DynamicKind, Entry, FunctionMeaning, Scope, Tagbody, VariableMeaning};
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::notes::NoteKind;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::{Sym, VariableKind};
+use crate::evaluator::nested;
+use crate::image::notes::NoteKind;
+use crate::print;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::{Sym, VariableKind};
 
 /// Analyses the rest of a form after its operator.
 pub(super) type SpecialForm = fn(&mut Compiler<'_>, &Value, &Scope) -> Compiled<Node>;
@@ -102,7 +102,7 @@ fn function(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node>
     }
 }
 
-fn not_a_function_name(c: &Compiler<'_>, name: &Value) -> Box<crate::lisp::Raise> {
+fn not_a_function_name(c: &Compiler<'_>, name: &Value) -> Box<crate::Raise> {
     let shown = print::to_string(c.image, name, true);
     c.program_error(format!("{shown} is not a legal function name."))
 }
@@ -565,7 +565,7 @@ fn eval_when(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node
 
 fn load_time_value(c: &mut Compiler<'_>, rest: &Value, _: &Scope) -> Compiled<Node> {
     let code = super::compile_form(c.image, &rest.car_or_nil())?;
-    let function = crate::lisp::value::function::Function::closure(code, Vec::new());
+    let function = crate::value::function::Function::closure(code, Vec::new());
     let value = nested::call_nested(c.image, Value::Function(Rc::new(function)), Vec::new())?;
     Ok(Node::Const(value))
 }

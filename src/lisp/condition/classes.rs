@@ -1,11 +1,11 @@
 //! The standard condition classes.
 
-use crate::lisp::image::Image;
-use crate::lisp::object::define::ClassDefinition;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{ClassKind, Initform, SlotDefinition};
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
+use crate::image::Image;
+use crate::object::define::ClassDefinition;
+use crate::value::Value;
+use crate::value::class::{ClassKind, Initform, SlotDefinition};
+use crate::value::known;
+use crate::value::package::PackageTable;
 
 /// One condition class.
 struct Entry {
@@ -148,7 +148,7 @@ const TABLE: &[Entry] = &[
 ];
 
 /// Defines all standard conditions in an image.
-pub(crate) fn define(image: &mut Image) {
+pub fn define(image: &mut Image) {
     for entry in TABLE {
         let name = image.class_symbol(entry.name);
         let superclasses = entry
@@ -188,7 +188,7 @@ fn slot(image: &mut Image, name: &str) -> SlotDefinition {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     #[test]
     fn a_simple_program_error_is_a_program_error_and_a_simple_condition() {

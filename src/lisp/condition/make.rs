@@ -2,27 +2,27 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::object::define::no_class;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind, Initform, Instance};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::object::define::no_class;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind, Initform, Instance};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A condition object with slots that are still waiting for their initial values.
-pub(crate) struct Draft {
-    pub(crate) condition: Rc<Instance>,
+pub struct Draft {
+    pub condition: Rc<Instance>,
     /// Positions of those slots, each with the function that computes its value.
-    pub(crate) pending: Vec<(usize, Rc<Function>)>,
+    pub pending: Vec<(usize, Rc<Function>)>,
 }
 
 /// The condition that an error in Rust code stands for.
 ///
 /// An explicit report is kept in the condition, so that it can be found again; a `SIMPLE-CONDITION`
 /// also gets it as its format control.
-pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
+pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
     let (class, text, initargs) = match raise {
         Raise::Condition { condition, .. } => return Ok(condition.clone()),
         Raise::Make {
@@ -53,7 +53,7 @@ pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
 /// A condition of a class with initargs (keywords and values in turn); initargs that the
 /// class does not know are ignored. Initial values that must be computed by a function are
 /// left to the caller.
-pub(crate) fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box<Raise>> {
+pub fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box<Raise>> {
     let class = condition_class(image, class)?;
     if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
@@ -67,17 +67,13 @@ pub(crate) fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Dra
 
 /// Like [`draft`] when nothing must be computed; slots with computed initial values stay
 /// unbound.
-pub(crate) fn make_condition(
-    image: &Image,
-    class: Sym,
-    initargs: &[Value],
-) -> Result<Value, Box<Raise>> {
+pub fn make_condition(image: &Image, class: Sym, initargs: &[Value]) -> Result<Value, Box<Raise>> {
     Ok(Value::Instance(draft(image, class, initargs)?.condition))
 }
 
 /// The report that is stored in the condition itself: that of an error in Rust code.
 #[cfg(test)]
-pub(crate) fn report(condition: &Value) -> Option<String> {
+pub fn report(condition: &Value) -> Option<String> {
     match condition {
         Value::Instance(instance) => instance.slot(known::REPORT)?.as_text(),
         _ => None,
@@ -125,7 +121,7 @@ fn fill(class: &Rc<Class>, initargs: &[(Sym, Value)]) -> Draft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     fn slot(condition: &Value, name: Sym) -> Option<Value> {
         match condition {

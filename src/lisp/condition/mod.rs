@@ -1,5 +1,5 @@
 //! Conditions: the standard classes, making objects of them, and their texts.
 
-pub(crate) mod classes;
-pub(crate) mod make;
-pub(crate) use make::{draft, make, make_condition};
+pub mod classes;
+pub mod make;
+pub use make::{draft, make, make_condition};

@@ -5,19 +5,19 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::run;
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::Value;
+use crate::value::foreign::{Foreign, PrintContext};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::symbol::Sym;
+use crate::vm::calls::run;
+use crate::vm::fiber::Dynamic;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// The state of an evaluation on top of a stopped fiber.
 #[derive(Clone, Default)]
-pub(crate) enum AsideState {
+pub enum AsideState {
     /// It is under way.
     #[default]
     Running,
@@ -31,7 +31,7 @@ pub(crate) enum AsideState {
 
 /// An evaluation on top of a stopped fiber.
 #[derive(Clone)]
-pub(crate) struct Aside {
+pub struct Aside {
     state: Rc<RefCell<AsideState>>,
     tag: Value,
 }
@@ -50,25 +50,25 @@ impl Foreign for Tag {
 
 impl Aside {
     /// An evaluation that has not begun.
-    pub(crate) fn new() -> Aside {
+    pub fn new() -> Aside {
         Aside {
             state: Rc::default(),
             tag: Value::foreign(Tag),
         }
     }
 
-    pub(crate) fn state(&self) -> AsideState {
+    pub fn state(&self) -> AsideState {
         self.state.borrow().clone()
     }
 
     /// The tag of a `catch` that the function must establish around its work.
-    pub(crate) fn tag(&self) -> Value {
+    pub fn tag(&self) -> Value {
         self.tag.clone()
     }
 
     /// A function that calls another one aside, on a fiber that has stopped at `condition`. It must
     /// be called once.
-    pub(crate) fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
+    pub fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
         let state = self.state.clone();
         let call = move |machine: &mut Machine<'_>, _| {
             let condition = condition.clone();
@@ -89,7 +89,7 @@ impl Aside {
     }
 
     /// A function that ends the evaluation from within, at any depth.
-    pub(crate) fn leave(&self) -> Value {
+    pub fn leave(&self) -> Value {
         let (state, tag) = (self.state.clone(), self.tag.clone());
         let call = move |machine: &mut Machine<'_>, _| {
             *state.borrow_mut() = AsideState::Ended;

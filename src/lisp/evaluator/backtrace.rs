@@ -3,29 +3,29 @@
 
 use std::rc::Rc;
 
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::Annotation;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::frames::{Frame, FrameKind};
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::symbol::Sym;
+use crate::vm::calls::Annotation;
+use crate::vm::fiber::Fiber;
+use crate::vm::frames::{Frame, FrameKind};
 
 /// Frames that are shown at either end of the stack.
 const MOST_AT_AN_END: usize = 5_000;
 
 /// A stack frame as the user sees it.
-pub(crate) struct FrameView {
+pub struct FrameView {
     /// Its index in the fiber, outermost first.
-    pub(crate) index: usize,
+    pub index: usize,
     /// What was called: a symbol, `(setf name)`, `(lambda …)`; a text for a builtin.
-    pub(crate) name: Value,
+    pub name: Value,
     /// The parameters that are known, in order.
-    pub(crate) arguments: Vec<Value>,
+    pub arguments: Vec<Value>,
     /// The source place that it was executing.
-    pub(crate) place: Place,
+    pub place: Place,
     /// What the layer that made the call says about it.
-    pub(crate) annotation: Option<Rc<Annotation>>,
+    pub annotation: Option<Rc<Annotation>>,
 }
 
 impl FrameView {
@@ -42,16 +42,16 @@ impl FrameView {
 }
 
 /// A variable of a frame.
-pub(crate) struct Variable {
-    pub(crate) name: Sym,
+pub struct Variable {
+    pub name: Sym,
     /// Its value; unbound for a parameter that was not supplied.
-    pub(crate) value: Value,
+    pub value: Value,
     place: VariablePlace,
 }
 
 /// Where a variable is stored.
 #[derive(Clone)]
-pub(crate) enum VariablePlace {
+pub enum VariablePlace {
     /// On the value stack, counted from its bottom.
     Stack(usize),
     /// In a closure that cannot be changed.
@@ -62,14 +62,14 @@ pub(crate) enum VariablePlace {
 
 impl Variable {
     /// Where it is stored.
-    pub(crate) fn place(&self) -> VariablePlace {
+    pub fn place(&self) -> VariablePlace {
         self.place.clone()
     }
 }
 
 impl VariablePlace {
     /// Assigns a variable of a fiber.
-    pub(crate) fn set(&self, fiber: &mut Fiber, value: Value) {
+    pub fn set(&self, fiber: &mut Fiber, value: Value) {
         match self {
             VariablePlace::Stack(at) => {
                 if let Some(place) = fiber.stack.get_mut(*at) {
@@ -84,7 +84,7 @@ impl VariablePlace {
 
 impl Fiber {
     /// The frames, innermost first; of very many, those at both ends.
-    pub(crate) fn views(&self) -> Vec<FrameView> {
+    pub fn views(&self) -> Vec<FrameView> {
         let inner = self.frames.len().saturating_sub(MOST_AT_AN_END);
         let frames = self.frames.iter().enumerate().rev();
         frames
@@ -130,7 +130,7 @@ impl Fiber {
 
     /// The function of a frame, and the arguments that would call it with the present values of its
     /// parameters; none for frames of builtins.
-    pub(crate) fn call_of(&self, frame: usize) -> Option<(Rc<Function>, Vec<Value>)> {
+    pub fn call_of(&self, frame: usize) -> Option<(Rc<Function>, Vec<Value>)> {
         let frame = self.frames.get(frame)?;
         let FrameKind::Code { function, .. } = &frame.kind else {
             return None;
@@ -159,7 +159,7 @@ impl Fiber {
     }
 
     /// The variables in scope in a frame; of several with one name, the innermost.
-    pub(crate) fn variables(&self, frame: usize) -> Vec<Variable> {
+    pub fn variables(&self, frame: usize) -> Vec<Variable> {
         let Some(frame) = self.frames.get(frame) else {
             return Vec::new();
         };

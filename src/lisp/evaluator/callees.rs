@@ -4,13 +4,13 @@
 use std::rc::Rc;
 
 use super::entry::Next;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::frames::Frame;
-use crate::lisp::vm::machine::Machine;
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::frames::Frame;
+use crate::vm::machine::Machine;
 
 impl Machine<'_> {
     /// Calls the function below the topmost arguments. Returns whether code goes on in the topmost

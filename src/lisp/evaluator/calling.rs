@@ -3,20 +3,20 @@
 use std::rc::Rc;
 
 use super::entry::Next;
-use crate::lisp::image::Image;
-use crate::lisp::native::NativeCall;
-use crate::lisp::object;
-use crate::lisp::object::dispatch::AtOnce;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Code;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::frames::{Frame, FrameKind};
-use crate::lisp::vm::machine::Machine;
+use crate::image::Image;
+use crate::native::NativeCall;
+use crate::object;
+use crate::object::dispatch::AtOnce;
+use crate::print;
+use crate::value::Value;
+use crate::value::code::Code;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::fiber::Dynamic;
+use crate::vm::frames::{Frame, FrameKind};
+use crate::vm::machine::Machine;
 
 /// The most calls that may be open at once.
 pub(super) const MOST_FRAMES: usize = 1_000_000;

@@ -3,15 +3,15 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::placing::push_made;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::fiber::{Dynamic, Handler};
-use crate::lisp::vm::frames::Frames;
-use crate::lisp::vm::machine::Machine;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::placing::push_made;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::fiber::{Dynamic, Handler};
+use crate::vm::frames::Frames;
+use crate::vm::machine::Machine;
 
 impl Machine<'_> {
     /// Pops the top value.

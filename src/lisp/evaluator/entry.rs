@@ -1,19 +1,19 @@
 //! Starting a fiber, resuming it where it stopped, and stopping it again.
 
-use crate::lisp::condition;
-use crate::lisp::guard::{Stopped, stoppable_on};
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::{Raise, is_interrupt};
-use crate::lisp::value::release;
-use crate::lisp::vm::calls::Suspended;
-use crate::lisp::vm::fiber::Target;
-use crate::lisp::vm::frames::{Frame, FrameKind};
-use crate::lisp::vm::machine::{Event, Machine};
-use crate::lisp::vm::step::Step;
+use crate::condition;
+use crate::guard::{Stopped, stoppable_on};
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::raise::{Raise, is_interrupt};
+use crate::value::release;
+use crate::vm::calls::Suspended;
+use crate::vm::fiber::Target;
+use crate::vm::frames::{Frame, FrameKind};
+use crate::vm::machine::{Event, Machine};
+use crate::vm::step::Step;
 
 /// What the machine does next.
 pub(super) enum Next {
@@ -31,13 +31,13 @@ pub(super) const INTERRUPT_INTERVAL: u32 = 256;
 
 impl Machine<'_> {
     /// Starts a call in an idle fiber and runs it.
-    pub(crate) fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
+    pub fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         self.go_on(|machine| machine.call_value(function, args, true))
     }
 
     /// Resumes the fiber with the answer to its request, or with a value in place of a failed call.
-    pub(crate) fn resume(&mut self, value: Value) -> Event {
+    pub fn resume(&mut self, value: Value) -> Event {
         self.fiber.enter(self.image);
         let value = if self.fiber.wants_all {
             value
@@ -48,7 +48,7 @@ impl Machine<'_> {
     }
 
     /// Resumes the fiber by raising an error where it made its request.
-    pub(crate) fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
+    pub fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
         self.fiber.enter(self.image);
         if let Raise::Condition { condition, .. } = &*raise {
             let calls = self.calls();
@@ -59,7 +59,7 @@ impl Machine<'_> {
 
     /// Resumes the fiber with a call on top of its stack, whose value is the answer to the request
     /// or replaces the failed call.
-    pub(crate) fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
+    pub fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let multi = self.fiber.wants_all;
         self.go_on(|machine| machine.call_value(function, args, multi))
@@ -67,7 +67,7 @@ impl Machine<'_> {
 
     /// Leaves a frame and all above it because of a condition, running cleanup code, and
     /// continues with a call in its place.
-    pub(crate) fn replace_frame(
+    pub fn replace_frame(
         &mut self,
         index: usize,
         (function, args): (Value, Vec<Value>),
@@ -79,14 +79,14 @@ impl Machine<'_> {
     }
 
     /// Continues after an interrupt.
-    pub(crate) fn run(&mut self) -> Event {
+    pub fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
         let undelivered = self.fiber.undelivered.take();
         self.go_on(|_| undelivered.map_or(Next::Run, Next::Deliver))
     }
 
     /// Unwinds the whole fiber, running its cleanup code.
-    pub(crate) fn unwind_all(&mut self) -> Event {
+    pub fn unwind_all(&mut self) -> Event {
         self.fiber.enter(self.image);
         self.fiber.undelivered = None;
         self.go_on(|machine| machine.unwind(Target::Everything, Value::NIL))
@@ -290,7 +290,7 @@ impl Machine<'_> {
     }
 
     /// The source place of the call being executed: that of the innermost frame that has one.
-    pub(crate) fn place(&self) -> Place {
+    pub fn place(&self) -> Place {
         self.fiber
             .frames
             .iter()

@@ -2,10 +2,10 @@
 //! code.
 
 use super::dynamic::establish;
-use crate::lisp::image::Image;
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::frames::Frames;
-use crate::lisp::vm::stack::Window;
+use crate::image::Image;
+use crate::vm::fiber::Dynamic;
+use crate::vm::frames::Frames;
+use crate::vm::stack::Window;
 
 /// The dynamic entries of a fiber, and its frames.
 type Entries<'a> = (&'a mut Vec<Dynamic>, &'a Frames);

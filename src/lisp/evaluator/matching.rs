@@ -1,13 +1,13 @@
 //! Does a condition match a handler's type?
 
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::types::specifier::{Answers, Stop};
-use crate::lisp::types::typep_with;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::types::specifier::{Answers, Stop};
+use crate::types::typep_with;
+use crate::value::Value;
+use crate::value::raise::Raise;
 
-pub(crate) fn is_of_type(
+pub fn is_of_type(
     image: &mut Image,
     condition: &Value,
     specifier: &Value,

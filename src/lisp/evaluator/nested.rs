@@ -1,19 +1,19 @@
 //! Calls outside any plan, such as those of macro functions, which run to completion and cannot
 //! wait.
 
-use crate::lisp::guard::Stopped;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::guard::Stopped;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::fiber::Fiber;
+use crate::vm::machine::{Event, Machine};
 
 /// The deepest nesting of macro function runs.
 const MOST_NESTED: usize = 64;
 
 /// Calls a function and runs it to completion; returns the primary value.
-pub(crate) fn call_nested(
+pub fn call_nested(
     image: &mut Image,
     function: Value,
     args: Vec<Value>,

@@ -1,10 +1,10 @@
 //! The calls that are open in a fiber, as shown to the user.
 
-use crate::lisp::image::open_call::OpenCall;
-use crate::lisp::source::Place;
-use crate::lisp::value::function::Body;
-use crate::lisp::vm::frames::FrameKind;
-use crate::lisp::vm::machine::Machine;
+use crate::image::open_call::OpenCall;
+use crate::source::Place;
+use crate::value::function::Body;
+use crate::vm::frames::FrameKind;
+use crate::vm::machine::Machine;
 
 /// The most frames that are examined.
 const MOST_FRAMES: usize = 256;

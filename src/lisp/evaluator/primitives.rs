@@ -6,13 +6,13 @@
 use std::mem::forget;
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::cons::{self, Cons};
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::stack::Window;
+use crate::value::Value;
+use crate::value::cons::{self, Cons};
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::stack::Window;
 
 impl Window<'_> {
     /// The place of the value that is pushed next.

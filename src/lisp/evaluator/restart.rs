@@ -2,29 +2,29 @@
 
 use std::cell::RefCell;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::frames::{Frame, FrameKind};
-use crate::lisp::vm::machine::Machine;
+use crate::value::Value;
+use crate::value::foreign::{Foreign, PrintContext};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::fiber::Dynamic;
+use crate::vm::frames::{Frame, FrameKind};
+use crate::vm::machine::Machine;
 
-pub(crate) struct Restart {
+pub struct Restart {
     /// Its name; `NIL` for an anonymous one.
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// The function that it calls.
-    pub(crate) function: Value,
+    pub function: Value,
     /// A string, or a function of a stream that describes it; `NIL` if there is none.
-    pub(crate) report: Value,
+    pub report: Value,
     /// A function that asks for the arguments; `NIL` if there is none.
-    pub(crate) interactive: Value,
+    pub interactive: Value,
     /// A function of a condition, or of `NIL`, that says whether it applies; `NIL` if there is none.
-    pub(crate) test: Value,
+    pub test: Value,
     /// The conditions that it belongs to.
-    pub(crate) conditions: RefCell<Vec<Value>>,
+    pub conditions: RefCell<Vec<Value>>,
 }
 
 impl Restart {
@@ -154,7 +154,7 @@ impl Machine<'_> {
     }
 
     /// The restarts in force, innermost first.
-    pub(crate) fn restarts(&self) -> Vec<Value> {
+    pub fn restarts(&self) -> Vec<Value> {
         self.fiber
             .dynamic
             .iter()

@@ -17,14 +17,14 @@ use super::exits::{enter_block, enter_catch, enter_tagbody, enter_unwind};
 use super::primitives::is_cons;
 use super::small_integers::{both_ints, int};
 use super::variables::{closure, function as function_of, setf_function, unboxed_into};
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::frames::{Frame, FrameKind};
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::value::Value;
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::number;
+use crate::value::operation::Op;
+use crate::value::symbol::FunctionCell;
+use crate::vm::frames::{Frame, FrameKind};
+use crate::vm::machine::{Event, Machine};
 
 impl Machine<'_> {
     /// `budget`: how many calls and jumps backwards there may be before the next pause.

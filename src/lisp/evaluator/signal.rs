@@ -3,19 +3,19 @@
 use std::rc::Rc;
 
 use super::entry::Next;
-use crate::lisp::condition;
-use crate::lisp::image::open_call::OpenCall;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::{Raise, is_interrupt};
-use crate::lisp::vm::computation::{Computation, Progress, compute};
-use crate::lisp::vm::fiber::{Dynamic, Handler};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::condition;
+use crate::image::open_call::OpenCall;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::raise::{Raise, is_interrupt};
+use crate::vm::computation::{Computation, Progress, compute};
+use crate::vm::fiber::{Dynamic, Handler};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// What happens when every handler has declined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Declined {
+pub enum Declined {
     /// `signal`: the call returns `NIL`.
     Return,
     /// `error`: the machine stops, with the stack as it is.
@@ -48,13 +48,11 @@ impl Machine<'_> {
             Raise::Condition { .. } => None,
         };
         let text = text.unwrap_or_else(|| "An error could not be described.".to_owned());
-        Next::Stop(crate::lisp::vm::machine::Event::Unhandled(Value::string(
-            text,
-        )))
+        Next::Stop(crate::vm::machine::Event::Unhandled(Value::string(text)))
     }
 
     /// Remembers where a condition was signalled, unless that is already known.
-    pub(crate) fn note_place(&mut self, condition: &Value, place: Place) {
+    pub fn note_place(&mut self, condition: &Value, place: Place) {
         if place.is_some() && !self.image.knows_condition_calls(condition) {
             let mut calls = self.calls();
             if calls.iter().find(|c| c.place.is_some()).map(|c| c.place) != Some(place) {
@@ -66,11 +64,7 @@ impl Machine<'_> {
     }
 
     /// The first step of signalling a condition.
-    pub(crate) fn signal(
-        &mut self,
-        condition: Value,
-        declined: Declined,
-    ) -> Result<Step, Box<Raise>> {
+    pub fn signal(&mut self, condition: Value, declined: Declined) -> Result<Step, Box<Raise>> {
         let search = Search {
             condition,
             declined,
@@ -164,7 +158,7 @@ impl Search {
     ) -> Result<Option<Value>, Box<Raise>> {
         while let Some(handler) = handlers.get(self.tried) {
             self.tried += 1;
-            if crate::lisp::evaluator::matching::is_of_type(
+            if crate::evaluator::matching::is_of_type(
                 machine.image,
                 &self.condition,
                 &handler.condition_type,

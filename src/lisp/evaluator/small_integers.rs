@@ -1,7 +1,7 @@
 //! Arithmetic with the topmost values and locals as long as they and the result are small integers.
 
-use crate::lisp::value::Value;
-use crate::lisp::vm::stack::Window;
+use crate::value::Value;
+use crate::vm::stack::Window;
 
 impl Window<'_> {
     /// Replaces the top with the result of an operation on it and a local, if both are integers and

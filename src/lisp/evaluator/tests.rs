@@ -4,13 +4,13 @@ mod answers;
 mod interrupts;
 mod recursion;
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::known;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::image::Image;
+use crate::print;
+use crate::reader;
+use crate::value::Value;
+use crate::value::symbol::known;
+use crate::vm::fiber::Fiber;
+use crate::vm::machine::{Event, Machine};
 
 fn evaluate(text: &str) -> String {
     let mut image = Image::new();

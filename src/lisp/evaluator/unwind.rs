@@ -2,14 +2,14 @@
 //! code on the way.
 
 use super::entry::Next;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::fiber::{Dynamic, Pending, Target};
-use crate::lisp::vm::frames::FrameKind;
-use crate::lisp::vm::machine::{Event, Machine};
-use crate::lisp::vm::step::Step;
+use crate::print;
+use crate::value::Value;
+use crate::value::function::Body;
+use crate::value::raise::Raise;
+use crate::vm::fiber::{Dynamic, Pending, Target};
+use crate::vm::frames::FrameKind;
+use crate::vm::machine::{Event, Machine};
+use crate::vm::step::Step;
 
 impl Machine<'_> {
     pub(super) fn return_from(&mut self, id: &Value, value: Value) -> Next {
@@ -33,7 +33,7 @@ impl Machine<'_> {
     }
 
     /// `throw`: the step that leaves the innermost catch with this tag, with a value.
-    pub(crate) fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
+    pub fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
         let target = self.catch_of(tag)?;
         Ok(Step::Unwind(target, value))
     }

@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::{Capture, Code};
-use crate::lisp::value::cycles;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::slot::Slot;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::stack::Window;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::code::{Capture, Code};
+use crate::value::cycles;
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::slot::Slot;
+use crate::value::symbol::{FunctionCell, Sym};
+use crate::vm::stack::Window;
 
 impl Window<'_> {
     /// Pushes a local.

@@ -6,7 +6,7 @@ use super::{CURRENT, Stopped, leave, look};
 
 /// A limit to the memory in use.
 #[derive(Default)]
-pub(crate) struct Heap {
+pub struct Heap {
     limit: Cell<Option<HeapLimit>>,
     /// How often the limit has been put up since more than the limit is in use.
     extensions: Cell<usize>,
@@ -27,7 +27,7 @@ const EXTENSION: usize = 16;
 
 impl Heap {
     /// Sets the limit.
-    pub(crate) fn set_limit(&self, limit: Option<HeapLimit>) {
+    pub fn set_limit(&self, limit: Option<HeapLimit>) {
         self.limit.set(limit);
         self.extensions.set(0);
     }
@@ -45,7 +45,7 @@ impl Heap {
     /// Whether so many bytes more would exceed the limit. Unlike [`Heap::would_exhaust`], this says
     /// so every time: for what multiplies, each of which would otherwise take its share of the
     /// extensions.
-    pub(crate) fn lacks_room_for(&self, more: usize) -> bool {
+    pub fn lacks_room_for(&self, more: usize) -> bool {
         let limit = self.limit.get();
         limit.is_some_and(|limit| (limit.in_use)().saturating_add(more) >= limit.bytes)
     }
@@ -74,7 +74,7 @@ impl Heap {
 
 /// The most elements that a sequence may have, so that nothing that is done with a sequence takes
 /// longer than people wait for Ctrl-C.
-pub(crate) const MOST_ELEMENTS: usize = 1 << 25;
+pub const MOST_ELEMENTS: usize = 1 << 25;
 
 /// Bytes from which on an allocation is worth a look: to fill them takes longer than that.
 const LARGE: usize = 1 << 16;

@@ -8,17 +8,19 @@
 //!
 //! Rust functions that call themselves for the parts of a form call [`descend`] first.
 
-pub(crate) mod heap;
-pub(crate) mod polls;
+pub mod heap;
+pub mod polls;
 mod stack;
 
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 
-pub(crate) use heap::{Heap, MOST_ELEMENTS, permit_length, reserve};
+pub use heap::{Heap, MOST_ELEMENTS};
+pub(crate) use heap::{permit_length, reserve};
 use polls::Polls;
-pub(crate) use stack::{TooDeep, descend, set_stack_budget};
+pub(crate) use stack::descend;
+pub use stack::{TooDeep, set_stack_budget};
 
 thread_local! {
     /// What stops the evaluation that runs on this thread.
@@ -27,16 +29,16 @@ thread_local! {
 
 /// What stops the evaluations of one image.
 #[derive(Default)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// The interrupt flag, with a count of looks at it.
-    pub(crate) polls: Polls,
+    pub polls: Polls,
     /// The memory that may be in use.
-    pub(crate) heap: Heap,
+    pub heap: Heap,
 }
 
 /// Why a Rust function was left.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Stopped {
+pub enum Stopped {
     /// The interrupt flag was set; it is no longer.
     Interrupted,
     /// More memory is in use than may be.
@@ -46,23 +48,23 @@ pub(crate) enum Stopped {
 }
 
 /// Puts limits in force on this thread until it is dropped.
-pub(crate) struct Watch(Option<Rc<Limits>>);
+pub struct Watch(Option<Rc<Limits>>);
 
 impl Limits {
     /// The same limit to the memory, and an interrupt flag of its own.
-    pub(crate) fn copied(&self) -> Limits {
+    pub fn copied(&self) -> Limits {
         let limits = Limits::default();
         limits.heap.set_limit(self.heap.limit());
         limits
     }
 
     /// Puts the limits in force on this thread.
-    pub(crate) fn watch(self: &Rc<Self>) -> Watch {
+    pub fn watch(self: &Rc<Self>) -> Watch {
         Watch(CURRENT.replace(Some(Rc::clone(self))))
     }
 
     /// Is there a reason to stop?
-    pub(crate) fn reason(&self) -> Option<Stopped> {
+    pub fn reason(&self) -> Option<Stopped> {
         if self.polls.take() {
             return Some(Stopped::Interrupted);
         }
@@ -77,24 +79,24 @@ impl Drop for Watch {
 }
 
 /// Why what runs on this thread is to stop, if it is.
-pub(crate) fn reason() -> Option<Stopped> {
+pub fn reason() -> Option<Stopped> {
     CURRENT.with_borrow(|limits| limits.as_ref()?.reason())
 }
 
 /// Leaves the calling function by unwinding if there is a reason to stop.
-pub(crate) fn look() {
+pub fn look() {
     if let Some(reason) = reason() {
         leave(reason);
     }
 }
 
 /// Leaves the calling function by unwinding.
-pub(crate) fn leave(reason: Stopped) -> ! {
+pub fn leave(reason: Stopped) -> ! {
     resume_unwind(Box::new(reason))
 }
 
 /// Runs something that may be left by unwinding.
-pub(crate) fn stoppable<T>(work: impl FnOnce() -> T) -> Result<T, Stopped> {
+pub fn stoppable<T>(work: impl FnOnce() -> T) -> Result<T, Stopped> {
     stoppable_on(&mut (), |()| work(), |()| {})
 }
 
@@ -115,15 +117,15 @@ pub(crate) fn stoppable_on<S, T>(
 
 /// Counts the steps of a walk, and looks once in a while.
 #[derive(Default)]
-pub(crate) struct Pace(usize);
+pub struct Pace(usize);
 
 /// Short steps between two looks: about a tenth of a millisecond.
-pub(crate) const STEPS: usize = 4096;
+pub const STEPS: usize = 4096;
 
 impl Pace {
     /// To be called for each step.
     #[inline]
-    pub(crate) fn step(&mut self) {
+    pub fn step(&mut self) {
         if self.is_due() {
             look();
         }
@@ -131,7 +133,7 @@ impl Pace {
 
     /// Counts a step; is it time to look?
     #[inline]
-    pub(crate) fn is_due(&mut self) -> bool {
+    pub fn is_due(&mut self) -> bool {
         self.0 += 1;
         if self.0 == STEPS {
             self.0 = 0;

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The interrupt flag, and a count of polls of it.
 #[derive(Debug, Default)]
-pub(crate) struct Polls {
+pub struct Polls {
     flag: Arc<AtomicBool>,
     count: Cell<u64>,
     seen_at: Cell<Option<u64>>,
@@ -17,37 +17,37 @@ pub(crate) struct Polls {
 
 impl Polls {
     /// Begins a new count. At the given poll, if any, the flag will be found set.
-    pub(crate) fn begin(&self, due_at: Option<u64>) {
+    pub fn begin(&self, due_at: Option<u64>) {
         self.count.set(0);
         self.seen_at.set(None);
         self.due_at.set(due_at);
     }
 
     /// After a poll at which it was due, the flag will be found set again after so many more.
-    pub(crate) fn set_again(&self, after: Option<u64>) {
+    pub fn set_again(&self, after: Option<u64>) {
         self.again.set(after);
     }
 
     /// The first poll at which the flag was set.
-    pub(crate) fn seen_at(&self) -> Option<u64> {
+    pub fn seen_at(&self) -> Option<u64> {
         self.seen_at.get()
     }
 
     /// Something else has found the flag set since the last poll: as if that poll had.
-    pub(crate) fn seen_since_last(&self) {
+    pub fn seen_since_last(&self) {
         if self.seen_at.get().is_none() {
             self.seen_at.set(Some(self.count.get()));
         }
     }
 
     /// The number of polls so far.
-    pub(crate) fn count(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.count.get()
     }
 
     /// Counts polls that something else made in an earlier run. If the flag was found set at one of
     /// them, it is set now.
-    pub(crate) fn skip(&self, polls: u64) {
+    pub fn skip(&self, polls: u64) {
         let before = self.count.get();
         let after = before.saturating_add(polls);
         self.count.set(after);
@@ -62,17 +62,17 @@ impl Polls {
     }
 
     /// Counts for another flag from now on, one that somebody else may set already.
-    pub(crate) fn use_flag(&mut self, flag: Arc<AtomicBool>) {
+    pub fn use_flag(&mut self, flag: Arc<AtomicBool>) {
         self.flag = flag;
     }
 
     /// The flag.
-    pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
+    pub fn flag(&self) -> &Arc<AtomicBool> {
         &self.flag
     }
 
     /// Polls the flag and clears it.
-    pub(crate) fn take(&self) -> bool {
+    pub fn take(&self) -> bool {
         let was_set = self.look();
         if was_set {
             self.flag.store(false, Ordering::Relaxed);
@@ -81,7 +81,7 @@ impl Polls {
     }
 
     /// Polls the flag.
-    pub(crate) fn look(&self) -> bool {
+    pub fn look(&self) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);
         let is_due = self.due_at.get() == Some(count);

@@ -13,10 +13,10 @@ thread_local! {
 
 /// The stack is used up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct TooDeep;
+pub struct TooDeep;
 
 /// Sets how many bytes of this thread's stack may be used.
-pub(crate) fn set_stack_budget(bytes: usize) {
+pub fn set_stack_budget(bytes: usize) {
     BUDGET_HERE.set(bytes);
 }
 

@@ -11,9 +11,9 @@ use super::input::Input;
 use super::output::Output;
 use super::setf_expander::SetfExpander;
 use super::signalled::Signalled;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::{Copied, Copier};
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::copy::{Copied, Copier};
+use crate::value::symbol::Sym;
 
 impl Image {
     /// A copy, if there can be one: nothing runs in the image, no file is being written, and nothing
@@ -23,7 +23,7 @@ impl Image {
     /// # Errors
     ///
     /// What a copy cannot have.
-    pub(crate) fn copied<T>(
+    pub fn copied<T>(
         &self,
         copy: impl FnOnce(&mut Copier) -> T,
     ) -> Result<(Image, T), &'static str> {

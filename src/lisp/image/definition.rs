@@ -4,22 +4,22 @@ use std::rc::Rc;
 use std::sync::OnceLock;
 
 use super::Image;
-use crate::lisp::source::SourceId;
-use crate::lisp::value::copy::{Copied, Copier};
-use crate::lisp::value::function::{Deferred, Function};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::source::SourceId;
+use crate::value::copy::{Copied, Copier};
+use crate::value::function::{Deferred, Function};
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A file of the library.
-pub(crate) struct File {
+pub struct File {
     /// Its path in the source of the program.
-    pub(crate) name: &'static str,
-    pub(crate) text: &'static str,
+    pub name: &'static str,
+    pub text: &'static str,
 }
 
 /// What a definition defines.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A function.
     Function,
     /// A macro.
@@ -31,22 +31,22 @@ pub(crate) enum Kind {
 }
 
 /// A form at top level of a file of the library.
-pub(crate) struct Definition {
-    pub(crate) file: &'static File,
+pub struct Definition {
+    pub file: &'static File,
     /// Its first byte in the file.
-    pub(crate) start: usize,
+    pub start: usize,
     /// The byte after it; blanks and comments that follow it are included.
-    pub(crate) end: usize,
+    pub end: usize,
     /// The line on which it begins, from one.
-    pub(crate) line: usize,
+    pub line: usize,
     /// The package in which it is read, in upper case.
     pub(crate) reading_package: String,
     /// The package of its name, in upper case.
-    pub(crate) package: String,
+    pub package: String,
     /// Its name, in upper case.
-    pub(crate) name: String,
+    pub name: String,
     /// What it defines.
-    pub(crate) kind: Kind,
+    pub kind: Kind,
     signature: OnceLock<Signature>,
 }
 
@@ -56,20 +56,20 @@ pub(crate) type Compile =
 
 /// What an image keeps of the library.
 #[derive(Default)]
-pub(crate) struct Installed {
+pub struct Installed {
     /// The definitions, by number.
-    pub(crate) definitions: Vec<&'static Definition>,
+    pub definitions: Vec<&'static Definition>,
     /// The files that have been read from, by name.
-    pub(crate) sources: Vec<(&'static str, SourceId)>,
+    pub sources: Vec<(&'static str, SourceId)>,
     /// Those that have been compiled, by number.
     compiled: Vec<Option<Rc<Function>>>,
     /// How a definition is compiled.
-    pub(crate) compile: Option<Compile>,
+    pub compile: Option<Compile>,
 }
 
 impl Image {
     /// The function of a definition; compiles it unless that has already happened.
-    pub(crate) fn force(&mut self, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
+    pub fn force(&mut self, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
         if let Some(Some(function)) = self.library.compiled.get(deferred.number) {
             return Ok(function.clone());
         }
@@ -101,13 +101,13 @@ impl Copied for Installed {
 
 /// What the text of a definition tells the user.
 #[derive(Default, Debug)]
-pub(crate) struct Signature {
+pub struct Signature {
     /// The lambda list, without its parentheses.
-    pub(crate) lambda_list: String,
+    pub lambda_list: String,
     /// The docstring on one line, without the examples.
-    pub(crate) doc: String,
+    pub doc: String,
     /// The examples in the docstring.
-    pub(crate) examples: Vec<String>,
+    pub examples: Vec<String>,
 }
 
 /// The line of a docstring that introduces its examples.
@@ -115,7 +115,7 @@ const EXAMPLES: &str = "Examples:";
 
 impl Definition {
     /// A form that has no name yet.
-    pub(crate) fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
+    pub fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
         Definition {
             file,
             start,
@@ -130,22 +130,22 @@ impl Definition {
     }
 
     /// The text, starting with its opening parenthesis.
-    pub(crate) fn text(&self) -> &'static str {
+    pub fn text(&self) -> &'static str {
         self.file.text.get(self.start..self.end).unwrap_or("")
     }
 
     /// The location in the form `file:line`.
-    pub(crate) fn location(&self) -> String {
+    pub fn location(&self) -> String {
         format!("{}:{}", self.file.name, self.line)
     }
 
     /// Is it a helper for the library only?
-    pub(crate) fn is_helper(&self) -> bool {
+    pub fn is_helper(&self) -> bool {
         self.name.starts_with('%')
     }
 
     /// Lambda list, documentation and examples.
-    pub(crate) fn signature(&self) -> &Signature {
+    pub fn signature(&self) -> &Signature {
         self.signature.get_or_init(|| read_signature(self.text()))
     }
 }

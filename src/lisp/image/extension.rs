@@ -4,17 +4,17 @@ use std::any::Any;
 use std::rc::Rc;
 
 use super::Image;
-use crate::lisp::value::copy::Copier;
+use crate::value::copy::Copier;
 
 /// A value that a layer above the language keeps in the image.
-pub(crate) trait Extension: Any {
+pub trait Extension: Any {
     /// The value for a copy of the image; what there cannot be, it refuses.
     fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension>;
 }
 
 impl Image {
     /// Keeps a value of a layer above the language, replacing any value of the same type.
-    pub(crate) fn extend<T: Extension>(&mut self, value: T) -> Rc<T> {
+    pub fn extend<T: Extension>(&mut self, value: T) -> Rc<T> {
         let value = Rc::new(value);
         self.extensions.retain(|kept| {
             let kept: &dyn Any = kept.as_ref();
@@ -25,7 +25,7 @@ impl Image {
     }
 
     /// The value of a layer above the language, found by its type.
-    pub(crate) fn extension<T: Extension>(&self) -> Option<Rc<T>> {
+    pub fn extension<T: Extension>(&self) -> Option<Rc<T>> {
         self.extensions.iter().find_map(|kept| {
             let kept: Rc<dyn Any> = kept.clone();
             kept.downcast().ok()

@@ -7,14 +7,14 @@ use std::collections::HashMap;
 use std::rc::{Rc, Weak};
 
 use super::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::ForeignBox;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::hash_table::HashTable;
-use crate::lisp::value::stream::Stream;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::class::Instance;
+use crate::value::copy::Copier;
+use crate::value::foreign::ForeignBox;
+use crate::value::function::Function;
+use crate::value::hash_table::HashTable;
+use crate::value::stream::Stream;
 
 /// The first number.
 const FIRST: u64 = 0x10_0100_0000;
@@ -69,7 +69,7 @@ fn address<T>(object: &Rc<T>) -> usize {
 
 /// The numbers assigned to objects of an image.
 #[derive(Default)]
-pub(crate) struct Identities {
+pub struct Identities {
     /// By address; an address may have been used again, so the object is held weakly.
     entries: HashMap<usize, (u64, Held)>,
     given: u64,
@@ -95,7 +95,7 @@ impl Identities {
     }
 
     /// How many numbers have been assigned so far.
-    pub(crate) fn given(&self) -> u64 {
+    pub fn given(&self) -> u64 {
         self.given
     }
 
@@ -123,7 +123,7 @@ impl Identities {
 }
 
 /// The made-up address of an object, in braces: the same one whenever it is printed.
-pub(crate) fn identity(image: &Image, value: &Value) -> String {
+pub fn identity(image: &Image, value: &Value) -> String {
     match image.printed.borrow_mut().number(value) {
         Some(number) => format!("{{{number:010X}}}"),
         None => "{…}".to_owned(),
@@ -132,7 +132,7 @@ pub(crate) fn identity(image: &Image, value: &Value) -> String {
 
 /// Prints something that is shown beside the session, such as a completion. Objects get no numbers
 /// from that, so that the session's own output does not depend on it.
-pub(crate) fn aside<T>(image: &Image, print: impl FnOnce() -> T) -> T {
+pub fn aside<T>(image: &Image, print: impl FnOnce() -> T) -> T {
     let was_aside = std::mem::replace(&mut image.printed.borrow_mut().is_aside, true);
     let printed = print();
     image.printed.borrow_mut().is_aside = was_aside;

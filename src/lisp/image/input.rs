@@ -3,15 +3,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::lisp::guard;
+use crate::guard;
 
 /// Asks a person for text. It is given what the program has written and nobody has been shown yet;
 /// it returns `None` at the end of all input, and when it is interrupted.
-pub(crate) type Source = dyn Fn(&str) -> Option<String>;
+pub type Source = dyn Fn(&str) -> Option<String>;
 
 /// Standard input. Without a source it is always at its end.
 #[derive(Default)]
-pub(crate) struct Input {
+pub struct Input {
     /// What was typed and has not been read.
     unread: RefCell<String>,
     source: RefCell<Option<Rc<Source>>>,
@@ -19,14 +19,14 @@ pub(crate) struct Input {
 
 impl Input {
     /// Sets who is asked.
-    pub(crate) fn set_source(&self, source: Option<Rc<Source>>) {
+    pub fn set_source(&self, source: Option<Rc<Source>>) {
         self.source.replace(source);
         self.unread.take();
     }
 
     /// Asks for more text; returns whether there is any. An interrupt leaves the calling function by
     /// unwinding.
-    pub(crate) fn ask(&self, written: &str) -> bool {
+    pub fn ask(&self, written: &str) -> bool {
         let source = self.source.borrow().clone();
         let typed = source.and_then(|source| source(written));
         guard::look();
@@ -36,7 +36,7 @@ impl Input {
     }
 
     /// What was typed and has not been read; asks if there is nothing.
-    pub(crate) fn text(&self, written: &str) -> String {
+    pub fn text(&self, written: &str) -> String {
         if self.unread.borrow().is_empty() {
             self.ask(written);
         }
@@ -49,7 +49,7 @@ impl Input {
     }
 
     /// Records that so many bytes were read; returns how many there are not.
-    pub(crate) fn advance(&self, bytes: usize) -> usize {
+    pub fn advance(&self, bytes: usize) -> usize {
         let mut unread = self.unread.borrow_mut();
         let read = bytes.min(unread.len());
         if unread.is_char_boundary(read) {
@@ -59,7 +59,7 @@ impl Input {
     }
 
     /// Puts a character back.
-    pub(crate) fn put_back(&self, c: char) {
+    pub fn put_back(&self, c: char) {
         self.unread.borrow_mut().insert(0, c);
     }
 }

@@ -1,15 +1,15 @@
 //! One Lisp image: the meanings of all global names.
 
 mod copy;
-pub(crate) mod definition;
-pub(crate) mod extension;
-pub(crate) mod identity;
-pub(crate) mod input;
-pub(crate) mod notes;
-pub(crate) mod open_call;
+pub mod definition;
+pub mod extension;
+pub mod identity;
+pub mod input;
+pub mod notes;
+pub mod open_call;
 mod output;
 pub(crate) mod setf_expander;
-pub(crate) mod signalled;
+pub mod signalled;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -23,7 +23,7 @@ use self::extension::Extension;
 use self::identity::Identities;
 use self::input::Input;
 use self::notes::{Note, NoteKind};
-pub(crate) use self::output::Output;
+pub use self::output::Output;
 use self::setf_expander::SetfExpander;
 use self::signalled::Signalled;
 use super::builtin::{Builtin, Entry, Expander, Operator};
@@ -40,50 +40,50 @@ use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
 
-pub(crate) struct Image {
+pub struct Image {
     /// All symbols.
-    pub(crate) symbols: SymbolTable,
+    pub symbols: SymbolTable,
     /// All packages.
-    pub(crate) packages: PackageTable,
+    pub packages: PackageTable,
     /// Classes by name, in order of definition.
-    pub(crate) classes: IndexMap<Sym, Rc<Class>>,
+    pub classes: IndexMap<Sym, Rc<Class>>,
     /// Expanders of `deftype`, by name.
-    pub(crate) types: IndexMap<Sym, Rc<Function>>,
+    pub types: IndexMap<Sym, Rc<Function>>,
     /// What names of `deftype` stand for by themselves, without arguments.
     pub(crate) type_names: IndexMap<Sym, Value>,
     /// Source texts and places.
-    pub(crate) sources: Sources,
+    pub sources: Sources,
     /// Text written to standard output that has not been taken yet.
-    pub(crate) output: Output,
+    pub output: Output,
     /// Where standard input comes from.
-    pub(crate) input: Input,
+    pub input: Input,
     /// Seed and state of `random`.
-    pub(crate) random: rand_pcg::Pcg64,
+    pub random: rand_pcg::Pcg64,
     /// How `setf` treats operators that have an expander instead of a setf function.
     pub(crate) setf_expanders: IndexMap<Sym, SetfExpander>,
     /// What ends an evaluation from outside.
-    pub(crate) limits: Rc<Limits>,
+    pub limits: Rc<Limits>,
     /// What the compiler notices; `None` unless notes are wanted.
-    pub(crate) notes: Option<Vec<Note>>,
+    pub notes: Option<Vec<Note>>,
     /// The environment of the macro call that is being expanded.
-    pub(crate) environment: Value,
+    pub environment: Value,
     /// How deeply runs of macro functions are nested.
-    pub(crate) nesting: usize,
+    pub nesting: usize,
     /// Are all values of the builtin that runs wanted? It may leave out all but the first one if not.
     pub(crate) wants_all: bool,
     signalled: Signalled,
     identities: i64,
     /// What the tables say about functions, macros and special operators, by name: calls, help,
     /// completion, the manual and the test of the examples read this one table.
-    pub(crate) entries: IndexMap<Sym, Entry>,
+    pub entries: IndexMap<Sym, Entry>,
     /// The part of the language that is written in Lisp.
-    pub(crate) library: Installed,
+    pub library: Installed,
     /// The package that receives symbols unknown to the current package, if not that package.
     pub(crate) new_symbols: Option<PackageId>,
     /// The Rust functions of builtins, by number.
     pub(super) natives: Vec<BuiltinCall>,
     /// Made-up addresses of objects that were printed.
-    pub(crate) printed: RefCell<Identities>,
+    pub printed: RefCell<Identities>,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Extension>>,
 }
@@ -137,23 +137,23 @@ impl Image {
     }
 
     /// The interrupt flag: set from outside to stop the machine.
-    pub(crate) fn interrupt(&self) -> &Arc<AtomicBool> {
+    pub fn interrupt(&self) -> &Arc<AtomicBool> {
         self.limits.polls.flag()
     }
 
     /// How often has the flag been looked at? Counts the same in every run, so that an
     /// interrupt can be repeated.
-    pub(crate) fn polls(&self) -> &Polls {
+    pub fn polls(&self) -> &Polls {
         &self.limits.polls
     }
 
     /// Is the interrupt flag set?
-    pub(crate) fn is_interrupted(&self) -> bool {
+    pub fn is_interrupted(&self) -> bool {
         self.limits.polls.look()
     }
 
     /// Was the interrupt flag set? Clears it.
-    pub(crate) fn take_interrupt(&self) -> bool {
+    pub fn take_interrupt(&self) -> bool {
         self.limits.polls.take()
     }
 
@@ -179,7 +179,7 @@ impl Image {
     }
 
     /// Takes a note about a form, if notes are wanted.
-    pub(crate) fn note(&mut self, place: Place, kind: impl FnOnce() -> NoteKind) {
+    pub fn note(&mut self, place: Place, kind: impl FnOnce() -> NoteKind) {
         if let Some(notes) = &mut self.notes {
             let kind = kind();
             notes.push(Note { place, kind });
@@ -187,7 +187,7 @@ impl Image {
     }
 
     /// Seeds `random`.
-    pub(crate) fn seed(&mut self, seed: u64) {
+    pub fn seed(&mut self, seed: u64) {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
@@ -208,10 +208,7 @@ impl Image {
     }
 
     /// The function that a function object or a symbol designates.
-    pub(crate) fn coerce_to_function(
-        &self,
-        designator: &Value,
-    ) -> Result<Rc<Function>, Box<Raise>> {
+    pub fn coerce_to_function(&self, designator: &Value) -> Result<Rc<Function>, Box<Raise>> {
         match designator {
             Value::Function(f) => Ok(f.clone()),
             Value::Symbol(sym, ..) => match &self.symbols.get(*sym).function {
@@ -235,50 +232,50 @@ impl Image {
 
     /// The data of a symbol.
     #[inline]
-    pub(crate) fn symbol(&self, sym: Sym) -> &SymbolData {
+    pub fn symbol(&self, sym: Sym) -> &SymbolData {
         self.symbols.get(sym)
     }
 
     /// A symbol's name.
-    pub(crate) fn name(&self, sym: Sym) -> &str {
+    pub fn name(&self, sym: Sym) -> &str {
         &self.symbols.get(sym).name
     }
 
     /// The value of a special variable as the running fiber sees it.
     #[inline]
-    pub(crate) fn special(&self, sym: Sym) -> &Value {
+    pub fn special(&self, sym: Sym) -> &Value {
         &self.symbols.get(sym).value
     }
 
     /// Assigns a special variable.
-    pub(crate) fn set_special(&mut self, sym: Sym, value: Value) {
+    pub fn set_special(&mut self, sym: Sym, value: Value) {
         self.symbols.get_mut(sym).value = value;
     }
 
     /// The symbol `name` of a package, created if necessary.
-    pub(crate) fn intern(&mut self, package: PackageId, name: &str) -> Sym {
+    pub fn intern(&mut self, package: PackageId, name: &str) -> Sym {
         self.packages.intern(&mut self.symbols, package, name)
     }
 
     /// The keyword of that name.
-    pub(crate) fn keyword(&mut self, name: &str) -> Sym {
+    pub fn keyword(&mut self, name: &str) -> Sym {
         self.intern(PackageTable::KEYWORD, name)
     }
 
     /// The symbol of that name in the named package, exported; the package must exist.
-    pub(crate) fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
+    pub fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
         let sym = self.intern(package, name);
         self.packages.export(&mut self.symbols, package, sym);
         sym
     }
 
     /// Is the symbol a keyword?
-    pub(crate) fn is_keyword(&self, sym: Sym) -> bool {
+    pub fn is_keyword(&self, sym: Sym) -> bool {
         self.symbols.get(sym).package == Some(PackageTable::KEYWORD)
     }
 
     /// The value of `*package*`.
-    pub(crate) fn current_package(&self) -> PackageId {
+    pub fn current_package(&self) -> PackageId {
         match self.special(known::V_PACKAGE) {
             Value::Package(id) => *id,
             _ => PackageTable::USER,
@@ -294,7 +291,7 @@ impl Image {
     }
 
     /// How the symbol is accessible in its home package.
-    pub(crate) fn home_access(&self, sym: Sym) -> Option<Access> {
+    pub fn home_access(&self, sym: Sym) -> Option<Access> {
         let data = self.symbols.get(sym);
         self.packages
             .find_symbol(data.package?, &data.name)
@@ -302,12 +299,12 @@ impl Image {
     }
 
     /// An uninterned symbol, which stays.
-    pub(crate) fn make_symbol(&mut self, name: &str) -> Sym {
+    pub fn make_symbol(&mut self, name: &str) -> Sym {
         self.symbols.make(name.into())
     }
 
     /// An uninterned symbol with a fresh number, which stays: `G123`.
-    pub(crate) fn gensym(&mut self, prefix: &str) -> Sym {
+    pub fn gensym(&mut self, prefix: &str) -> Sym {
         let name = self.fresh_name(prefix);
         self.make_symbol(&name)
     }
@@ -332,12 +329,12 @@ impl Image {
     }
 
     /// Sets a symbol's global function.
-    pub(crate) fn set_function(&mut self, sym: Sym, function: Rc<Function>) {
+    pub fn set_function(&mut self, sym: Sym, function: Rc<Function>) {
         self.symbols.get_mut(sym).function = FunctionCell::Function(function);
     }
 
     /// The global function of a symbol.
-    pub(crate) fn function(&self, sym: Sym) -> Option<&Rc<Function>> {
+    pub fn function(&self, sym: Sym) -> Option<&Rc<Function>> {
         match &self.symbols.get(sym).function {
             FunctionCell::Function(f) => Some(f),
             _ => None,
@@ -345,7 +342,7 @@ impl Image {
     }
 
     /// Makes a symbol a special variable and gives it a value.
-    pub(crate) fn define_special(&mut self, sym: Sym, value: Value) {
+    pub fn define_special(&mut self, sym: Sym, value: Value) {
         let data = self.symbols.get_mut(sym);
         data.kind = VariableKind::Special;
         data.value = value;
@@ -359,7 +356,7 @@ impl Image {
     }
 
     /// Installs the builtins of a table as exported functions of a package.
-    pub(crate) fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
+    pub fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
         for builtin in table {
             let sym = self.export_symbol(package, builtin.name);
             let function = builtin.function(self, sym);
@@ -370,7 +367,7 @@ impl Image {
 
     /// Installs the functions of a table as the functions that `setf` calls for places with those
     /// names; the new value is their first argument.
-    pub(crate) fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
+    pub fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
         for setter in table {
             let sym = self.export_symbol(package, setter.name);
             let function = setter.function(self, sym);
@@ -379,7 +376,7 @@ impl Image {
     }
 
     /// Installs the macros and special operators of a table, exported from a package.
-    pub(crate) fn install_operators(&mut self, package: PackageId, table: &'static [Operator]) {
+    pub fn install_operators(&mut self, package: PackageId, table: &'static [Operator]) {
         for operator in table {
             let sym = self.export_symbol(package, operator.name);
             self.symbols.get_mut(sym).function = FunctionCell::Builtin;
@@ -388,7 +385,7 @@ impl Image {
     }
 
     /// The macro written in Rust, or the special operator, with this name.
-    pub(crate) fn operator(&self, name: Sym) -> Option<&'static Operator> {
+    pub fn operator(&self, name: Sym) -> Option<&'static Operator> {
         match self.entries.get(&name)? {
             Entry::Operator(operator) => Some(operator),
             Entry::Builtin(_) | Entry::Library(_) => None,
@@ -396,7 +393,7 @@ impl Image {
     }
 
     /// What the tables say about a name, unless a program has given it another meaning.
-    pub(crate) fn entry(&self, name: Sym) -> Option<Entry> {
+    pub fn entry(&self, name: Sym) -> Option<Entry> {
         let entry = *self.entries.get(&name)?;
         let is_current = match (&self.symbol(name).function, entry) {
             (FunctionCell::Builtin, Entry::Operator(_)) => true,
@@ -412,7 +409,7 @@ impl Image {
     }
 
     /// The class of that name.
-    pub(crate) fn class(&self, name: Sym) -> Option<&Rc<Class>> {
+    pub fn class(&self, name: Sym) -> Option<&Rc<Class>> {
         self.classes.get(&name)
     }
 }

@@ -2,24 +2,24 @@
 //! for checks. Notes are taken only while [`Image::notes`] is set, and never change what is
 //! compiled.
 //!
-//! [`Image::notes`]: crate::lisp::image::Image::notes
+//! [`Image::notes`]: crate::image::Image::notes
 
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::Sym;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::symbol::Sym;
 
 /// Something that was noticed.
 #[derive(Clone)]
-pub(crate) struct Note {
+pub struct Note {
     /// The innermost form with a place.
-    pub(crate) place: Place,
+    pub place: Place,
     /// What it is.
-    pub(crate) kind: NoteKind,
+    pub kind: NoteKind,
 }
 
 /// What was noticed.
 #[derive(Clone)]
-pub(crate) enum NoteKind {
+pub enum NoteKind {
     /// A global function is called with this many arguments or, without a number, only named.
     Function(Sym, Option<usize>),
     /// A name is read as a global variable; the second name is the closest bound one.

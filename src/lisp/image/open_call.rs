@@ -1,13 +1,13 @@
 //! The calls in which a condition was signalled, as shown to the user.
 
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
+use crate::source::Place;
+use crate::value::Value;
 
 /// A call that has not returned.
 #[derive(Clone)]
-pub(crate) struct OpenCall {
+pub struct OpenCall {
     /// The source place that it was executing; none for a builtin.
-    pub(crate) place: Place,
+    pub place: Place,
     /// What the call is about, if the layer that made it says so.
-    pub(crate) subject: Option<Value>,
+    pub subject: Option<Value>,
 }

@@ -2,7 +2,7 @@
 
 /// Standard output: text in order, and the column where the next character goes.
 #[derive(Default)]
-pub(crate) struct Output {
+pub struct Output {
     text: String,
     column: usize,
     /// Is there somebody who shows what is written, line by line?
@@ -25,7 +25,7 @@ impl Output {
     }
 
     /// Writes a text.
-    pub(crate) fn write(&mut self, text: &str) {
+    pub fn write(&mut self, text: &str) {
         if self.instead.is_some() {
             return;
         }
@@ -40,66 +40,66 @@ impl Output {
     }
 
     /// Starts a new line unless at the start of one.
-    pub(crate) fn fresh_line(&mut self) {
+    pub fn fresh_line(&mut self) {
         if self.column > 0 {
             self.write("\n");
         }
     }
 
     /// Records that what is written next starts a line.
-    pub(crate) fn begin_line(&mut self) {
+    pub fn begin_line(&mut self) {
         self.column = 0;
     }
 
     /// Number of characters on the current line.
-    pub(crate) fn column(&self) -> usize {
+    pub fn column(&self) -> usize {
         self.column
     }
 
     /// Number of bytes that have been written and not been taken.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.text.len()
     }
 
     /// What has been written and has not been taken.
-    pub(crate) fn pending(&self) -> &str {
+    pub fn pending(&self) -> &str {
         &self.text
     }
 
     /// What has been written since there were so many bytes, if nothing has been taken since.
-    pub(crate) fn written_since(&self, len: usize) -> Option<&str> {
+    pub fn written_since(&self, len: usize) -> Option<&str> {
         self.text.get(len..)
     }
 
     /// If something is given, what is written from now on is dropped, and that is what is going on
     /// instead; returns what was given before.
-    pub(crate) fn mute(&mut self, instead: Option<String>) -> Option<String> {
+    pub fn mute(&mut self, instead: Option<String>) -> Option<String> {
         std::mem::replace(&mut self.instead, instead)
     }
 
     /// What is going on while what is written is dropped.
-    pub(crate) fn instead(&self) -> Option<&str> {
+    pub fn instead(&self) -> Option<&str> {
         self.instead.as_deref()
     }
 
     /// Sets whether somebody shows what is written as soon as it is due.
-    pub(crate) fn set_shown(&mut self, is_shown: bool) -> bool {
+    pub fn set_shown(&mut self, is_shown: bool) -> bool {
         std::mem::replace(&mut self.is_shown, is_shown)
     }
 
     /// What has been written is to be shown now.
-    pub(crate) fn finish(&mut self) {
+    pub fn finish(&mut self) {
         self.is_due = !self.text.is_empty();
     }
 
     /// Has somebody to show now what has been written?
     #[inline]
-    pub(crate) fn is_due(&self) -> bool {
+    pub fn is_due(&self) -> bool {
         self.is_due && self.is_shown
     }
 
     /// Takes what was written.
-    pub(crate) fn take(&mut self) -> String {
+    pub fn take(&mut self) -> String {
         self.is_due = false;
         std::mem::take(&mut self.text)
     }

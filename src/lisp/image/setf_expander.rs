@@ -1,7 +1,7 @@
 //! How `setf` treats an operator, as defined by a program.
 
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::symbol::Sym;
 
 /// How `setf` of a form with a certain operator is expanded if there is no function `(setf name)`.
 #[derive(Clone)]

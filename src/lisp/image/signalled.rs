@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::Image;
 use super::open_call::OpenCall;
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// The number of conditions whose calls are remembered.
 const REMEMBERED: usize = 64;
@@ -25,16 +25,16 @@ pub(super) struct Signalled {
 /// The condition because of which stack frames are being left, if there is one; for code that
 /// notices the end of a call when it has no image at hand.
 #[derive(Clone, Default)]
-pub(crate) struct Leaving(Rc<RefCell<Option<Value>>>);
+pub struct Leaving(Rc<RefCell<Option<Value>>>);
 
 impl Leaving {
     /// The condition.
-    pub(crate) fn cause(&self) -> Option<Value> {
+    pub fn cause(&self) -> Option<Value> {
         self.0.borrow().clone()
     }
 
     /// Frames are left because of the condition from now on, or none are.
-    pub(crate) fn set(&self, condition: Option<Value>) {
+    pub fn set(&self, condition: Option<Value>) {
         self.0.replace(condition);
     }
 }
@@ -68,13 +68,13 @@ impl Image {
 
     /// The calls that were open where a condition was signalled, innermost first; none if
     /// that is not known.
-    pub(crate) fn condition_calls(&self, condition: &Value) -> Vec<OpenCall> {
+    pub fn condition_calls(&self, condition: &Value) -> Vec<OpenCall> {
         let calls = self.signalled.calls(condition);
         calls.map_or_else(Vec::new, |calls| calls.borrow().clone())
     }
 
     /// What tells why stack frames are being left.
-    pub(crate) fn leaving(&self) -> Leaving {
+    pub fn leaving(&self) -> Leaving {
         self.signalled.leaving.clone()
     }
 
@@ -95,7 +95,7 @@ impl Image {
 
     /// Another condition, the envelope, carries this one on: what is known about its calls, and
     /// what becomes known later, holds for both.
-    pub(crate) fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
+    pub fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
         if let Some(calls) = self.signalled.calls(condition).cloned() {
             self.signalled.remember(envelope, calls);
         }

@@ -8,15 +8,15 @@ use std::rc::Rc;
 
 use super::definition::{Definition, Kind};
 use super::standard_value;
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::reader::Reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::reader::Reader;
+use crate::value::Value;
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// Evaluates a definition, takes the function that it defines, and restores the meaning of its
 /// name, which a program may have redefined in the meantime.

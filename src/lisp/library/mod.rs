@@ -31,7 +31,7 @@
 //! An error in a definition fails the test that compiles all of them
 //! (`tests/language/library.rs`).
 
-pub(crate) mod deferred;
+pub mod deferred;
 mod index;
 
 use std::rc::Rc;
@@ -39,7 +39,7 @@ use std::sync::LazyLock;
 
 use definition::{Definition, File, Kind};
 
-pub(crate) use super::image::definition;
+pub use super::image::definition;
 
 use super::builtin::Entry;
 use super::condition;
@@ -52,23 +52,25 @@ use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym};
 
 /// The definitions of one layer, found once per process.
-pub(crate) struct Library {
+pub struct Library {
     /// What is compiled when it is first called.
-    pub(crate) definitions: Vec<Definition>,
+    pub definitions: Vec<Definition>,
     /// Other forms: what an image evaluates when it is made.
-    pub(crate) forms: Vec<Definition>,
+    pub forms: Vec<Definition>,
 }
 
 /// One file in the list of a layer.
-macro_rules! library_file {
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __library_file {
     ($folder:literal, $name:literal) => {
-        $crate::lisp::library::definition::File {
+        $crate::library::definition::File {
             name: concat!($folder, "/", $name),
             text: include_str!($name),
         }
     };
 }
-pub(crate) use library_file;
+pub use __library_file as library_file;
 
 /// The files of Common Lisp and alexandria, in the order of the standard's chapters.
 static FILES: &[File] = &[
@@ -114,11 +116,11 @@ static FILES: &[File] = &[
 ];
 
 /// The library of the language without robots.
-pub(crate) static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::of(FILES));
+pub static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::of(FILES));
 
 impl Library {
     /// Finds the definitions in files.
-    pub(crate) fn of(files: &'static [File]) -> Library {
+    pub fn of(files: &'static [File]) -> Library {
         let mut library = Library {
             definitions: Vec::new(),
             forms: Vec::new(),
@@ -132,7 +134,7 @@ impl Library {
 
 /// Makes the names of a library known in an image, and evaluates its other forms. The
 /// packages of its files must exist.
-pub(crate) fn install(image: &mut Image, library: &'static Library) {
+pub fn install(image: &mut Image, library: &'static Library) {
     image.library.compile = Some(deferred::compile);
     for definition in &library.definitions {
         install_definition(image, definition);
@@ -185,7 +187,7 @@ fn symbol(image: &mut Image, definition: &Definition) -> Option<Sym> {
 }
 
 /// The definition of a function or macro of the library, or none.
-pub(crate) fn definition_of(image: &Image, function: &Function) -> Option<&'static Definition> {
+pub fn definition_of(image: &Image, function: &Function) -> Option<&'static Definition> {
     let number = function.as_deferred()?.number;
     image.library.definitions.get(number).copied()
 }

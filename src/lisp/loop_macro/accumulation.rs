@@ -4,9 +4,9 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Accumulator, Building, Plan};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// How a clause adds to a result.
 #[derive(Clone, Copy)]

@@ -2,9 +2,9 @@
 
 use super::parser::Parser;
 use super::plan::{Accumulator, Assignment, Plan};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// The most variables in a tree.
 const MAX_VARIABLES: usize = 10_000;

@@ -6,9 +6,9 @@ use super::iteration;
 use super::parser::Parser;
 use super::plan::{Plan, Step};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Words that begin a clause, for messages.
 const CLAUSES: &[&str] = &[

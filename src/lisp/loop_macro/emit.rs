@@ -2,9 +2,9 @@
 
 use super::assign;
 use super::plan::{Accumulator, Assignment, Building, Plan, Step};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
 
 fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Value {
     let args: Vec<Value> = args.into_iter().collect();

@@ -4,9 +4,9 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Assignment, Plan, Step};
 use super::support;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Words that may follow the variable of a `for` clause.
 const AFTER_VARIABLE: &[&str] = &[

@@ -16,9 +16,9 @@ mod support;
 use self::parser::Parser;
 use super::value::known;
 use super::value::raise::Raise;
-use crate::lisp::builtin::Operator;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
+use crate::builtin::Operator;
+use crate::image::Image;
+use crate::value::Value;
 
 pub(crate) use support::SYSTEM_TABLE;
 

@@ -1,15 +1,15 @@
 //! Reading the forms of a `loop` from left to right.
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader::nearest;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::image::Image;
+use crate::print;
+use crate::reader::nearest;
+use crate::value::Value;
+use crate::value::raise::Raise;
 
 /// The forms of a loop, and how many have been read.
 pub(crate) struct Parser<'a> {
     /// The image: names of symbols, fresh variables.
-    pub(crate) image: &'a mut Image,
+    pub image: &'a mut Image,
     forms: Vec<Value>,
     position: usize,
 }

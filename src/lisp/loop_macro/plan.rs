@@ -1,6 +1,6 @@
 //! What a clause loop does, according to its clauses.
 
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// A variable, or a tree of variables, and the form whose value it gets.
 pub(crate) type Assignment = (Value, Value);
@@ -10,9 +10,9 @@ pub(crate) type Assignment = (Value, Value);
 #[derive(Clone, Default)]
 pub(crate) struct Step {
     /// Forms that end the loop when they are true, before anything is assigned.
-    pub(crate) tests: Vec<Value>,
+    pub tests: Vec<Value>,
     /// What the user's variables get.
-    pub(crate) sets: Vec<Assignment>,
+    pub sets: Vec<Assignment>,
     /// Forms that end the loop when they are true, with the new values.
     pub(crate) tests_after: Vec<Value>,
     /// What hidden variables get.
@@ -43,35 +43,35 @@ pub(crate) enum Building {
 /// A result that clauses accumulate.
 pub(crate) struct Accumulator {
     /// The variable after `into`; none for the loop's own result.
-    pub(crate) into: Option<Value>,
+    pub into: Option<Value>,
     /// What is built.
     pub(crate) building: Building,
     /// The variable that holds the result: `into`, or a hidden one.
-    pub(crate) variable: Value,
+    pub variable: Value,
     /// For lists, the pair in front of the list, which is in a hidden variable.
-    pub(crate) front: Value,
+    pub front: Value,
     /// For lists, the variable that holds the last pair; else a scratch variable.
-    pub(crate) tail: Value,
+    pub tail: Value,
 }
 
 /// A whole loop.
 #[derive(Default)]
 pub(crate) struct Plan {
     /// The name of the block.
-    pub(crate) name: Value,
+    pub name: Value,
     /// Bindings, group by group; those of a group are made in parallel.
-    pub(crate) bindings: Vec<Vec<Assignment>>,
+    pub bindings: Vec<Vec<Assignment>>,
     /// Hidden variables that start as `NIL`.
-    pub(crate) scratch: Vec<Value>,
+    pub scratch: Vec<Value>,
     /// What happens before the first iteration, clause group by clause group.
-    pub(crate) first: Vec<Step>,
+    pub first: Vec<Step>,
     /// What happens before each other iteration.
-    pub(crate) next: Vec<Step>,
+    pub next: Vec<Step>,
     /// Forms before everything else.
     pub(crate) initially: Vec<Value>,
-    pub(crate) body: Vec<Value>,
+    pub body: Vec<Value>,
     /// Forms after the last iteration.
-    pub(crate) finally: Vec<Value>,
+    pub finally: Vec<Value>,
     /// Results that are accumulated.
     pub(crate) accumulators: Vec<Accumulator>,
     /// Does the loop return true if nothing ended it (`always`, `never`)?
@@ -81,5 +81,5 @@ pub(crate) struct Plan {
     /// The tag at the loop's end.
     pub(crate) end_tag: Value,
     /// All variables of `for` and `with` clauses.
-    pub(crate) variables: Vec<Value>,
+    pub variables: Vec<Value>,
 }

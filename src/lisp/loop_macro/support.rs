@@ -2,18 +2,18 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::Builtin;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Sequence;
-use crate::lisp::value::sequence::last_pair;
-use crate::lisp::{builtin, builtins};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::cons::Cons;
+use crate::value::known;
+use crate::value::number;
+use crate::value::package::PackageTable;
+use crate::value::raise::Raise;
+use crate::value::sequence::Sequence;
+use crate::value::sequence::last_pair;
+use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

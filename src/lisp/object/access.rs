@@ -2,20 +2,20 @@
 
 use super::method::extended_function;
 use super::update;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::Instance;
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// What is done with a slot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Access {
+pub enum Access {
     /// The value is read.
     Read,
     /// A value is stored.
@@ -39,7 +39,7 @@ impl Access {
 }
 
 /// The value of a slot.
-pub(crate) fn slot_value(
+pub fn slot_value(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -136,7 +136,7 @@ fn unbound(machine: &mut Machine<'_>, object: &Value, slot: Sym) -> Result<Step,
 /// The error for a slot without a value.
 pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
-        place: crate::lisp::source::Place::NONE,
+        place: crate::source::Place::NONE,
         class: known::UNBOUND_SLOT,
         report: None,
         initargs: vec![
@@ -209,7 +209,7 @@ fn has_slot(instance: &Instance, slot: Sym) -> bool {
 }
 
 /// A slot name, which is a symbol.
-pub(crate) fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
+pub fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
     name.as_symbol()
         .ok_or_else(|| Raise::type_error(name, Value::symbol(known::SYMBOL)))
 }

@@ -1,8 +1,8 @@
 //! The classes of values that are not instances, and the roots of all others.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::class::ClassKind;
-use crate::lisp::value::package::PackageTable;
+use crate::image::Image;
+use crate::value::class::ClassKind;
+use crate::value::package::PackageTable;
 
 use super::define::ClassDefinition;
 
@@ -98,7 +98,7 @@ impl Image {
     }
 
     /// The symbol of a table entry: in `COMMON-LISP`, or in `SYSTEM` if marked by `%`.
-    pub(crate) fn class_symbol(&mut self, name: &str) -> crate::lisp::Sym {
+    pub fn class_symbol(&mut self, name: &str) -> crate::Sym {
         match name.strip_prefix('%') {
             Some(name) => self.export_symbol(PackageTable::SYSTEM, name),
             None => self.export_symbol(PackageTable::CL, name),
@@ -109,7 +109,7 @@ impl Image {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     #[test]
     fn every_class_of_the_table_ends_in_t() {
@@ -118,7 +118,7 @@ mod tests {
             let sym = image.class_symbol(name);
             let class = image.class(sym).cloned();
             let last = class.and_then(|c| c.precedence.borrow().last().map(|c| c.name));
-            assert_eq!(last, Some(crate::lisp::value::known::T), "{name}");
+            assert_eq!(last, Some(crate::value::known::T), "{name}");
         }
     }
 }

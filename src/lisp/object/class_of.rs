@@ -1,14 +1,14 @@
 //! The class of a value.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind};
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind};
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// Integers of at most this many bits are fixnums, as in SBCL on 64-bit machines.
 const FIXNUM_BITS: u32 = 62;
@@ -20,7 +20,7 @@ pub(crate) fn is_fixnum(n: i64) -> bool {
 }
 
 /// The class of a value.
-pub(crate) fn class_of(image: &Image, value: &Value) -> Rc<Class> {
+pub fn class_of(image: &Image, value: &Value) -> Rc<Class> {
     if let Value::Instance(instance) = value {
         return instance.class();
     }
@@ -83,7 +83,7 @@ pub(crate) fn metaclass_name(class: &Class) -> Sym {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     #[test]
     fn nil_is_of_class_null_which_is_a_symbol_and_a_list() {

@@ -1,12 +1,12 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{form, quote};
-use crate::lisp::value::generic::Combination;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::form::{form, quote};
+use crate::value::generic::Combination;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Operators that combinations are named after, and whether the value of a single method is
 /// the value of the call.

@@ -4,20 +4,20 @@ use std::rc::Rc;
 
 use super::effective::applicable_methods;
 use super::method::{generic_named, method_value};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::dispatch::{Effective, Shape};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{Combination, Method};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::{Args, run as run_calls};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::dispatch::{Effective, Shape};
+use crate::value::function::Function;
+use crate::value::generic::{Combination, Method};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::calls::{Args, run as run_calls};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// How far a call has progressed.
 #[derive(Clone, Copy)]
-pub(crate) enum Stage {
+pub enum Stage {
     /// At the around method of this number.
     Around(usize),
     /// At the primary method of this number.
@@ -25,7 +25,7 @@ pub(crate) enum Stage {
 }
 
 /// The start of a call.
-pub(crate) const START: Stage = Stage::Around(0);
+pub const START: Stage = Stage::Around(0);
 
 /// The call of a method by a program's own combination; `next` is the function that
 /// `call-next-method` calls, or `NIL`.
@@ -40,7 +40,7 @@ pub(crate) fn invoke_method(method: &Method, mut args: Vec<Value>, next: Value) 
 }
 
 /// Runs a call from the given stage.
-pub(crate) fn run(
+pub fn run(
     machine: &mut Machine<'_>,
     effective: &Rc<Effective>,
     stage: Stage,
@@ -86,7 +86,7 @@ pub(crate) fn run(
 
 /// The error for `call-next-method` without a next method.
 pub(crate) fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
-    let shown = crate::lisp::print::qualified(image, name);
+    let shown = crate::print::qualified(image, name);
     let report = format!("There is no next method for the generic function {shown}.");
     Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())
 }
@@ -176,7 +176,7 @@ fn check_same_methods(
     }
     Err(Raise::simple(format!(
         "CALL-NEXT-METHOD is called with arguments for which {} has other methods than for those of the call.",
-        crate::lisp::print::qualified(image, &method.name)
+        crate::print::qualified(image, &method.name)
     )))
 }
 

@@ -3,16 +3,16 @@
 use super::define::ClassDefinition;
 use super::method::{MethodDefinition, define_method, remove_method};
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind};
-use crate::lisp::value::form::{doc_form, form, quote};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{Accessor, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind};
+use crate::value::form::{doc_form, form, quote};
+use crate::value::function::Function;
+use crate::value::generic::{Accessor, Specializer};
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 use std::rc::Rc;
 
 /// `(defclass name superclasses slots options…)`.
@@ -193,7 +193,7 @@ pub(crate) fn define_standard_class(
 }
 
 /// The builtin behind `define-condition`: returns the name.
-pub(crate) fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let class = define(image, args, ClassKind::Condition)?;
     *class.report.borrow_mut() = match args.get(5) {
         Some(Value::Function(report)) => Some(report.clone()),

@@ -3,34 +3,31 @@
 use std::rc::Rc;
 
 use super::precedence::precedence_list;
-use crate::lisp::image::Image;
-use crate::lisp::value::class::{Class, ClassKind, Initform, OldSlot, SlotDefinition};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::class::{Class, ClassKind, Initform, OldSlot, SlotDefinition};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// What a definition says about a class.
-pub(crate) struct ClassDefinition {
-    pub(crate) name: Sym,
+pub struct ClassDefinition {
+    pub name: Sym,
     /// What its instances are.
-    pub(crate) kind: ClassKind,
+    pub kind: ClassKind,
     /// Direct superclasses in order; the root of the kind is added when there are none.
-    pub(crate) superclasses: Vec<Sym>,
+    pub superclasses: Vec<Sym>,
     /// Slots of this class itself.
-    pub(crate) slots: Vec<SlotDefinition>,
+    pub slots: Vec<SlotDefinition>,
     /// Default initargs of this class itself.
-    pub(crate) default_initargs: Vec<(Sym, Initform)>,
+    pub default_initargs: Vec<(Sym, Initform)>,
     /// The documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 impl Image {
     /// Defines a class, or redefines it: the class object stays, instances update
     /// themselves when they are next used.
-    pub(crate) fn define_class(
-        &mut self,
-        definition: ClassDefinition,
-    ) -> Result<Rc<Class>, Box<Raise>> {
+    pub fn define_class(&mut self, definition: ClassDefinition) -> Result<Rc<Class>, Box<Raise>> {
         if let Some(class) = self.classes.get(&definition.name)
             && class.kind == ClassKind::Builtin
         {
@@ -46,7 +43,7 @@ impl Image {
     }
 
     /// Like `define_class`, for the implementation's own classes: kinds may be mixed.
-    pub(crate) fn define_unchecked(
+    pub fn define_unchecked(
         &mut self,
         definition: ClassDefinition,
     ) -> Result<Rc<Class>, Box<Raise>> {
@@ -118,7 +115,7 @@ impl Image {
 
 /// The error for a name that is not the name of a class.
 pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
-    let shown = crate::lisp::print::qualified(image, &name.into());
+    let shown = crate::print::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
 }

@@ -6,13 +6,13 @@ use super::combination::combination_named;
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
 };
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::form::{doc_form, form, quote, split_body};
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::form::{doc_form, form, quote, split_body};
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
 pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
@@ -96,7 +96,7 @@ fn method_function(
     image: &mut Image,
     name: &Value,
     lambda_list: &Value,
-    body: crate::lisp::value::form::Body,
+    body: crate::value::form::Body,
     takes_next: bool,
 ) -> Value {
     let lambda_list = with_other_keys(lambda_list);

@@ -10,19 +10,19 @@ use std::rc::Rc;
 use super::class_of::{builtin_class_name, class_of};
 use super::combine;
 use super::update;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
-use crate::lisp::value::dispatch::{
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::cycles;
+use crate::value::dispatch::{
     BUILTIN_TAG, Dispatch, EQL_TAG, Effective, Key, MAX_ENTRIES, MAX_PARTS, NO_PART, Part,
     Position, Shape, SlotPlace,
 };
-use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{GenericFunction, Method};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::function::Function;
+use crate::value::generic::{GenericFunction, Method};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 impl Dispatch {
     /// The key of a call; none if it has too many parts.
@@ -227,7 +227,7 @@ fn effective_method(
 }
 
 /// Checks the keyword arguments of a call against those that its methods accept.
-fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
+fn check_keys(image: &Image, keys: &[crate::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
     if !args.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }

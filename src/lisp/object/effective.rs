@@ -4,18 +4,18 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 use super::class_of::class_of;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Class;
-use crate::lisp::value::dispatch::{Effective, Shape, SlotPlace};
-use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::Class;
+use crate::value::dispatch::{Effective, Shape, SlotPlace};
+use crate::value::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 impl Effective {
     /// The effective method for a call with these arguments (all required ones are there).
-    pub(crate) fn compute(
+    pub fn compute(
         image: &Image,
         generic: &GenericFunction,
         args: &[Value],

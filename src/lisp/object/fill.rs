@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Initform, Instance};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::Value;
+use crate::value::class::{Initform, Instance};
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// Which slots may get the value of their initform.
-pub(crate) enum Which {
+pub enum Which {
     /// All.
     All,
     /// The named ones.
@@ -20,9 +20,9 @@ pub(crate) enum Which {
 
 impl Which {
     /// From the slot names argument of `shared-initialize`: `T` or a list.
-    pub(crate) fn from_value(value: &Value) -> Which {
+    pub fn from_value(value: &Value) -> Which {
         match value {
-            Value::Symbol(crate::lisp::value::known::T, ..) => Which::All,
+            Value::Symbol(crate::value::known::T, ..) => Which::All,
             list => Which::Only(list.iter_list().filter_map(|n| n.as_symbol()).collect()),
         }
     }
@@ -36,7 +36,7 @@ impl Which {
 }
 
 /// What happens when all slots have their values.
-pub(crate) enum Finish {
+pub enum Finish {
     /// The value is returned.
     Return(Value),
     /// The function is called.
@@ -45,7 +45,7 @@ pub(crate) enum Finish {
 
 impl Finish {
     /// The step that does it.
-    pub(crate) fn step(self) -> Step {
+    pub fn step(self) -> Step {
         match self {
             Finish::Return(value) => Step::Return(value),
             Finish::Call(function, args) => Step::TailCall { function, args },
@@ -55,7 +55,7 @@ impl Finish {
 
 /// Sets the slots that initargs (keywords and values in turn) name; slots among `which`
 /// that are still unbound get their initial values.
-pub(crate) fn fill(
+pub fn fill(
     machine: &mut Machine<'_>,
     instance: &Rc<Instance>,
     which: &Which,
@@ -102,7 +102,7 @@ pub(crate) fn fill(
 fn store(
     instance: &Instance,
     index: usize,
-    shared: Option<&crate::lisp::value::slot::Slot>,
+    shared: Option<&crate::value::slot::Slot>,
     value: Value,
 ) {
     match shared {
@@ -118,7 +118,7 @@ fn store(
 fn is_unbound(
     instance: &Instance,
     index: usize,
-    shared: Option<&crate::lisp::value::slot::Slot>,
+    shared: Option<&crate::value::slot::Slot>,
 ) -> bool {
     match shared {
         Some(shared) => shared.with(Value::is_unbound),

@@ -6,16 +6,16 @@ use super::define::no_class;
 use super::effective::applicable_methods;
 use super::fill::{Finish, Which, fill};
 use super::method::extended_function;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind, Initform, Instance};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind, Initform, Instance};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// `(make-instance class initargs…)`.
 pub(crate) fn make_instance(

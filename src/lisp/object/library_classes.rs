@@ -1,11 +1,11 @@
 //! Classes of packages beside `COMMON-LISP`: streams whose elements come from methods of a program,
 //! and what describes slots and specializers.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{ClassKind, Initform, SlotDefinition};
-use crate::lisp::value::package::{PackageId, PackageTable};
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{ClassKind, Initform, SlotDefinition};
+use crate::value::package::{PackageId, PackageTable};
+use crate::value::symbol::Sym;
 
 use super::define::ClassDefinition;
 

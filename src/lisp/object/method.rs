@@ -3,19 +3,19 @@
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
-use crate::lisp::image::Image;
-use crate::lisp::print::qualified;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Class;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::dispatch::Dispatch;
-use crate::lisp::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::image::Image;
+use crate::print::qualified;
+use crate::value::Value;
+use crate::value::class::Class;
+use crate::value::copy::Copier;
+use crate::value::dispatch::Dispatch;
+use crate::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
+use crate::value::function::{Body, Function};
+use crate::value::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// Functions of the standard that a program may add methods to. They are plain functions until it
 /// does: then the plain function becomes the default method.
@@ -51,7 +51,7 @@ fn is_extensible(image: &Image, sym: Sym) -> bool {
 }
 
 /// A method as a value.
-pub(crate) struct MethodObject(pub(crate) Rc<Method>);
+pub(crate) struct MethodObject(pub Rc<Method>);
 
 impl Foreign for MethodObject {
     fn copied(&self, _: &mut Copier) -> ForeignCopy {
@@ -233,19 +233,19 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 /// What a method definition says.
 pub(crate) struct MethodDefinition {
     /// The name of the generic function.
-    pub(crate) name: Value,
+    pub name: Value,
     pub(crate) qualifiers: Vec<Sym>,
     /// One per required parameter.
-    pub(crate) specializers: Vec<Specializer>,
-    pub(crate) parameters: Parameters,
+    pub specializers: Vec<Specializer>,
+    pub parameters: Parameters,
     /// The method function.
-    pub(crate) function: Rc<Function>,
+    pub function: Rc<Function>,
     /// Does the function take the next method?
     pub(crate) takes_next: bool,
     /// Set for slot accessors.
-    pub(crate) accessor: Option<Accessor>,
+    pub accessor: Option<Accessor>,
     /// Documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// Adds a method to the generic function of its name, which is made if there is none.
@@ -297,7 +297,7 @@ pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
 }
 
 /// Clears the dispatch cache.
-pub(crate) fn changed(generic: &GenericFunction) {
+pub fn changed(generic: &GenericFunction) {
     let dispatch = Dispatch::for_methods(&generic.methods.borrow());
     *generic.dispatch.borrow_mut() = dispatch;
 }
@@ -371,7 +371,7 @@ pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
 }
 
 /// A specializer from its value: a class, the name of one, or `(eql value)`.
-pub(crate) fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
+pub fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
     match value {
         Value::Class(class) => Ok(Specializer::Class(class.clone())),
         Value::Symbol(name, ..) => class_named(image, *name).map(Specializer::Class),

@@ -3,33 +3,33 @@
 //! Invariants: a class keeps its identity over redefinitions; an instance is brought up to date
 //! before anything reads it; a call of a generic function never calls Lisp from Rust.
 
-pub(crate) mod access;
+pub mod access;
 pub(crate) mod builtin_classes;
-pub(crate) mod class_of;
+pub mod class_of;
 pub(crate) mod combination;
-pub(crate) mod combine;
-pub(crate) mod defclass;
-pub(crate) mod define;
-pub(crate) mod defmethod;
-pub(crate) mod dispatch;
-pub(crate) mod effective;
-pub(crate) mod fill;
-pub(crate) mod instance;
+pub mod combine;
+pub mod defclass;
+pub mod define;
+pub mod defmethod;
+pub mod dispatch;
+pub mod effective;
+pub mod fill;
+pub mod instance;
 pub(crate) mod library_classes;
-pub(crate) mod method;
-pub(crate) mod parameters;
+pub mod method;
+pub mod parameters;
 pub(crate) mod precedence;
 pub(crate) mod slot_options;
-pub(crate) mod update;
+pub mod update;
 
-pub(crate) use class_of::class_of;
+pub use class_of::class_of;
 
 use super::image::Image;
 use super::value::Value;
 use super::value::form::style_warning;
 
 /// A value as `prin1` prints it, for messages.
-pub(crate) fn text(image: &Image, value: &Value) -> String {
+pub fn text(image: &Image, value: &Value) -> String {
     super::print::to_string(image, value, true)
 }
 
@@ -42,6 +42,6 @@ fn warning_of_ignored(image: &Image, option: &Value) -> Value {
 }
 
 #[cfg(test)]
-pub(crate) mod testing;
+pub mod testing;
 #[cfg(test)]
 mod tests;

@@ -1,11 +1,11 @@
 //! What a lambda list says about the arguments of a call.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::parameters::Parameters;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::parameters::Parameters;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Section {
@@ -18,7 +18,7 @@ enum Section {
 
 impl Parameters {
     /// Reads a lambda list whose parameters may be specialized.
-    pub(crate) fn parse(image: &mut Image, lambda_list: &Value) -> Result<Parameters, Box<Raise>> {
+    pub fn parse(image: &mut Image, lambda_list: &Value) -> Result<Parameters, Box<Raise>> {
         let mut parameters = Parameters::default();
         let mut section = Section::Required;
         for item in lambda_list.iter_list() {

@@ -3,8 +3,8 @@
 
 use std::rc::Rc;
 
-use crate::lisp::value::class::Class;
-use crate::lisp::value::raise::Raise;
+use crate::value::class::Class;
+use crate::value::raise::Raise;
 
 /// The precedence list of a class whose direct superclasses are set.
 ///
@@ -78,8 +78,8 @@ fn choose(candidates: &[Rc<Class>], order: &[Rc<Class>]) -> Option<Rc<Class>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::value::class::ClassKind;
-    use crate::lisp::value::symbol::Sym;
+    use crate::value::class::ClassKind;
+    use crate::value::symbol::Sym;
 
     fn class(n: u32, supers: &[&Rc<Class>]) -> Rc<Class> {
         let class = Class::new(Sym(n), ClassKind::Standard);

@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Initform, SlotDefinition};
-use crate::lisp::value::form::{constant_value, form, quote};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::slot::Slot;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Initform, SlotDefinition};
+use crate::value::form::{constant_value, form, quote};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::slot::Slot;
+use crate::value::symbol::Sym;
 
 /// A parsed slot description.
 struct Description {
@@ -26,7 +26,7 @@ struct Description {
 /// A slot as the defining builtin gets it: its definition and its accessors.
 pub(crate) struct DefinedSlot {
     /// The definition.
-    pub(crate) slot: SlotDefinition,
+    pub slot: SlotDefinition,
     /// Names of reader functions.
     pub(crate) readers: Vec<Value>,
     /// Names of writer functions: symbols, or lists `(setf name)`.

@@ -1,19 +1,19 @@
 //! A small image for the tests of this layer.
 
-use crate::lisp::evaluator::nested;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::evaluator::nested;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// An image like the one that sessions start with.
-pub(crate) fn image() -> Image {
+pub fn image() -> Image {
     Image::new()
 }
 
 /// Evaluates all forms of a text; the values of the last, or the class of the condition.
 pub(crate) fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, String> {
-    let mut reader = crate::lisp::reader::Reader::of_text(text.to_owned());
+    let mut reader = crate::reader::Reader::of_text(text.to_owned());
     let mut last = Vec::new();
     while let Some((form, _)) = reader.next_form(image).map_err(|e| e.to_string())? {
         let eval = Value::symbol(known::EVAL);
@@ -43,10 +43,10 @@ pub(crate) fn assert_value(image: &mut Image, text: &str, expected: &str) {
         && values
             .iter()
             .zip(&wanted)
-            .all(|(a, b)| crate::lisp::value::equality::equalp(a, b));
+            .all(|(a, b)| crate::value::equality::equalp(a, b));
     let shown: Vec<String> = values
         .iter()
-        .map(|v| crate::lisp::print::to_string(image, v, true))
+        .map(|v| crate::print::to_string(image, v, true))
         .collect();
     assert!(is_same, "{text} => {}, not {expected}", shown.join(" ; "));
 }

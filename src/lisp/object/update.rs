@@ -5,14 +5,14 @@ use std::rc::Rc;
 use super::fill::{Finish, Which, fill};
 use super::instance::{check_initargs, check_pairs};
 use super::method::extended_function;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance, OldSlot, SlotDefinition};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::{Args, run};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::value::Value;
+use crate::value::class::{Class, Instance, OldSlot, SlotDefinition};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, run};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// What a change of layout did.
 struct Change {

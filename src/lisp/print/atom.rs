@@ -5,15 +5,15 @@ use num_bigint::BigInt;
 use super::float;
 use super::settings::Settings;
 use super::symbol;
-use crate::lisp::image::Image;
-use crate::lisp::image::identity::identity;
-use crate::lisp::reader::char_name::char_name;
-use crate::lisp::stream::StreamKind;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, ClassKind};
-use crate::lisp::value::function::{Body, Deferred, Function, Native};
-use crate::lisp::value::hash_table::HashTest;
-use crate::lisp::value::number::large::to_text;
+use crate::image::Image;
+use crate::image::identity::identity;
+use crate::reader::char_name::char_name;
+use crate::stream::StreamKind;
+use crate::value::Value;
+use crate::value::class::{Class, ClassKind};
+use crate::value::function::{Body, Deferred, Function, Native};
+use crate::value::hash_table::HashTest;
+use crate::value::number::large::to_text;
 
 /// A value that is not a list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {
@@ -149,7 +149,7 @@ fn class(image: &Image, class: &Class) -> String {
     };
     format!(
         "#<{kind} {}>",
-        crate::lisp::print::qualified(image, &class.name.into())
+        crate::print::qualified(image, &class.name.into())
     )
 }
 
@@ -160,7 +160,7 @@ fn function(image: &Image, value: &Value, function: &Function, settings: &Settin
             format!("#<FUNCTION {}>", symbol::symbol(image, *name, &settings))
         }
         Body::Generic(generic) => {
-            let name = crate::lisp::print::qualified(image, &generic.name);
+            let name = crate::print::qualified(image, &generic.name);
             let count = generic.methods.borrow().len();
             format!("#<STANDARD-GENERIC-FUNCTION {name} ({count})>")
         }

@@ -5,30 +5,30 @@
 
 use std::collections::VecDeque;
 
-use crate::lisp::image::Image;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Document;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::document::Document;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A call that writes a text to a stream.
 #[derive(Clone)]
-pub(crate) struct Call {
-    pub(crate) function: Value,
+pub struct Call {
+    pub function: Value,
     /// Arguments before the stream.
-    pub(crate) before: Vec<Value>,
+    pub before: Vec<Value>,
     /// Arguments after the stream.
-    pub(crate) after: Vec<Value>,
+    pub after: Vec<Value>,
     /// Variables that are bound during the call.
-    pub(crate) bindings: Vec<(Sym, Value)>,
+    pub bindings: Vec<(Sym, Value)>,
     /// Does what it writes have places where lines may break?
     pub(crate) is_pretty: bool,
 }
 
 /// Calls that are needed, or their texts.
-pub(crate) struct Calls {
+pub struct Calls {
     /// Texts of calls made, in the order in which they are needed.
     texts: VecDeque<Document>,
     /// Calls without a text.
@@ -48,7 +48,7 @@ pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
-    pub(crate) fn none() -> Calls {
+    pub fn none() -> Calls {
         Calls {
             texts: VecDeque::new(),
             needed: Vec::new(),
@@ -112,7 +112,7 @@ impl Calls {
 
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
-    pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
+    pub fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
         self.has_type?;
         if let Some(text) = self.texts.pop_front() {
             return Some(text);

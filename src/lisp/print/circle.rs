@@ -5,14 +5,14 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::settings::Settings;
-use crate::lisp::guard::Pace;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::ClassKind;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::guard::Pace;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::ClassKind;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// A value with fewer parts than this is first walked without bookkeeping: if the walk
 /// ends, nothing in it is circular.
@@ -87,7 +87,7 @@ fn is_small_tree(value: &Value) -> bool {
 
 /// Labels that the elements of a logical block share, although they are printed one by one.
 #[derive(Clone, Debug)]
-pub(crate) struct SharedLabels {
+pub struct SharedLabels {
     labels: Rc<RefCell<Labels>>,
     /// Do they belong to one attempt to print, which is repeated if it needs calls?
     is_of_attempt: bool,
@@ -103,7 +103,7 @@ impl Eq for SharedLabels {}
 
 impl SharedLabels {
     /// The labels of a list that a block prints.
-    pub(crate) fn of(image: &Image, list: &Value, settings: &Settings) -> SharedLabels {
+    pub fn of(image: &Image, list: &Value, settings: &Settings) -> SharedLabels {
         SharedLabels {
             labels: Rc::new(RefCell::new(Labels::of(image, list, &settings.effective()))),
             is_of_attempt: false,
@@ -152,7 +152,7 @@ impl SharedLabels {
     }
 
     /// The label of a part that is about to be printed, and whether it takes the part's place.
-    pub(crate) fn next(&self, value: &Value) -> Option<(String, bool)> {
+    pub fn next(&self, value: &Value) -> Option<(String, bool)> {
         match self.labels.borrow_mut().next(value) {
             Label::None => None,
             Label::First(number) => Some((format!("#{number}="), false)),

@@ -5,13 +5,13 @@
 //! one, which has no functions.
 
 use super::calls::Calls;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::generic::Specializer;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::symbol::FunctionCell;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::Instance;
+use crate::value::generic::Specializer;
+use crate::value::known;
+use crate::value::number;
+use crate::value::symbol::FunctionCell;
 
 /// The function that prints the value by the current table, if it has one: that of the highest priority;
 /// among equals, that of the type that came first.

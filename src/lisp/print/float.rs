@@ -4,13 +4,13 @@ use num_bigint::BigInt;
 use num_traits::Signed;
 
 use super::settings::Settings;
-use crate::lisp::value::known;
+use crate::value::known;
 
 /// The shortest digits of a positive finite float and the place of the decimal point:
 /// `0.DIGITS` times ten to the power of the place.
 pub(crate) struct Decimal {
-    pub(crate) digits: String,
-    pub(crate) point: i32,
+    pub digits: String,
+    pub point: i32,
 }
 
 /// From Rust's shortest `d.ddde±x`.

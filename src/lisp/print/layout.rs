@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::settings::Settings;
-use crate::lisp::value::document::{Document, Kind, Newline, Op, Tab};
+use crate::value::document::{Document, Kind, Newline, Op, Tab};
 
 /// A block that does not fit on one line.
 struct Block {

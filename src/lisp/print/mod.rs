@@ -8,13 +8,13 @@
 mod atom;
 mod calls;
 mod circle;
-pub(crate) mod dispatch;
+pub mod dispatch;
 mod float;
-pub(crate) mod format;
+pub mod format;
 mod layout;
 mod printer;
 mod qualified;
-pub(crate) mod report;
+pub mod report;
 mod settings;
 mod shape;
 mod symbol;
@@ -24,11 +24,12 @@ pub(crate) mod test_image;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use super::image::identity::identity;
-pub(crate) use calls::{Call, Calls, not_readable};
-pub(crate) use circle::SharedLabels;
-pub(crate) use qualified::qualified;
-pub(crate) use settings::{Case, Settings};
+pub use super::image::identity::identity;
+pub(crate) use calls::not_readable;
+pub use calls::{Call, Calls};
+pub use circle::SharedLabels;
+pub use qualified::qualified;
+pub use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
@@ -38,13 +39,13 @@ use super::value::symbol::Sym;
 
 /// A value as `prin1` (`escape`) or `princ` print it under the current printer variables,
 /// on a line of its own. Objects that need Lisp code print in their default form.
-pub(crate) fn to_string(image: &Image, value: &Value, escape: bool) -> String {
+pub fn to_string(image: &Image, value: &Value, escape: bool) -> String {
     let settings = Settings::of(image).with_escape(escape);
     write(image, value, &settings, 0, &mut Calls::none())
 }
 
 /// A value under given settings, where the line already has `column` characters.
-pub(crate) fn write(
+pub fn write(
     image: &Image,
     value: &Value,
     settings: &Settings,

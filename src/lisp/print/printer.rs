@@ -13,14 +13,14 @@ use super::dispatch;
 use super::layout::lay_out;
 use super::settings::Settings;
 use super::shape::Style;
-use crate::lisp::guard::Pace;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Array;
-use crate::lisp::value::class::Instance;
-use crate::lisp::value::document::Document;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::guard::Pace;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::Array;
+use crate::value::class::Instance;
+use crate::value::document::Document;
+use crate::value::known;
+use crate::value::symbol::Sym;
 use list::Rest;
 
 /// Prints one value.

@@ -1,15 +1,15 @@
 //! Names of functions with their packages.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
+use crate::image::Image;
+use crate::value::Value;
 
 /// A function name with the package of its symbol, as the printer shows generic functions.
-pub(crate) fn qualified(image: &Image, name: &Value) -> String {
+pub fn qualified(image: &Image, name: &Value) -> String {
     match name {
         Value::Symbol(sym, ..) => match image.symbol(*sym).package {
             Some(package) => {
                 let colons = match image.home_access(*sym) {
-                    Some(crate::lisp::value::package::Access::External) => ":",
+                    Some(crate::value::package::Access::External) => ":",
                     _ => "::",
                 };
                 let home = &image.packages.get(package).name;
@@ -21,7 +21,7 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
             let parts: Vec<String> = list
                 .iter_list()
                 .map(|part| match part {
-                    Value::Symbol(crate::lisp::value::known::SETF, ..) => "SETF".to_owned(),
+                    Value::Symbol(crate::value::known::SETF, ..) => "SETF".to_owned(),
                     other => qualified(image, &other),
                 })
                 .collect();

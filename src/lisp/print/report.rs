@@ -3,15 +3,15 @@
 use std::rc::Rc;
 
 use super::to_string;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, Instance};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// The `:report` function of a condition's class, inherited ones included.
-pub(crate) fn function(instance: &Instance) -> Option<Rc<Function>> {
+pub fn function(instance: &Instance) -> Option<Rc<Function>> {
     let class = instance.class();
     let own = class.report.borrow().clone();
     own.or_else(|| {
@@ -33,7 +33,7 @@ fn slot(image: &Image, instance: &Instance, name: &str) -> Option<Value> {
 }
 
 /// The report of a condition, as far as it needs no Lisp code.
-pub(crate) fn report(image: &Image, condition: &Value) -> String {
+pub fn report(image: &Image, condition: &Value) -> String {
     let Value::Instance(instance) = condition else {
         return to_string(image, condition, false);
     };
@@ -60,7 +60,7 @@ pub(crate) fn report(image: &Image, condition: &Value) -> String {
 
 /// A symbol with its package, as `prin1` shows it where no symbol is accessible.
 fn qualified(image: &Image, sym: Sym) -> String {
-    crate::lisp::print::qualified(image, &sym.into())
+    crate::print::qualified(image, &sym.into())
 }
 
 fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<String> {
@@ -85,12 +85,12 @@ fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<St
             let name = get("NAME");
             format!(
                 "The function {} is undefined.",
-                crate::lisp::print::qualified(image, &name)
+                crate::print::qualified(image, &name)
             )
         }
         known::UNBOUND_SLOT => format!(
             "The slot {} is unbound in the object {}.",
-            crate::lisp::print::qualified(image, &get("NAME")),
+            crate::print::qualified(image, &get("NAME")),
             shown("INSTANCE")
         ),
         known::ARITHMETIC_ERROR

@@ -1,15 +1,15 @@
 //! The printer variables, read once per call.
 
 use super::circle::SharedLabels;
-use crate::lisp::image::Image;
-use crate::lisp::reader::LetterCase;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::reader::LetterCase;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// `*print-case*`
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Case {
+pub enum Case {
     /// `:upcase`
     Up,
     /// `:downcase`
@@ -20,37 +20,37 @@ pub(crate) enum Case {
 
 /// How values are printed.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Settings {
+pub struct Settings {
     /// `*print-escape*`: so that it can be read back?
-    pub(crate) escape: bool,
+    pub escape: bool,
     /// `*print-readably*`: no abbreviations?
     pub(crate) readably: bool,
     /// `*print-pretty*`: with line breaks?
-    pub(crate) pretty: bool,
+    pub pretty: bool,
     /// `*print-base*`: the radix of rational numbers, 2 to 36.
-    pub(crate) base: u32,
+    pub base: u32,
     /// `*print-radix*`: with the radix?
     pub(crate) radix: bool,
     /// `*print-case*`
-    pub(crate) case: Case,
+    pub case: Case,
     /// `*print-length*`: most elements of a list or vector.
-    pub(crate) length: Option<usize>,
+    pub length: Option<usize>,
     /// `*print-level*`: deepest nesting.
-    pub(crate) level: Option<usize>,
+    pub level: Option<usize>,
     /// The number of logical blocks around what is printed, which count for `*print-level*`.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// `*print-circle*`: shared parts as `#1#`?
-    pub(crate) circle: bool,
+    pub circle: bool,
     /// The labels of the logical block around what is printed, if it has some.
-    pub(crate) shared: Option<SharedLabels>,
+    pub shared: Option<SharedLabels>,
     /// `readtable-case`: what the reader does with letters.
-    pub(crate) letters: LetterCase,
+    pub letters: LetterCase,
     /// `*print-gensym*`: uninterned symbols with `#:`?
-    pub(crate) gensym: bool,
+    pub gensym: bool,
     /// `*print-array*`: arrays with their elements?
-    pub(crate) array: bool,
+    pub array: bool,
     /// `*print-lines*`: most lines of a pretty-printed value.
-    pub(crate) lines: Option<usize>,
+    pub lines: Option<usize>,
     /// `*print-right-margin*`: columns of a line.
     pub(crate) right_margin: usize,
     /// `*print-miser-width*`
@@ -71,7 +71,7 @@ fn count(image: &Image, variable: Sym) -> Option<usize> {
 
 impl Settings {
     /// The current values of the printer variables.
-    pub(crate) fn of(image: &Image) -> Settings {
+    pub fn of(image: &Image) -> Settings {
         let flag = |variable| image.special(variable).is_true();
         let shared = image.special(known::V_PRINT_LABELS);
         let shared = shared.as_foreign::<SharedLabels>();
@@ -129,7 +129,7 @@ impl Settings {
 
     /// The printer variables whose values have to change for a call of Lisp code to print like
     /// this, so many levels deep.
-    pub(crate) fn bindings(&self, image: &Image, depth: usize) -> Vec<(Sym, Value)> {
+    pub fn bindings(&self, image: &Image, depth: usize) -> Vec<(Sym, Value)> {
         let current = Settings::of(image);
         let count = |n: Option<usize>| match n {
             Some(n) => Value::from(n),

@@ -1,11 +1,11 @@
 //! How lists are laid out: data as filled lines, code with the indentation of its operator.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Newline;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::document::Newline;
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// A layout instruction before an element of a list.
 #[derive(Clone, Copy)]

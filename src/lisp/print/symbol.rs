@@ -1,10 +1,10 @@
 //! Symbols as they are printed: with prefixes, escapes and the chosen case.
 
 use super::settings::{Case, Settings};
-use crate::lisp::image::Image;
-use crate::lisp::reader::{self, LetterCase};
-use crate::lisp::value::package::Access;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::reader::{self, LetterCase};
+use crate::value::package::Access;
+use crate::value::symbol::Sym;
 
 /// A symbol under the settings.
 pub(super) fn symbol(image: &Image, sym: Sym, settings: &Settings) -> String {

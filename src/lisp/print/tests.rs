@@ -2,8 +2,8 @@
 
 use super::test_image;
 use super::*;
-use crate::lisp::reader::{ReadError, Reader};
-use crate::lisp::value::known;
+use crate::reader::{ReadError, Reader};
+use crate::value::known;
 
 fn read(image: &mut Image, text: &str) -> Result<Value, ReadError> {
     let mut reader = Reader::of_text(text);

@@ -230,7 +230,7 @@ pub(crate) fn char_named(name: &str) -> Option<char> {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::char_name::*;
+    use crate::reader::char_name::*;
 
     #[test]
     fn names_read_back() {

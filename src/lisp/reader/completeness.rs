@@ -4,7 +4,7 @@ use super::lexer::{Lexer, TokenKind};
 
 /// How far a text goes towards whole forms.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Completeness {
+pub enum Completeness {
     /// Every form is closed (there may be none).
     Complete,
     /// More text is needed.
@@ -34,7 +34,7 @@ enum Open {
 }
 
 /// Tells whether a text consists of whole forms.
-pub(crate) fn is_complete(text: &str) -> Completeness {
+pub fn is_complete(text: &str) -> Completeness {
     let mut open: Vec<Open> = Vec::new();
     for token in Lexer::new(text) {
         if !token.is_closed {
@@ -98,7 +98,7 @@ fn incomplete(open: &[Open], opened_at: usize) -> Completeness {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::completeness::*;
+    use crate::reader::completeness::*;
 
     #[test]
     fn whole_forms_are_complete() {

@@ -3,27 +3,27 @@
 use thiserror::Error;
 
 use super::char_name::char_name;
-use crate::lisp::source::Place;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::source::Place;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Why a text cannot be read, and where.
 #[derive(Clone, PartialEq, Debug, Error)]
 #[error("{kind}")]
-pub(crate) struct ReadError {
+pub struct ReadError {
     /// What is wrong.
-    pub(crate) kind: ReadErrorKind,
+    pub kind: ReadErrorKind,
     /// First byte of the wrong text.
-    pub(crate) start: usize,
+    pub start: usize,
     /// Byte after the wrong text.
-    pub(crate) end: usize,
+    pub end: usize,
     /// The same as a place; none if the text belongs to no registered source.
-    pub(crate) place: Place,
+    pub place: Place,
 }
 
 /// What is wrong with a text.
 #[derive(Clone, PartialEq, Debug, Error)]
-pub(crate) enum ReadErrorKind {
+pub enum ReadErrorKind {
     /// The text ends inside something.
     #[error("end of file{}", inside(what, *line))]
     EndOfFile {
@@ -215,12 +215,12 @@ fn did_you_mean(nearest: Option<&str>) -> String {
 
 impl ReadError {
     /// Would more text help?
-    pub(crate) fn is_end_of_file(&self) -> bool {
+    pub fn is_end_of_file(&self) -> bool {
         matches!(self.kind, ReadErrorKind::EndOfFile { .. })
     }
 
     /// The error as a condition: `END-OF-FILE` or `READER-ERROR`.
-    pub(crate) fn raise(&self) -> Box<Raise> {
+    pub fn raise(&self) -> Box<Raise> {
         let class = if self.is_end_of_file() {
             known::END_OF_FILE
         } else {

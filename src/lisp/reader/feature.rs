@@ -1,9 +1,9 @@
 //! Feature expressions of `#+` and `#-`.
 
 use super::error::ReadErrorKind;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
 
 /// A feature expression nested more deeply than this is a mistake.
 const MAX_DEPTH: usize = 64;

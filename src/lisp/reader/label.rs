@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::error::ReadErrorKind;
-use crate::lisp::value::Value;
-use crate::lisp::value::cycles;
+use crate::value::Value;
+use crate::value::cycles;
 
 /// The labels of one top-level form.
 #[derive(Default)]

@@ -5,7 +5,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum TokenKind {
+pub enum TokenKind {
     /// `; …` up to the end of the line.
     LineComment,
     /// `#| … |#`, nested.
@@ -51,16 +51,16 @@ pub(crate) enum TokenKind {
 
 /// A token: the bytes `start..end` of the text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Token {
+pub struct Token {
     /// What it is.
-    pub(crate) kind: TokenKind,
+    pub kind: TokenKind,
     /// First byte.
-    pub(crate) start: usize,
+    pub start: usize,
     /// Byte after the last one.
-    pub(crate) end: usize,
+    pub end: usize,
     /// Is it complete? False for a string, a comment or a `|name` that the end of the text cuts
     /// off.
-    pub(crate) is_closed: bool,
+    pub is_closed: bool,
 }
 
 impl Token {
@@ -87,7 +87,7 @@ impl Token {
 
 /// Splits a text into tokens.
 #[derive(Clone)]
-pub(crate) struct Lexer<'t> {
+pub struct Lexer<'t> {
     text: &'t str,
     position: usize,
     /// Further characters that end a token.
@@ -109,12 +109,12 @@ pub(crate) fn is_terminating(c: char) -> bool {
 
 impl<'t> Lexer<'t> {
     /// A lexer at the start of a text.
-    pub(crate) fn new(text: &'t str) -> Lexer<'t> {
+    pub fn new(text: &'t str) -> Lexer<'t> {
         Lexer::at(text, 0)
     }
 
     /// A lexer at a byte of a text; at the end if that is not a character boundary.
-    pub(crate) fn at(text: &'t str, position: usize) -> Lexer<'t> {
+    pub fn at(text: &'t str, position: usize) -> Lexer<'t> {
         let position = if text.is_char_boundary(position) {
             position
         } else {
@@ -145,7 +145,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// The byte at which the search for the next token starts.
-    pub(crate) fn position(&self) -> usize {
+    pub fn position(&self) -> usize {
         self.position
     }
 
@@ -162,7 +162,7 @@ impl<'t> Lexer<'t> {
 
     /// The next character.
     #[inline]
-    pub(crate) fn peek(&self) -> Option<char> {
+    pub fn peek(&self) -> Option<char> {
         // Almost all text is ASCII; that needs no decoding.
         match self.text.as_bytes().get(self.position) {
             Some(b) if b.is_ascii() => Some(char::from(*b)),
@@ -334,7 +334,7 @@ impl Iterator for Lexer<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::lexer::*;
+    use crate::reader::lexer::*;
 
     fn kinds(text: &str) -> Vec<(TokenKind, &str)> {
         Lexer::new(text)

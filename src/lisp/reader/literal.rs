@@ -1,7 +1,7 @@
 //! Values of tokens and of finished `#` forms: strings, characters, radix numbers, bit
 //! vectors, vectors, arrays and structures.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::char_name::char_named;
@@ -9,12 +9,12 @@ use super::error::ReadErrorKind;
 use super::numeric::parse_rational;
 use super::readtable::LetterCase;
 use super::symbol;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::class::{ClassKind, Instance};
-use crate::lisp::value::known;
-use crate::lisp::value::number;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::class::{ClassKind, Instance};
+use crate::value::known;
+use crate::value::number;
 
 /// Longest vector that `#n(` fills up.
 const MAX_FILL: usize = 1 << 24;

@@ -15,20 +15,21 @@ pub(crate) mod lexer;
 mod literal;
 pub(crate) mod numeric;
 mod parser;
-pub(crate) mod readtable;
+pub mod readtable;
 mod suggest;
 mod symbol;
 mod typed_array;
 
-pub(crate) use completeness::{Completeness, is_complete};
-pub(crate) use error::ReadError;
-pub(crate) use lexer::{Lexer, Token, TokenKind};
+pub use completeness::{Completeness, is_complete};
+pub use error::ReadError;
+pub use lexer::{Lexer, Token, TokenKind};
 #[cfg(test)]
-pub(crate) use parser::read_all;
-pub(crate) use parser::{Outcome, Reader};
-pub(crate) use readtable::LetterCase;
-pub(crate) use suggest::nearest;
-pub(crate) use symbol::{downcase, inverting, meant_by_quotation_mark, upcase};
+pub use parser::read_all;
+pub use parser::{Outcome, Reader};
+pub use readtable::LetterCase;
+pub use suggest::nearest;
+pub use symbol::downcase;
+pub(crate) use symbol::{inverting, meant_by_quotation_mark, upcase};
 
 #[cfg(test)]
 mod tests;

@@ -4,11 +4,11 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 
 use super::error::ReadErrorKind;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::number::large;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::number::large;
+use crate::value::symbol::Sym;
 
 /// The number that a token without escapes denotes; `None` if it is a symbol.
 ///
@@ -146,7 +146,7 @@ fn float_of(
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::numeric::*;
+    use crate::reader::numeric::*;
 
     fn double(token: &str) -> Option<f64> {
         match parse_number(token, 10, known::SINGLE_FLOAT)?.ok()? {

@@ -10,16 +10,16 @@ use super::error::{ReadError, ReadErrorKind};
 use super::label::Labels;
 use super::lexer::{Lexer, is_blank};
 use super::readtable::Readtable;
-use crate::lisp::image::Image;
-use crate::lisp::source::{Place, SourceId};
-use crate::lisp::stream::{Stream, StreamKind};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::source::{Place, SourceId};
+use crate::stream::{Stream, StreamKind};
+use crate::value::Value;
+use crate::value::known;
 use frame::{Frame, Kind};
 
 /// The result of reading.
 #[derive(Clone)]
-pub(crate) enum Outcome {
+pub enum Outcome {
     /// A whole form, and its place.
     Form(Value, Place),
     /// No further form.
@@ -32,7 +32,7 @@ pub(crate) enum Outcome {
 ///
 /// A form is read in the package that is current at that moment, so `in-package` between
 /// two calls takes effect.
-pub(crate) struct Reader {
+pub struct Reader {
     text: Rc<str>,
     source: Option<SourceId>,
     position: usize,
@@ -54,10 +54,7 @@ pub(crate) struct Reader {
 
 /// Reads all forms of a source in the current package.
 #[cfg(test)]
-pub(crate) fn read_all(
-    image: &mut Image,
-    source: SourceId,
-) -> Result<Vec<(Value, Place)>, ReadError> {
+pub fn read_all(image: &mut Image, source: SourceId) -> Result<Vec<(Value, Place)>, ReadError> {
     let mut reader = Reader::new(image, source);
     let mut forms = Vec::new();
     while let Some(form) = reader.next_form(image)? {
@@ -68,7 +65,7 @@ pub(crate) fn read_all(
 
 impl Reader {
     /// A reader at the start of a registered source; an unknown source reads as empty.
-    pub(crate) fn new(image: &Image, source: SourceId) -> Reader {
+    pub fn new(image: &Image, source: SourceId) -> Reader {
         let text = image
             .sources
             .get(source)
@@ -77,7 +74,7 @@ impl Reader {
     }
 
     /// A reader at the start of a text that belongs to no source: forms get no places.
-    pub(crate) fn of_text(text: impl Into<Rc<str>>) -> Reader {
+    pub fn of_text(text: impl Into<Rc<str>>) -> Reader {
         Reader::make(text.into(), None)
     }
 
@@ -98,27 +95,27 @@ impl Reader {
     }
 
     /// Reads what so many backquotes enclose.
-    pub(crate) fn within(self, backquotes: usize) -> Reader {
+    pub fn within(self, backquotes: usize) -> Reader {
         Reader { backquotes, ..self }
     }
 
     /// Continues at a byte of the text.
-    pub(crate) fn at(self, position: usize) -> Reader {
+    pub fn at(self, position: usize) -> Reader {
         Reader { position, ..self }
     }
 
     /// The byte up to which the text has been read.
-    pub(crate) fn position(&self) -> usize {
+    pub fn position(&self) -> usize {
         self.position
     }
 
     /// The text.
-    pub(crate) fn text(&self) -> &Rc<str> {
+    pub fn text(&self) -> &Rc<str> {
         &self.text
     }
 
     /// The text that has not been read.
-    pub(crate) fn rest(&self) -> &str {
+    pub fn rest(&self) -> &str {
         self.text.get(self.position..).unwrap_or("")
     }
 
@@ -144,10 +141,7 @@ impl Reader {
 
     /// The next form and its place; `None` at the end. `#.` of anything but a constant is
     /// an error here: use [`Reader::next`] where evaluation is possible.
-    pub(crate) fn next_form(
-        &mut self,
-        image: &mut Image,
-    ) -> Result<Option<(Value, Place)>, ReadError> {
+    pub fn next_form(&mut self, image: &mut Image) -> Result<Option<(Value, Place)>, ReadError> {
         match self.next(image)? {
             Outcome::Form(value, place) => Ok(Some((value, place))),
             Outcome::End => Ok(None),
@@ -160,7 +154,7 @@ impl Reader {
 
     /// Reads up to the end of the next form, or to something that must be evaluated. After an error
     /// the reader is positioned after the wrong text, outside all forms.
-    pub(crate) fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
+    pub fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
         let text = self.text.clone();
         let readtable = image.special(known::V_READTABLE).clone();
         let readtable = readtable.as_foreign::<Readtable>();
@@ -230,7 +224,7 @@ impl Reader {
     }
 
     /// Hands over the value of the form to evaluate and reads on.
-    pub(crate) fn supply(&mut self, image: &mut Image, value: Value) -> Result<Outcome, ReadError> {
+    pub fn supply(&mut self, image: &mut Image, value: Value) -> Result<Outcome, ReadError> {
         let mut value = value;
         if let Some(stream) = self.macro_input.take() {
             if let StreamKind::StringInput { position, .. } = &*stream.kind.borrow() {

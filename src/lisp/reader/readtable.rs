@@ -5,16 +5,16 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::lexer::is_blank;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// What the reader does with the letters of symbols: `readtable-case`.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
-pub(crate) enum LetterCase {
+pub enum LetterCase {
     /// They become capitals.
     #[default]
     Upcase,
@@ -36,19 +36,19 @@ impl LetterCase {
     ];
 
     /// The keyword that names it.
-    pub(crate) fn keyword(self) -> Sym {
+    pub fn keyword(self) -> Sym {
         let found = LetterCase::NAMES.iter().find(|(case, _)| *case == self);
         found.map_or(known::K_UPCASE, |(_, name)| *name)
     }
 
     /// The case that a keyword names.
-    pub(crate) fn named(name: Sym) -> Option<LetterCase> {
+    pub fn named(name: Sym) -> Option<LetterCase> {
         let found = LetterCase::NAMES.iter().find(|(_, other)| *other == name);
         found.map(|(case, _)| *case)
     }
 
     /// That of the current readtable.
-    pub(crate) fn current(image: &Image) -> LetterCase {
+    pub fn current(image: &Image) -> LetterCase {
         let table = image.special(known::V_READTABLE);
         let table = table.as_foreign::<Readtable>();
         table.map_or(LetterCase::Upcase, |table| table.case.get())
@@ -60,14 +60,14 @@ impl LetterCase {
 pub(crate) struct Readtable {
     /// Functions of stream and character, with whether the character may appear inside a
     /// token.
-    pub(crate) macros: RefCell<BTreeMap<char, (Value, bool)>>,
+    pub macros: RefCell<BTreeMap<char, (Value, bool)>>,
     /// Functions of stream, sub-character and number, by dispatching character and
     /// sub-character (in upper case).
-    pub(crate) dispatch: RefCell<BTreeMap<(char, char), Value>>,
+    pub dispatch: RefCell<BTreeMap<(char, char), Value>>,
     /// Characters that are parts of symbols, whatever they are in the standard syntax.
     pub(crate) constituents: RefCell<BTreeSet<char>>,
     /// What happens to letters.
-    pub(crate) case: Cell<LetterCase>,
+    pub case: Cell<LetterCase>,
 }
 
 impl Readtable {
@@ -109,7 +109,7 @@ impl Readtable {
 
 /// The text of a token, with escapes before the characters that would escape others although the
 /// readtable makes letters of them.
-pub(crate) fn escaped<'t>(image: &Image, token: &'t str) -> Cow<'t, str> {
+pub fn escaped<'t>(image: &Image, token: &'t str) -> Cow<'t, str> {
     let table = image.special(known::V_READTABLE);
     let Some(table) = table.as_foreign::<Readtable>() else {
         return token.into();

@@ -2,10 +2,7 @@
 
 /// The candidate with the smallest edit distance to `name` (ignoring case), if that is at most a
 /// third of its length; of several, the first.
-pub(crate) fn nearest<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: Vec<char> = name.chars().flat_map(char::to_uppercase).collect();
     let mut limit = (wanted.len() / 3).clamp(1, 3) + 1;
     let mut best = None;
@@ -49,7 +46,7 @@ fn edit_distance(a: &[char], b: &[char]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::reader::suggest::*;
+    use crate::reader::suggest::*;
 
     #[test]
     fn the_nearest_name_is_found() {

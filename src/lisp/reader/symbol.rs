@@ -4,20 +4,20 @@ use super::error::ReadErrorKind;
 use super::lexer::is_blank;
 use super::readtable::LetterCase;
 use super::suggest::nearest;
-use crate::lisp::image::Image;
-use crate::lisp::value::package::{Access, PackageId, PackageTable};
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::package::{Access, PackageId, PackageTable};
+use crate::value::symbol::Sym;
 
 /// A token split at its package marker, escapes resolved and letters in the case of the readtable.
 pub(crate) struct Name {
     /// The text before the marker; `None` without a marker.
-    pub(crate) package: Option<String>,
+    pub package: Option<String>,
     /// The text after the marker.
-    pub(crate) name: String,
+    pub name: String,
     /// Is the marker `::`?
-    pub(crate) is_internal: bool,
+    pub is_internal: bool,
     /// Was any character escaped? Then the token is not a number.
-    pub(crate) is_escaped: bool,
+    pub is_escaped: bool,
 }
 
 /// Upcases as the reader does: only letters that have exactly one upper-case form.
@@ -33,7 +33,7 @@ pub(crate) fn upcase(c: char) -> char {
 }
 
 /// Downcases as the reader does: only letters that have exactly one lower-case form.
-pub(crate) fn downcase(c: char) -> char {
+pub fn downcase(c: char) -> char {
     let mut lower = c.to_lowercase();
     match (lower.next(), lower.next()) {
         (Some(one), None) => one,

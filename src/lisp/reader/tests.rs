@@ -1,10 +1,10 @@
 //! Forms read from texts, compared by their structure.
 
 use super::*;
-use crate::lisp::image::Image;
-use crate::lisp::print::test_image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::image::Image;
+use crate::print::test_image;
+use crate::value::Value;
+use crate::value::known;
 
 fn read(image: &mut Image, text: &str) -> Result<Vec<Value>, ReadError> {
     let source = image.sources.add("test", text);

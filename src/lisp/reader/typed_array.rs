@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use super::error::ReadErrorKind;
 use super::literal::elements;
-use crate::lisp::guard::MOST_ELEMENTS;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::element_type::ElementType;
+use crate::guard::MOST_ELEMENTS;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::element_type::ElementType;
 
 /// The array from the list after `#A`.
 pub(super) fn read(parts: &Value) -> Result<Value, ReadErrorKind> {

@@ -6,12 +6,12 @@ use std::rc::Rc;
 use num_bigint::{BigInt, Sign};
 
 use super::{StreamKind, closed, followed, has_integers, not_usable};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number::from_big;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::stream::{Elements, Stream};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number::from_big;
+use crate::value::raise::Raise;
+use crate::value::stream::{Elements, Stream};
 
 /// Reads an integer; `None` at the end.
 pub(crate) fn read_byte(image: &Image, stream: &Rc<Stream>) -> Result<Option<Value>, Box<Raise>> {

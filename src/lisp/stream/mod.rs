@@ -14,11 +14,12 @@ use super::image::Image;
 use super::value::Value;
 use super::value::known;
 use super::value::raise::Raise;
-pub(crate) use super::value::stream::{Elements, MAX_NESTING, Stream, StreamKind};
+pub(crate) use super::value::stream::MAX_NESTING;
+pub use super::value::stream::{Elements, Stream, StreamKind};
 use super::value::symbol::Sym;
 
 /// Defines the standard stream variables.
-pub(crate) fn install(image: &mut Image) {
+pub fn install(image: &mut Image) {
     let input = Rc::new(Stream::new(StreamKind::StandardInput));
     let output = Rc::new(Stream::new(StreamKind::StandardOutput));
     let both = || {
@@ -89,13 +90,13 @@ pub(crate) fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>,
 }
 
 /// The stream that a designator denotes, if lines may break in what is written to it.
-pub(crate) fn pretty(image: &Image, designator: &Value) -> Option<Rc<Stream>> {
+pub fn pretty(image: &Image, designator: &Value) -> Option<Rc<Stream>> {
     let stream = output_stream(image, designator).ok()?;
     stream.is_pretty().then_some(stream)
 }
 
 /// Writes a text to the stream that a designator denotes.
-pub(crate) fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
+pub fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
     let stream = output_stream(image, designator)?;
     write_to(image, &stream, text, 0)
 }
@@ -180,7 +181,7 @@ fn column_after(text: &str, before: usize) -> usize {
 }
 
 /// Number of characters on the current line of an output stream, if that is known.
-pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
+pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
     let mut stream = output_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
@@ -205,7 +206,7 @@ pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>,
 }
 
 /// Starts a new line unless the stream is at the start of one; returns whether it did.
-pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
+pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
     let needed = column(image, designator)?.is_none_or(|column| column > 0);
     if needed {
         write(image, designator, "\n")?;
@@ -287,7 +288,7 @@ pub(crate) fn is_standard_input(image: &Image, designator: &Value) -> bool {
 
 /// The unread text of an input stream: a text and the byte offset at which the unread part begins.
 /// [`advance`] records how much of it was read.
-pub(crate) fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
+pub fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     if let StreamKind::StringInput { text, position } = &*stream.kind.borrow() {
         return Ok((text.clone(), *position));
@@ -343,11 +344,7 @@ fn rest_of(
 }
 
 /// Marks `bytes` bytes of the text from [`rest`] as read.
-pub(crate) fn advance(
-    image: &mut Image,
-    designator: &Value,
-    bytes: usize,
-) -> Result<(), Box<Raise>> {
+pub fn advance(image: &mut Image, designator: &Value, bytes: usize) -> Result<(), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     advance_in(image, &stream, bytes, 0).map(drop)
 }
@@ -503,7 +500,7 @@ pub(crate) fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, B
 }
 
 /// Flushes the buffer of a file stream.
-pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
+pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     match &mut *stream.kind.borrow_mut() {
         StreamKind::FileOutput { file, .. } => file
             .flush()
@@ -525,7 +522,7 @@ pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
 }
 
 /// Closes a stream; returns whether it was open.
-pub(crate) fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
+pub fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     flush(stream)?;
     let mut kind = stream.kind.borrow_mut();
     let was_open = !matches!(*kind, StreamKind::Closed);
@@ -563,7 +560,7 @@ pub(crate) fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) ->
     let stream = Value::Stream(stream.clone());
     let predicate = image
         .packages
-        .find_symbol(crate::lisp::value::package::PackageTable::CL, predicate);
+        .find_symbol(crate::value::package::PackageTable::CL, predicate);
     match predicate {
         Some((sym, _)) => {
             Raise::type_error(&stream, Value::list([known::SATISFIES.into(), sym.into()]))

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::define::{check_slot_type, copy_structure};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance, StructureSlot};
-use crate::lisp::value::cycles;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::{Class, Instance, StructureSlot};
+use crate::value::cycles;
+use crate::value::function::Function;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The instance that a value is, if it is one of the class or of one that includes it.
 fn instance_of<'a>(value: &'a Value, class: &Rc<Class>) -> Option<&'a Rc<Instance>> {

@@ -1,12 +1,12 @@
 //! The constructors of a structure, as forms.
 
 use super::options::Constructor;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::StructureSlot;
-use crate::lisp::value::form::form;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::class::StructureSlot;
+use crate::value::form::form;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// The form that defines a constructor; `make` builds the form that makes the structure
 /// from the forms of the slot values.

@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use super::accessors;
-use crate::lisp::image::Image;
-use crate::lisp::object::define::{ClassDefinition, no_class};
-use crate::lisp::types::{TypeCheck, typep};
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{
+use crate::image::Image;
+use crate::object::define::{ClassDefinition, no_class};
+use crate::types::{TypeCheck, typep};
+use crate::value::Value;
+use crate::value::class::{
     Class, ClassKind, Initform, Instance, SlotDefinition, StructureLayout, StructureSlot,
 };
-use crate::lisp::value::form::constant_value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::form::constant_value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Defines a structure: `(name parent ((slot accessor initform type read-only)…)
 /// copier predicate documentation conc-name)`.

@@ -3,15 +3,15 @@
 use super::constructors::constructor_form;
 use super::options::{Representation, StructureDefinition};
 use super::typed;
-use crate::lisp::image::Image;
-use crate::lisp::object::define::no_class;
-use crate::lisp::object::text;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{ClassKind, StructureSlot};
-use crate::lisp::value::form::{doc_form, form, quote};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::object::define::no_class;
+use crate::object::text;
+use crate::value::Value;
+use crate::value::class::{ClassKind, StructureSlot};
+use crate::value::form::{doc_form, form, quote};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// `(defstruct name-and-options [documentation] slots…)`.
 pub(crate) fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {

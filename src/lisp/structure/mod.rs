@@ -6,10 +6,10 @@
 
 pub(crate) mod accessors;
 pub(crate) mod constructors;
-pub(crate) mod define;
-pub(crate) mod expand;
-pub(crate) mod options;
-pub(crate) mod typed;
+pub mod define;
+pub mod expand;
+pub mod options;
+pub mod typed;
 
 #[cfg(test)]
 mod tests;

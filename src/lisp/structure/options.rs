@@ -2,19 +2,19 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::object::text;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::StructureSlot;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::object::text;
+use crate::value::Value;
+use crate::value::class::StructureSlot;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// One constructor.
 pub(crate) struct Constructor {
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// Its lambda list; keywords for all slots if none.
-    pub(crate) lambda_list: Option<Value>,
+    pub lambda_list: Option<Value>,
 }
 
 /// How the slots of a structure are stored.
@@ -28,19 +28,19 @@ pub(crate) enum Representation {
     Vector(Value),
 }
 
-pub(crate) struct StructureDefinition {
-    pub(crate) name: Sym,
+pub struct StructureDefinition {
+    pub name: Sym,
     /// The prefix of the accessors.
     pub(crate) conc_name: String,
     /// Is there a prefix, if only an empty one?
     has_prefix: bool,
     pub(crate) constructors: Vec<Constructor>,
     /// The function that copies a structure.
-    pub(crate) copier: Option<Sym>,
+    pub copier: Option<Sym>,
     /// The function that recognises one.
-    pub(crate) predicate: Option<Sym>,
+    pub predicate: Option<Sym>,
     /// The structure included, and new defaults of its slots.
-    pub(crate) include: Option<(Sym, Vec<StructureSlot>)>,
+    pub include: Option<(Sym, Vec<StructureSlot>)>,
     /// A function of structure and stream that prints.
     pub(crate) print_object: Option<Value>,
     /// A function of structure, stream and depth that prints.
@@ -48,13 +48,13 @@ pub(crate) struct StructureDefinition {
     /// How the slots are stored.
     pub(crate) representation: Representation,
     /// Does a list or vector begin with the structure's name?
-    pub(crate) is_named: bool,
+    pub is_named: bool,
     /// Unused elements of a list or vector before the name.
     pub(crate) initial_offset: usize,
     /// The slots, without included ones.
-    pub(crate) slots: Vec<StructureSlot>,
+    pub slots: Vec<StructureSlot>,
     /// The documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// Which options have been given.
@@ -69,10 +69,7 @@ struct Given {
 
 impl StructureDefinition {
     /// Reads `(defstruct name-and-options [documentation] slots…)`.
-    pub(crate) fn read(
-        image: &mut Image,
-        whole: &Value,
-    ) -> Result<StructureDefinition, Box<Raise>> {
+    pub fn read(image: &mut Image, whole: &Value) -> Result<StructureDefinition, Box<Raise>> {
         let parts = whole.list_to_vec().unwrap_or_default();
         let [_, head, rest @ ..] = parts.as_slice() else {
             return Err(Raise::program("DEFSTRUCT takes a name and slots."));
@@ -245,7 +242,7 @@ impl StructureDefinition {
     }
 
     /// The name of the accessor of a slot: that of the slot itself if there is no prefix.
-    pub(crate) fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
+    pub fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
         if !self.has_prefix {
             return slot;
         }

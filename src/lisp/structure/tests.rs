@@ -1,6 +1,6 @@
 //! Structures as programs see them.
 
-use crate::lisp::object::testing::{assert_value, error_class, eval_values, image};
+use crate::object::testing::{assert_value, error_class, eval_values, image};
 
 #[test]
 fn structures_may_include_others() {

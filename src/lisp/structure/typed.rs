@@ -5,16 +5,16 @@
 use super::constructors::constructor_form;
 use super::expand::override_slots;
 use super::options::{Representation, StructureDefinition};
-use crate::lisp::image::Image;
-use crate::lisp::object::define::no_class;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::StructureSlot;
-use crate::lisp::value::form::{form, quote};
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Sequence;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::object::define::no_class;
+use crate::value::Value;
+use crate::value::class::StructureSlot;
+use crate::value::form::{form, quote};
+use crate::value::function::Function;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::Sequence;
+use crate::value::symbol::Sym;
 
 /// One element of such a structure.
 #[derive(Clone)]
@@ -61,10 +61,7 @@ impl Element {
 }
 
 /// The expansion of a definition with `:type`.
-pub(crate) fn expand(
-    image: &mut Image,
-    definition: &StructureDefinition,
-) -> Result<Value, Box<Raise>> {
+pub fn expand(image: &mut Image, definition: &StructureDefinition) -> Result<Value, Box<Raise>> {
     let elements = layout(image, definition)?;
     let slots: Vec<StructureSlot> = elements
         .iter()

@@ -1,18 +1,18 @@
 //! Running an operation on types as a builtin: its calls go through the machine.
 
 use super::specifier::{Answers, Stop};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::computation::{Computation, Progress, compute};
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::raise::Raise;
+use crate::vm::computation::{Computation, Progress, compute};
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
 /// An operation that may stop for a call.
-pub(crate) type Operation = fn(&mut Image, &[Value], &mut Answers) -> Result<Value, Stop>;
+pub type Operation = fn(&mut Image, &[Value], &mut Answers) -> Result<Value, Stop>;
 
 /// Runs an operation, making the calls that it asks for.
-pub(crate) fn run(
+pub fn run(
     machine: &mut Machine<'_>,
     name: &'static str,
     operation: Operation,

@@ -2,19 +2,19 @@
 
 use super::specifier::{Answers, Stop};
 use super::test::typep_with;
-use crate::lisp::image::Image;
-use crate::lisp::object::text;
-use crate::lisp::types::parse::expanded;
-use crate::lisp::types::sequence_types::SequenceType;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Sequence;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::image::Image;
+use crate::object::text;
+use crate::types::parse::expanded;
+use crate::types::sequence_types::SequenceType;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::raise::Raise;
+use crate::value::sequence::Sequence;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// Converts a value to a type.
-pub(crate) fn coerce(
+pub fn coerce(
     image: &Image,
     value: &Value,
     specifier: &Value,

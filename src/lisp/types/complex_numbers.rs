@@ -4,12 +4,12 @@ use super::compare;
 use super::specifier::{Answers, Bound, RealKind, Stop, Type};
 use super::subtype::{Verdict, are_disjoint, is_subset};
 use super::test::contains;
-use crate::lisp::image::Image;
-use crate::lisp::object::text;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number::{imaginary_part, is_complex, real_part};
-use crate::lisp::value::raise::Raise;
+use crate::image::Image;
+use crate::object::text;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number::{imaginary_part, is_complex, real_part};
+use crate::value::raise::Raise;
 
 use RealKind::{Double, Integer, Ratio, Single};
 use Verdict::{No, Unknown};

@@ -2,14 +2,14 @@
 //! not is nothing. That is written as a union of intersections, each of types that are not
 //! combinations, or of what is not in such a type.
 
-use crate::lisp::image::Image;
-use crate::lisp::types::specifier::{Answers, Bound, RealKind, Type};
-use crate::lisp::types::subtype::{
+use crate::image::Image;
+use crate::types::specifier::{Answers, Bound, RealKind, Type};
+use crate::types::subtype::{
     Verdict, are_disjoint, covers, ends_after, is_gap, is_subset, starts_before,
 };
-use crate::lisp::types::test::contains;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::types::test::contains;
+use crate::value::Value;
+use crate::value::known;
 
 use Verdict::{No, Unknown, Yes};
 

@@ -4,28 +4,29 @@
 //! value of a call stops with the call (`Stop::Call`) and is started again with the answer; answers
 //! are kept in order, so nothing is called twice.
 
-pub(crate) mod asking;
-pub(crate) mod coerce;
+pub mod asking;
+pub mod coerce;
 mod complex_numbers;
 pub(crate) mod emptiness;
-pub(crate) mod parse;
+pub mod parse;
 pub(crate) mod sequence_types;
 pub(crate) mod specifier;
 pub(crate) mod subtype;
-pub(crate) mod test;
-pub(crate) mod type_of;
+pub mod test;
+pub mod type_of;
 
 #[cfg(test)]
 mod tests;
 
-pub(crate) use test::{TypeCheck, typep, typep_with};
-pub(crate) use type_of::type_of;
+pub(crate) use test::typep_with;
+pub use test::{TypeCheck, typep};
+pub use type_of::type_of;
 
 use std::cmp::Ordering;
 
 use super::value::Value;
 
 /// Compares two values; `None` unless both are real numbers, and neither is a NaN.
-pub(crate) fn compare(a: &Value, b: &Value) -> Option<Ordering> {
-    crate::lisp::value::number::compare(a, b).ok().flatten()
+pub fn compare(a: &Value, b: &Value) -> Option<Ordering> {
+    crate::value::number::compare(a, b).ok().flatten()
 }

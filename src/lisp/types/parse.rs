@@ -6,16 +6,16 @@ use super::complex_numbers;
 use super::emptiness::is_subtype;
 use super::specifier::{Answers, Bound, RealKind, Stop, Type};
 use super::subtype::Verdict;
-use crate::closest_name::closest_name;
-use crate::lisp::image::Image;
-use crate::lisp::types::sequence_types;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::ClassKind;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
-use crate::lisp::value::number::{Rounding, add, divide, rational, sub};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::types::sequence_types;
+use crate::value::Value;
+use crate::value::class::ClassKind;
+use crate::value::element_type::ElementType;
+use crate::value::known;
+use crate::value::number::{Rounding, add, divide, rational, sub};
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
+use closest_name::closest_name;
 
 /// How deeply specifiers may be nested, expansions of `deftype` included.
 const MAX_DEPTH: usize = 200;
@@ -26,7 +26,7 @@ const MOST_DIMENSIONS: usize = 129;
 const FIXNUM_LIMIT: i64 = 1 << 62;
 
 /// Reads a specifier.
-pub(crate) fn parse(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Type, Stop> {
+pub fn parse(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Type, Stop> {
     Parser {
         image,
         answers,
@@ -422,7 +422,7 @@ fn without_integer(bound: Bound) -> Result<Bound, Stop> {
 }
 
 fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {
-    let is_real = crate::lisp::value::number::is_real;
+    let is_real = crate::value::number::is_real;
     match arg {
         None => Ok(Bound::None),
         Some(star) if is_star(star) => Ok(Bound::None),
@@ -431,7 +431,7 @@ fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {
             Some([number]) if is_real(number) => Ok(Bound::Exclusive(number.clone())),
             _ => Err(Raise::simple(format!(
                 "{} is not a bound of a range: it must be a number, a list of a number, or *.",
-                crate::lisp::object::text(image, other)
+                crate::object::text(image, other)
             ))
             .into()),
         },
@@ -445,7 +445,7 @@ fn dimension(image: &Image, size: Option<&Value>) -> Result<Option<usize>, Stop>
         Some(Value::Int(n)) if *n >= 0 => Ok(usize::try_from(*n).ok()),
         Some(other) => Err(Raise::simple(format!(
             "{} is not a size of an array: it must be a natural number or *.",
-            crate::lisp::object::text(image, other)
+            crate::object::text(image, other)
         ))
         .into()),
     }
@@ -468,7 +468,7 @@ fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<
 }
 
 fn unknown(image: &Image, specifier: &Value) -> Stop {
-    let text = |value: &Value| crate::lisp::object::text(image, value);
+    let text = |value: &Value| crate::object::text(image, value);
     let mut report = format!("unknown type specifier: {}", text(specifier));
     let name = match specifier {
         Value::Cons(list) => list.car().as_symbol(),

@@ -3,18 +3,18 @@
 
 use super::parse::{element_type, expanded, is_star};
 use super::specifier::{Answers, Stop};
-use crate::lisp::image::Image;
-use crate::lisp::object::text as shown;
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Kind;
+use crate::image::Image;
+use crate::object::text as shown;
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::sequence::Kind;
 
 /// A kind of sequence, and its length if the type specifies one.
 #[derive(Clone)]
 pub(crate) struct SequenceType {
-    pub(crate) kind: Kind,
+    pub kind: Kind,
     /// The length, with the type specifier as the user wrote it.
     length: Option<usize>,
     specifier: Value,

@@ -1,15 +1,15 @@
 //! Types as Rust values, and the calls that reading or testing them may need.
 
-use crate::lisp::value::element_type::ElementType;
+use crate::value::element_type::ElementType;
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::class::Class;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::class::Class;
+use crate::value::raise::Raise;
 
 /// A set of values.
 #[derive(Clone)]
-pub(crate) enum Type {
+pub enum Type {
     /// Everything.
     Any,
     /// Nothing.
@@ -50,7 +50,7 @@ pub(crate) enum Type {
 
 /// How a real number is represented.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum RealKind {
+pub enum RealKind {
     /// Integers.
     Integer,
     /// Ratios.
@@ -63,7 +63,7 @@ pub(crate) enum RealKind {
 
 impl RealKind {
     /// Is a value a number of this representation?
-    pub(crate) fn has(self, value: &Value) -> bool {
+    pub fn has(self, value: &Value) -> bool {
         match value {
             Value::Int(_) | Value::Big(_) => self == RealKind::Integer,
             Value::Ratio(_) => self == RealKind::Ratio,
@@ -76,7 +76,7 @@ impl RealKind {
 
 /// A bound of a range.
 #[derive(Clone)]
-pub(crate) enum Bound {
+pub enum Bound {
     /// There is none.
     None,
     /// The number itself belongs to the range.
@@ -86,7 +86,7 @@ pub(crate) enum Bound {
 }
 
 /// Why an operation on types stops early.
-pub(crate) enum Stop {
+pub enum Stop {
     /// A function must be called; the operation is started again with its value.
     Call {
         function: Value,
@@ -107,20 +107,20 @@ impl From<Box<Raise>> for Stop {
 
 /// Values of the calls made so far, in the order in which an operation asks for them.
 #[derive(Clone, Default)]
-pub(crate) struct Answers {
+pub struct Answers {
     given: Vec<Value>,
     used: usize,
 }
 
 impl Answers {
     /// Adds the value of the call that the operation stopped at, and starts again.
-    pub(crate) fn add(&mut self, value: Value) {
+    pub fn add(&mut self, value: Value) {
         self.given.push(value);
         self.used = 0;
     }
 
     /// The value of a call: known, or a reason to stop.
-    pub(crate) fn ask(&mut self, function: &Value, args: Vec<Value>) -> Result<Value, Stop> {
+    pub fn ask(&mut self, function: &Value, args: Vec<Value>) -> Result<Value, Stop> {
         match self.given.get(self.used) {
             Some(value) => {
                 self.used += 1;

@@ -6,8 +6,8 @@ use super::compare;
 use super::complex_numbers;
 use super::specifier::{Answers, Bound, RealKind, Type};
 use super::test::contains;
-use crate::lisp::image::Image;
-use crate::lisp::value::{Value, known};
+use crate::image::Image;
+use crate::value::{Value, known};
 
 /// An answer, which may be unknown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -4,17 +4,17 @@ use super::compare;
 use super::complex_numbers;
 use super::parse::{is_plain_class, parse};
 use super::specifier::{Answers, Bound, RealKind, Stop, Type};
-use crate::lisp::image::Image;
-use crate::lisp::object::class_of;
-use crate::lisp::value::Value;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::object::class_of;
+use crate::value::Value;
+use crate::value::element_type::ElementType;
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Whether a value is of a type, as far as can be decided without calling a function.
-pub(crate) enum TypeCheck {
+pub enum TypeCheck {
     /// It is.
     Yes,
     /// It is not.
@@ -24,11 +24,7 @@ pub(crate) enum TypeCheck {
 }
 
 /// Is the value of the type?
-pub(crate) fn typep(
-    image: &Image,
-    value: &Value,
-    specifier: &Value,
-) -> Result<TypeCheck, Box<Raise>> {
+pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeCheck, Box<Raise>> {
     match typep_with(image, value, specifier, &mut Answers::default()) {
         Ok(true) => Ok(TypeCheck::Yes),
         Ok(false) => Ok(TypeCheck::No),
@@ -84,7 +80,7 @@ fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
 }
 
 /// Is the value in the set?
-pub(crate) fn contains(
+pub fn contains(
     image: &Image,
     set: &Type,
     value: &Value,
@@ -198,7 +194,7 @@ pub(crate) fn is_standard_char(c: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::object::testing;
+    use crate::object::testing;
 
     fn symbols(names: &[Sym]) -> Value {
         Value::list(names.iter().map(|n| Value::symbol(*n)))
@@ -234,9 +230,7 @@ mod tests {
     fn conditions_and_builtin_classes_are_types() {
         let image = testing::image();
         let raise = Raise::simple("x");
-        let condition = crate::lisp::condition::make(&image, &raise)
-            .ok()
-            .expect("made");
+        let condition = crate::condition::make(&image, &raise).ok().expect("made");
         assert!(is(&image, &condition, &known::ERROR.into()));
         assert!(!is(&image, &condition, &known::WARNING.into()));
         assert!(is(&image, &Value::string("s"), &known::SEQUENCE.into()));

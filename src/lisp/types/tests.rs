@@ -1,6 +1,6 @@
 //! Types as programs see them.
 
-use crate::lisp::object::testing::{assert_value, error_class, image};
+use crate::object::testing::{assert_value, error_class, image};
 
 #[test]
 fn type_specifiers_may_be_defined_with_arguments() {

@@ -4,21 +4,21 @@ use std::rc::Rc;
 
 use super::complex_numbers;
 use super::test::is_standard_char;
-use crate::lisp::image::Image;
-use crate::lisp::object::class_of::builtin_class_name;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::class::Class;
-use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::number::is_complex;
+use crate::image::Image;
+use crate::object::class_of::builtin_class_name;
+use crate::value::Value;
+use crate::value::array::Vector;
+use crate::value::class::Class;
+use crate::value::element_type::ElementType;
+use crate::value::function::Body;
+use crate::value::known;
+use crate::value::number::is_complex;
 
 /// The largest fixnum.
 const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
 
 /// The type of a value as a specifier, in SBCL's words.
-pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
+pub fn type_of(image: &Image, value: &Value) -> Value {
     match value {
         Value::Symbol(known::T, ..) => known::BOOLEAN.into(),
         Value::Int(0 | 1) => known::BIT.into(),

@@ -7,25 +7,25 @@ use super::element_type::ElementType;
 use super::elements::Elements;
 
 /// A one-dimensional array.
-pub(crate) struct Vector {
+pub struct Vector {
     /// All elements, those beyond the fill pointer included.
-    pub(crate) items: Elements,
+    pub items: Elements,
     /// Number of active elements, if the vector has a fill pointer.
     pub(crate) fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     /// The type of the elements.
     pub(crate) element_type: ElementType,
 }
 
 impl Vector {
     /// A simple vector.
-    pub(crate) fn simple(items: Vec<Value>) -> Vector {
+    pub fn simple(items: Vec<Value>) -> Vector {
         Vector::of_type(ElementType::T, items)
     }
 
     /// A vector of an element type, without fill pointer.
-    pub(crate) fn of_type(element_type: ElementType, items: Vec<Value>) -> Vector {
+    pub fn of_type(element_type: ElementType, items: Vec<Value>) -> Vector {
         Vector {
             items: Elements::new(items),
             fill_pointer: Cell::new(None),
@@ -35,12 +35,12 @@ impl Vector {
     }
 
     /// Number of active elements.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.fill_pointer.get().unwrap_or_else(|| self.items.len())
     }
 
     /// The element at an index, whether or not the fill pointer covers it.
-    pub(crate) fn get(&self, index: usize) -> Option<Value> {
+    pub fn get(&self, index: usize) -> Option<Value> {
         self.items.get(index)
     }
 
@@ -58,12 +58,12 @@ impl Vector {
     }
 
     /// Replaces the element at an index; false if there is none.
-    pub(crate) fn set(&self, index: usize, value: Value) -> bool {
+    pub fn set(&self, index: usize, value: Value) -> bool {
         self.items.set(index, value)
     }
 
     /// A copy of the active elements.
-    pub(crate) fn to_vec(&self) -> Vec<Value> {
+    pub fn to_vec(&self) -> Vec<Value> {
         self.items.copied(self.len())
     }
 
@@ -80,24 +80,20 @@ impl Vector {
 }
 
 /// An array whose rank is not one.
-pub(crate) struct Array {
+pub struct Array {
     /// Size of each dimension.
-    pub(crate) dimensions: RefCell<Vec<usize>>,
+    pub dimensions: RefCell<Vec<usize>>,
     /// May its dimensions change?
-    pub(crate) adjustable: bool,
+    pub adjustable: bool,
     /// The elements, the last index running fastest.
-    pub(crate) items: Elements,
+    pub items: Elements,
     /// The type of the elements.
     pub(crate) element_type: ElementType,
 }
 
 impl Array {
     /// An array that is not adjustable.
-    pub(crate) fn new(
-        element_type: ElementType,
-        dimensions: Vec<usize>,
-        items: Vec<Value>,
-    ) -> Array {
+    pub fn new(element_type: ElementType, dimensions: Vec<usize>, items: Vec<Value>) -> Array {
         Array {
             dimensions: RefCell::new(dimensions),
             adjustable: false,

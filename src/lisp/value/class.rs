@@ -12,7 +12,7 @@ use super::symbol::Sym;
 
 /// What instances of a class are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ClassKind {
+pub enum ClassKind {
     /// Values that are not instances: numbers, conses, functions, …
     Builtin,
     /// Objects of `defclass`.
@@ -25,7 +25,7 @@ pub(crate) enum ClassKind {
 
 /// Where the initial value of a slot comes from.
 #[derive(Clone)]
-pub(crate) enum Initform {
+pub enum Initform {
     /// A constant.
     Value(Value),
     /// A function of no arguments that computes it.
@@ -34,19 +34,19 @@ pub(crate) enum Initform {
 
 /// A slot as a class defines it.
 #[derive(Clone)]
-pub(crate) struct SlotDefinition {
+pub struct SlotDefinition {
     /// The slot's name.
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// Keywords that initialise it.
-    pub(crate) initargs: Vec<Sym>,
+    pub initargs: Vec<Sym>,
     /// Its initial value, if any.
-    pub(crate) initform: Option<Initform>,
+    pub initform: Option<Initform>,
     /// The shared place, for a slot with `:allocation :class`.
-    pub(crate) shared: Option<Rc<Slot>>,
+    pub shared: Option<Rc<Slot>>,
     /// The declared type, `T` if none.
     pub(crate) slot_type: Value,
     /// The documentation.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// A slot of an earlier definition: its name, and the value that it had if it was shared.
@@ -54,7 +54,7 @@ pub(crate) type OldSlot = (Sym, Option<Value>);
 
 impl SlotDefinition {
     /// A slot with nothing but a name.
-    pub(crate) fn new(name: Sym) -> SlotDefinition {
+    pub fn new(name: Sym) -> SlotDefinition {
         SlotDefinition {
             name,
             initargs: Vec::new(),
@@ -68,11 +68,11 @@ impl SlotDefinition {
 
 /// A slot of a structure as `defstruct` defines it, kept for structures that include it.
 #[derive(Clone)]
-pub(crate) struct StructureSlot {
+pub struct StructureSlot {
     /// The slot's name.
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// The form of its initial value.
-    pub(crate) initform: Value,
+    pub initform: Value,
     /// The declared type, `T` if none.
     pub(crate) slot_type: Value,
     /// Is assignment to the slot forbidden?
@@ -81,53 +81,53 @@ pub(crate) struct StructureSlot {
 
 /// What `defstruct` knows about a structure beyond its class.
 #[derive(Clone, Default)]
-pub(crate) struct StructureLayout {
+pub struct StructureLayout {
     /// All slots, included ones first.
-    pub(crate) slots: Vec<StructureSlot>,
+    pub slots: Vec<StructureSlot>,
     /// The prefix of the accessors.
     pub(crate) conc_name: Rc<str>,
 }
 
-pub(crate) struct Class {
-    pub(crate) name: Sym,
+pub struct Class {
+    pub name: Sym,
     /// What its instances are.
-    pub(crate) kind: ClassKind,
+    pub kind: ClassKind,
     /// Direct superclasses, as in the definition.
     pub(crate) direct_superclasses: RefCell<Vec<Rc<Class>>>,
     /// Direct subclasses, in order of definition.
-    pub(crate) direct_subclasses: RefCell<Vec<Rc<Class>>>,
+    pub direct_subclasses: RefCell<Vec<Rc<Class>>>,
     /// This class and all its superclasses, most specific first; empty while a superclass
     /// is not defined yet.
     pub(crate) precedence: RefCell<Vec<Rc<Class>>>,
     /// Slots defined by this class itself.
-    pub(crate) direct_slots: RefCell<Vec<SlotDefinition>>,
+    pub direct_slots: RefCell<Vec<SlotDefinition>>,
     /// All slots, inherited ones first; the order is that of an instance's slot values.
-    pub(crate) slots: RefCell<Vec<SlotDefinition>>,
+    pub slots: RefCell<Vec<SlotDefinition>>,
     /// `:default-initargs` of this class itself.
     pub(crate) direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// `:default-initargs` of this class and its superclasses, most specific first.
-    pub(crate) default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// The methods that read and write its slots; a redefinition replaces them.
     pub(crate) accessors: RefCell<Vec<Rc<Method>>>,
     /// The report of a condition class: a function of condition and stream.
-    pub(crate) report: RefCell<Option<Rc<Function>>>,
+    pub report: RefCell<Option<Rc<Function>>>,
     /// What `defstruct` remembers of a structure.
-    pub(crate) structure: RefCell<Option<Rc<StructureLayout>>>,
+    pub structure: RefCell<Option<Rc<StructureLayout>>>,
     /// The documentation.
-    pub(crate) doc: RefCell<Option<Rc<str>>>,
+    pub doc: RefCell<Option<Rc<str>>>,
     /// Counts redefinitions, so that instances know when to update.
     pub(crate) generation: Cell<u32>,
     /// Names of all slots in each generation before the current one.
     pub(crate) old_layouts: RefCell<Vec<Vec<OldSlot>>>,
     /// False while the class is only named as a superclass.
-    pub(crate) is_defined: Cell<bool>,
+    pub is_defined: Cell<bool>,
     /// What `(setf class-name)` has set; the class keeps the name under which it was defined if none.
-    pub(crate) given_name: RefCell<Option<Value>>,
+    pub given_name: RefCell<Option<Value>>,
 }
 
 impl Class {
     /// A class without superclasses or slots; the image completes it.
-    pub(crate) fn new(name: Sym, kind: ClassKind) -> Class {
+    pub fn new(name: Sym, kind: ClassKind) -> Class {
         Class {
             name,
             kind,
@@ -151,7 +151,7 @@ impl Class {
 
     /// Lets go of all that may hold the class itself: those above and below it, the methods that are
     /// specialized on it, and functions.
-    pub(crate) fn let_go(&self) {
+    pub fn let_go(&self) {
         let _above = self.direct_superclasses.take();
         let _below = self.direct_subclasses.take();
         let _order = self.precedence.take();
@@ -165,7 +165,7 @@ impl Class {
     }
 
     /// What `class-name` returns.
-    pub(crate) fn class_name(&self) -> Value {
+    pub fn class_name(&self) -> Value {
         let given = self.given_name.borrow().clone();
         given.unwrap_or_else(|| self.name.into())
     }
@@ -193,17 +193,17 @@ impl Class {
 }
 
 /// An instance of a standard class, a structure or a condition.
-pub(crate) struct Instance {
-    pub(crate) class: RefCell<Rc<Class>>,
+pub struct Instance {
+    pub class: RefCell<Rc<Class>>,
     /// Slot values in the order of the class's slots; `Unbound` where none.
-    pub(crate) slots: RefCell<Vec<Value>>,
+    pub slots: RefCell<Vec<Value>>,
     /// The class's generation when the slots were laid out.
     pub(crate) generation: Cell<u32>,
 }
 
 impl Instance {
     /// An instance whose slots are all unbound.
-    pub(crate) fn new(class: Rc<Class>) -> Instance {
+    pub fn new(class: Rc<Class>) -> Instance {
         let count = class.slots.borrow().len();
         Instance {
             generation: Cell::new(class.generation.get()),
@@ -222,12 +222,12 @@ impl Instance {
     }
 
     /// The instance's class.
-    pub(crate) fn class(&self) -> Rc<Class> {
+    pub fn class(&self) -> Rc<Class> {
         self.class.borrow().clone()
     }
 
     /// Is the instance of the named class or a subclass?
-    pub(crate) fn is_a(&self, name: Sym) -> bool {
+    pub fn is_a(&self, name: Sym) -> bool {
         self.class.borrow().is_subclass_of(name)
     }
 
@@ -237,7 +237,7 @@ impl Instance {
     }
 
     /// The value of a slot; `None` if there is no such slot, `Unbound` if it has no value.
-    pub(crate) fn slot(&self, name: Sym) -> Option<Value> {
+    pub fn slot(&self, name: Sym) -> Option<Value> {
         let class = self.class.borrow();
         let index = class.slot_index(name)?;
         if let Some(shared) = &class.slots.borrow()[index].shared {
@@ -274,8 +274,8 @@ impl Drop for Instance {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::class::*;
-    use crate::lisp::value::symbol::known;
+    use crate::value::class::*;
+    use crate::value::symbol::known;
 
     #[test]
     fn a_chain_of_a_million_instances_is_freed_without_recursion() {

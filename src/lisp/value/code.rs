@@ -6,17 +6,17 @@
 
 use std::rc::Rc;
 
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::copy::{Copied, Copier, is_fixed};
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::Sym;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::cons::Cons;
+use crate::value::copy::{Copied, Copier, is_fixed};
+use crate::value::operation::Op;
+use crate::value::string::LispString;
+use crate::value::symbol::Sym;
 
 /// How a closure gets the value of a free variable of its code.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Capture {
+pub enum Capture {
     /// From a local slot of the function that makes the closure.
     Local(u32),
     /// From a free variable of that function.
@@ -25,24 +25,24 @@ pub(crate) enum Capture {
 
 /// The parameters of a function, in slot order: required, optional, rest, keys.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Parameters {
+pub struct Parameters {
     /// Number of required parameters.
-    pub(crate) required: u16,
+    pub required: u16,
     /// Number of optional parameters.
-    pub(crate) optional: u16,
+    pub optional: u16,
     /// Is there a rest parameter?
-    pub(crate) rest: bool,
+    pub rest: bool,
     /// Keywords of the key parameters.
-    pub(crate) keys: Rc<[Sym]>,
+    pub keys: Rc<[Sym]>,
     /// Does the lambda list have `&key`?
-    pub(crate) has_keys: bool,
+    pub has_keys: bool,
     /// Are other keywords allowed?
-    pub(crate) allow_other_keys: bool,
+    pub allow_other_keys: bool,
 }
 
 impl Parameters {
     /// Number of slots that they fill.
-    pub(crate) fn slots(&self) -> usize {
+    pub fn slots(&self) -> usize {
         let positional = usize::from(self.required) + usize::from(self.optional);
         positional + usize::from(self.rest) + self.keys.len()
     }
@@ -56,19 +56,19 @@ impl Parameters {
 
 /// A local variable: where its value is stored, and for which operations that holds.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Local {
+pub struct Local {
     /// Its slot, counted from the frame's base.
-    pub(crate) slot: u32,
-    pub(crate) name: Sym,
+    pub slot: u32,
+    pub name: Sym,
     /// The first operation in its scope.
-    pub(crate) from: u32,
+    pub from: u32,
     /// The first operation after its scope.
-    pub(crate) to: u32,
+    pub to: u32,
 }
 
 /// A name or a lambda list: made of pairs and strings, it is copied on the way in and on the way out,
 /// so that nobody can change it.
-pub(crate) struct Signature {
+pub struct Signature {
     value: Value,
     /// Could all of it be copied?
     is_own: bool,
@@ -79,7 +79,7 @@ const MOST_IN_SIGNATURE: usize = 1000;
 
 impl Signature {
     /// A copy of the value, or the value itself if it has parts of other kinds.
-    pub(crate) fn of(value: &Value) -> Signature {
+    pub fn of(value: &Value) -> Signature {
         let mut left = MOST_IN_SIGNATURE;
         let copy = tree(value, &mut left);
         Signature {
@@ -89,7 +89,7 @@ impl Signature {
     }
 
     /// The value, for whoever may change it.
-    pub(crate) fn value(&self) -> Value {
+    pub fn value(&self) -> Value {
         match self.is_own {
             true => Signature::of(&self.value).value,
             false => self.value.clone(),
@@ -97,7 +97,7 @@ impl Signature {
     }
 
     /// The value, for somebody who only looks at it.
-    pub(crate) fn shown(&self) -> &Value {
+    pub fn shown(&self) -> &Value {
         &self.value
     }
 
@@ -137,31 +137,31 @@ fn tree(value: &Value, left: &mut usize) -> Option<Value> {
 }
 
 /// Compiled code of one function. Copies share what can never change.
-pub(crate) struct Code {
+pub struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
-    pub(crate) name: Signature,
-    pub(crate) parameters: Parameters,
+    pub name: Signature,
+    pub parameters: Parameters,
     /// The number of arguments that fill the parameters' slots as they are, if there is one.
     pub(crate) exact_count: Option<u16>,
     /// The most values that it has on the stack, from its frame's base on.
-    pub(crate) room: usize,
+    pub room: usize,
     /// The operations.
-    pub(crate) ops: Rc<[Op]>,
+    pub ops: Rc<[Op]>,
     pub(crate) constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
-    pub(crate) inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
+    pub inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
     /// For each tagbody that closures jump into: the positions of its tags.
-    pub(crate) tags: Rc<[Vec<u32>]>,
+    pub tags: Rc<[Vec<u32>]>,
     /// Places of calls: (first operation, place), in ascending order.
-    pub(crate) places: Rc<[(u32, Place)]>,
+    pub places: Rc<[(u32, Place)]>,
     /// Local variables, for the debugger, in the order of binding.
-    pub(crate) locals: Rc<[Local]>,
+    pub locals: Rc<[Local]>,
     /// Names of the free variables, in the order of the closure's captures.
-    pub(crate) free: Rc<[Sym]>,
+    pub free: Rc<[Sym]>,
     /// The lambda list as written.
-    pub(crate) lambda_list: Signature,
+    pub lambda_list: Signature,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
     /// Can nothing of it ever change, nor of the code in it?
     pub(crate) is_fixed: bool,
 }
@@ -177,7 +177,7 @@ impl Code {
     }
 
     /// The place of the call that the operation belongs to.
-    pub(crate) fn place_at(&self, pc: usize) -> Place {
+    pub fn place_at(&self, pc: usize) -> Place {
         let pc = u32::try_from(pc).unwrap_or(u32::MAX);
         let after = self.places.partition_point(|(first, _)| *first <= pc);
         after

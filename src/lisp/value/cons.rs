@@ -7,10 +7,10 @@ use super::Value;
 use super::release;
 use super::slot::Slot;
 use super::spare;
-use crate::lisp::source::Place;
+use crate::source::Place;
 
 /// A pair of two values, and where the reader found it.
-pub(crate) struct Cons {
+pub struct Cons {
     car: Slot,
     cdr: Slot,
     place: Cell<Place>,
@@ -19,7 +19,7 @@ pub(crate) struct Cons {
 impl Cons {
     /// A pair without a place in a source.
     #[inline]
-    pub(crate) fn new(car: Value, cdr: Value) -> Cons {
+    pub fn new(car: Value, cdr: Value) -> Cons {
         Cons {
             car: Slot::new(car),
             cdr: Slot::new(cdr),
@@ -29,7 +29,7 @@ impl Cons {
 
     /// A pair that is shared, without a place in a source.
     #[inline]
-    pub(crate) fn shared(mut car: Value, mut cdr: Value) -> Rc<Cons> {
+    pub fn shared(mut car: Value, mut cdr: Value) -> Rc<Cons> {
         Cons::of_places(&mut car, &mut cdr)
     }
 
@@ -44,13 +44,13 @@ impl Cons {
 
     /// The first half.
     #[inline]
-    pub(crate) fn car(&self) -> Value {
+    pub fn car(&self) -> Value {
         self.car.get()
     }
 
     /// The second half.
     #[inline]
-    pub(crate) fn cdr(&self) -> Value {
+    pub fn cdr(&self) -> Value {
         self.cdr.get()
     }
 
@@ -102,13 +102,13 @@ impl Cons {
 
     /// Replaces the first half.
     #[inline]
-    pub(crate) fn set_car(&self, value: Value) {
+    pub fn set_car(&self, value: Value) {
         self.car.set(value);
     }
 
     /// Replaces the second half.
     #[inline]
-    pub(crate) fn set_cdr(&self, value: Value) {
+    pub fn set_cdr(&self, value: Value) {
         self.cdr.set(value);
     }
 
@@ -125,12 +125,12 @@ impl Cons {
     }
 
     /// The place in the source of the list that starts with this pair.
-    pub(crate) fn place(&self) -> Place {
+    pub fn place(&self) -> Place {
         self.place.get()
     }
 
     /// Records the place in the source of the list that starts with this pair.
-    pub(crate) fn set_place(&self, place: Place) {
+    pub fn set_place(&self, place: Place) {
         self.place.set(place);
     }
 }
@@ -152,7 +152,7 @@ const AT_ONCE: usize = 100_000;
 
 /// Drops a reference to a pair.
 #[inline(always)]
-pub(crate) fn release(cons: Rc<Cons>) {
+pub fn release(cons: Rc<Cons>) {
     if Rc::strong_count(&cons) == 1 {
         release_last(cons);
     }
@@ -223,7 +223,7 @@ fn free_pending(mut pending: Pending, most: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::cons::*;
+    use crate::value::cons::*;
 
     #[test]
     fn a_million_deep_list_is_freed_without_recursion() {

@@ -23,7 +23,7 @@ use super::hash_table::HashTable;
 use super::slot::Slot;
 
 /// An object that may be a part of a circle.
-pub(crate) enum Suspect {
+pub enum Suspect {
     Cons(Weak<Cons>),
     Cell(Weak<Slot>),
     Vector(Weak<Vector>),
@@ -47,7 +47,7 @@ thread_local! {
 /// Notes that an object has been assigned a value. Objects that are noted already have a weak
 /// reference.
 #[inline(always)]
-pub(crate) fn note<T>(object: &Rc<T>, assigned: &Value)
+pub fn note<T>(object: &Rc<T>, assigned: &Value)
 where
     for<'a> Suspect: From<&'a Rc<T>>,
 {
@@ -69,7 +69,7 @@ where
 }
 
 /// Notes that an object of another layer has been changed to hold a value.
-pub(crate) fn note_foreign(object: &Rc<ForeignBox>) {
+pub fn note_foreign(object: &Rc<ForeignBox>) {
     // Such objects may have weak references of their own.
     if !object.is_suspect.replace(true) {
         let suspect = Suspect::from(object);
@@ -354,7 +354,7 @@ fn empty(object: &Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::value::hash_table::HashTest;
+    use crate::value::hash_table::HashTest;
 
     /// A pair that holds itself, and a weak reference to it.
     fn circle(car: Value) -> (Value, Weak<Cons>) {

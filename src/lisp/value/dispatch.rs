@@ -10,17 +10,17 @@ use super::slot::Slot;
 use super::symbol::Sym;
 
 /// The methods of a call in the order in which they run.
-pub(crate) struct Effective {
+pub struct Effective {
     /// The shape of the call.
-    pub(crate) shape: Shape,
+    pub shape: Shape,
     /// Keywords that some applicable method accepts; none if they need no check.
-    pub(crate) keys: Option<Vec<Sym>>,
+    pub keys: Option<Vec<Sym>>,
     /// Number of arguments before the keywords.
     pub(crate) keys_from: usize,
 }
 
 /// The shape of a call.
-pub(crate) enum Shape {
+pub enum Shape {
     /// No method applies.
     NotApplicable,
     /// Only a slot is read.
@@ -44,7 +44,7 @@ pub(crate) enum Shape {
 }
 
 /// Where an accessor's slot is stored in instances of the class in question.
-pub(crate) enum SlotPlace {
+pub enum SlotPlace {
     /// At this position of the instance.
     Local(usize),
     /// In the class.
@@ -58,29 +58,29 @@ pub(crate) const MAX_ENTRIES: usize = 256;
 
 /// What one argument contributes to a key: a class by its address and generation, or a
 /// small number with one of the two tags.
-pub(crate) type Part = (usize, u32);
+pub type Part = (usize, u32);
 pub(crate) const BUILTIN_TAG: u32 = u32::MAX;
 pub(crate) const EQL_TAG: u32 = u32::MAX - 1;
 
-pub(crate) type Key = [Part; MAX_PARTS];
+pub type Key = [Part; MAX_PARTS];
 pub(crate) const NO_PART: Part = (0, 0);
 
 /// An argument that decides which methods apply.
-pub(crate) struct Position {
-    pub(crate) index: usize,
+pub struct Position {
+    pub index: usize,
     /// The values that `eql` specializers name.
     pub(crate) eql_values: Vec<Value>,
 }
 
 /// Which arguments decide, and the effective methods found so far.
 #[derive(Default)]
-pub(crate) struct Dispatch {
+pub struct Dispatch {
     /// The arguments that decide.
-    pub(crate) positions: Vec<Position>,
+    pub positions: Vec<Position>,
     /// Effective methods by key.
-    pub(crate) entries: Vec<(Key, Rc<Effective>)>,
+    pub entries: Vec<(Key, Rc<Effective>)>,
     /// The classes whose addresses occur in keys; held so that none is reused.
-    pub(crate) classes: Vec<Rc<Class>>,
+    pub classes: Vec<Rc<Class>>,
 }
 
 impl Dispatch {
@@ -119,7 +119,7 @@ impl Dispatch {
 
     /// The cached effective method, which is moved towards the front.
     #[inline]
-    pub(crate) fn find(&mut self, key: &Key) -> Option<&Rc<Effective>> {
+    pub fn find(&mut self, key: &Key) -> Option<&Rc<Effective>> {
         let found = self.entries.iter().position(|(k, _)| k == key)?;
         let moved = found.saturating_sub(1);
         self.entries.swap(found, moved);

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 /// When a line breaks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Newline {
+pub enum Newline {
     /// If its block does not fit on a line.
     Linear,
     /// If what follows up to the next newline does not fit, or what precedes did not.
@@ -25,15 +25,15 @@ impl Newline {
 
 /// What the columns of a tab are counted from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Tab {
+pub struct Tab {
     /// From where the section starts, not the line?
     pub(crate) by_section: bool,
     /// First this many blanks, then up to a multiple of the step?
     pub(crate) is_relative: bool,
     /// The column to reach, or the number of blanks.
-    pub(crate) column: usize,
+    pub column: usize,
     /// Beyond the column, a multiple of this is reached.
-    pub(crate) step: usize,
+    pub step: usize,
 }
 
 impl Tab {
@@ -60,7 +60,7 @@ impl Tab {
 
 /// An instruction for the layout, at a position of the text.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
     Newline(Newline),
     Start,
     End,
@@ -74,14 +74,14 @@ pub(crate) enum Kind {
 
 /// An instruction and where it stands.
 #[derive(Clone)]
-pub(crate) struct Op {
-    pub(crate) kind: Kind,
+pub struct Op {
+    pub kind: Kind,
     /// Byte of the text that it precedes.
-    pub(crate) byte: usize,
+    pub byte: usize,
     /// Character of the text that it precedes.
-    pub(crate) position: usize,
+    pub position: usize,
     /// Number of blocks around it.
-    pub(crate) depth: usize,
+    pub depth: usize,
     /// Index of the newline that ends the section which it starts.
     pub(crate) section_end: Option<usize>,
     /// Of a start, the index of its end.
@@ -94,9 +94,9 @@ pub(crate) struct Op {
 
 /// A text with layout instructions.
 #[derive(Clone)]
-pub(crate) struct Document {
-    pub(crate) text: String,
-    pub(crate) ops: Vec<Op>,
+pub struct Document {
+    pub text: String,
+    pub ops: Vec<Op>,
     /// Characters so far.
     position: usize,
     /// Indices of the starts of open blocks.
@@ -112,7 +112,7 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    pub(crate) fn new(is_pretty: bool) -> Document {
+    pub fn new(is_pretty: bool) -> Document {
         Document {
             text: String::new(),
             ops: Vec::new(),
@@ -130,7 +130,7 @@ impl Document {
         self.text
     }
 
-    pub(crate) fn characters(&self) -> usize {
+    pub fn characters(&self) -> usize {
         self.position
     }
 
@@ -141,7 +141,7 @@ impl Document {
 
     /// The column after the text, as if lines broke only at its newlines, where the first line
     /// already has `start` characters.
-    pub(crate) fn column(&self, start: usize) -> usize {
+    pub fn column(&self, start: usize) -> usize {
         match self.line_start {
             None => start + self.position,
             Some(line_start) => self.position - line_start,
@@ -149,7 +149,7 @@ impl Document {
     }
 
     /// Appends another document: its blocks become part of the innermost block.
-    pub(crate) fn append(&mut self, other: &Document) {
+    pub fn append(&mut self, other: &Document) {
         if !self.is_pretty || other.ops.is_empty() {
             self.text(&other.text);
             return;
@@ -181,7 +181,7 @@ impl Document {
     }
 
     /// Appends a text; its newlines stay newlines.
-    pub(crate) fn text(&mut self, text: &str) {
+    pub fn text(&mut self, text: &str) {
         if !text.contains('\n') {
             self.line(text);
             return;
@@ -235,12 +235,12 @@ impl Document {
     }
 
     /// Starts a block at the current column, which nothing follows.
-    pub(crate) fn start(&mut self) {
+    pub fn start(&mut self) {
         self.start_lines("".into(), "".into());
     }
 
     /// Writes what opens a block and starts it; something else will close it.
-    pub(crate) fn open(&mut self, prefix: &str, suffix: &'static str) {
+    pub fn open(&mut self, prefix: &str, suffix: &'static str) {
         self.text(prefix);
         self.start_lines("".into(), suffix.into());
     }
@@ -259,7 +259,7 @@ impl Document {
     }
 
     /// Ends the innermost block.
-    pub(crate) fn end(&mut self) {
+    pub fn end(&mut self) {
         if self.is_pretty {
             let start = self.open.pop();
             let index = self.push(Kind::End);
@@ -284,7 +284,7 @@ impl Document {
     }
 
     /// Blanks up to a column.
-    pub(crate) fn tab(&mut self, tab: Tab) {
+    pub fn tab(&mut self, tab: Tab) {
         if self.is_pretty {
             self.has_tabs = true;
             self.push(Kind::Tab(tab));

@@ -7,7 +7,7 @@ use super::symbol::{Sym, known};
 
 /// An element type that arrays can have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ElementType {
+pub enum ElementType {
     /// Anything.
     T,
     /// Nothing.
@@ -108,7 +108,7 @@ impl ElementType {
     }
 
     /// Can an array of this type hold the value?
-    pub(crate) fn holds(self, value: &Value) -> bool {
+    pub fn holds(self, value: &Value) -> bool {
         match self {
             T => true,
             Nil => false,

@@ -7,7 +7,7 @@ use super::Value;
 use super::release::release_values;
 
 /// The elements of an array in row-major order.
-pub(crate) struct Elements(RefCell<Place>);
+pub struct Elements(RefCell<Place>);
 
 enum Place {
     Own(Vec<Value>),
@@ -18,11 +18,11 @@ enum Place {
 #[derive(Clone)]
 pub(crate) struct Displacement {
     /// The array that has them; it may be displaced itself.
-    pub(crate) target: Value,
+    pub target: Value,
     /// Index of the first of them in row-major order.
-    pub(crate) offset: usize,
+    pub offset: usize,
     /// How many they are.
-    pub(crate) size: usize,
+    pub size: usize,
 }
 
 impl Displacement {
@@ -96,12 +96,12 @@ pub(crate) fn displacement(array: &Value) -> Option<Displacement> {
 
 impl Elements {
     /// Elements of its own.
-    pub(crate) fn new(items: Vec<Value>) -> Elements {
+    pub fn new(items: Vec<Value>) -> Elements {
         Elements(RefCell::new(Place::Own(items)))
     }
 
     /// Elements of its own from now on.
-    pub(crate) fn own(&self, items: Vec<Value>) {
+    pub fn own(&self, items: Vec<Value>) {
         drop(self.0.replace(Place::Own(items)));
     }
 
@@ -126,7 +126,7 @@ impl Elements {
 
     /// Number of elements.
     #[inline]
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         match &*self.0.borrow() {
             Place::Own(items) => items.len(),
             Place::Displaced(displacement) => displacement.size,
@@ -135,7 +135,7 @@ impl Elements {
 
     /// The element at an index.
     #[inline]
-    pub(crate) fn get(&self, index: usize) -> Option<Value> {
+    pub fn get(&self, index: usize) -> Option<Value> {
         match &*self.0.borrow() {
             Place::Own(items) => items.get(index).cloned(),
             Place::Displaced(displacement) => displacement.get(index),
@@ -182,7 +182,7 @@ impl Elements {
 
     /// Replaces the element at an index; false if there is none.
     #[inline]
-    pub(crate) fn set(&self, index: usize, value: Value) -> bool {
+    pub fn set(&self, index: usize, value: Value) -> bool {
         let old = match &mut *self.0.borrow_mut() {
             Place::Own(items) => match items.get_mut(index) {
                 Some(item) => std::mem::replace(item, value),
@@ -195,7 +195,7 @@ impl Elements {
     }
 
     /// A copy of so many elements from the first one on.
-    pub(crate) fn copied(&self, count: usize) -> Vec<Value> {
+    pub fn copied(&self, count: usize) -> Vec<Value> {
         match &*self.0.borrow() {
             Place::Own(items) => items.iter().take(count).cloned().collect(),
             Place::Displaced(displacement) => (0..displacement.size.min(count))
@@ -205,12 +205,12 @@ impl Elements {
     }
 
     /// A copy of all elements.
-    pub(crate) fn to_vec(&self) -> Vec<Value> {
+    pub fn to_vec(&self) -> Vec<Value> {
         self.copied(usize::MAX)
     }
 
     /// Gives the array so many elements of its own, new ones being fillers.
-    pub(crate) fn resize(&self, count: usize, filler: Value) {
+    pub fn resize(&self, count: usize, filler: Value) {
         if let Place::Own(items) = &mut *self.0.borrow_mut() {
             items.resize(count, filler);
             return;
@@ -221,7 +221,7 @@ impl Elements {
     }
 
     /// What the array holds: its own elements, or the array that has them.
-    pub(crate) fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+    pub fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
         match &*self.0.borrow() {
             Place::Own(items) => items.iter().for_each(visit),
             Place::Displaced(displacement) => visit(&displacement.target),
@@ -229,14 +229,14 @@ impl Elements {
     }
 
     /// Shows each of the array's own elements, which may be replaced.
-    pub(crate) fn change(&self, change: impl FnMut(&mut Value)) {
+    pub fn change(&self, change: impl FnMut(&mut Value)) {
         if let Place::Own(items) = &mut *self.0.borrow_mut() {
             items.iter_mut().for_each(change);
         }
     }
 
     /// Takes everything out.
-    pub(crate) fn empty(&self) {
+    pub fn empty(&self) {
         self.own(Vec::new());
     }
 }

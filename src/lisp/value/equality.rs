@@ -9,16 +9,16 @@ use super::Value;
 use super::array::Vector;
 use super::cons;
 use super::hash_table::HashTest;
-use crate::lisp::guard::Pace;
+use crate::guard::Pace;
 
 /// `equal`: same structure of pairs, strings and bit vectors, `eql` leaves.
-pub(crate) fn equal(a: &Value, b: &Value) -> bool {
+pub fn equal(a: &Value, b: &Value) -> bool {
     same(a, b, false)
 }
 
 /// `equalp`: like `equal`, but numbers by value, letters ignoring case, arrays, structures and hash
 /// tables by their elements.
-pub(crate) fn equalp(a: &Value, b: &Value) -> bool {
+pub fn equalp(a: &Value, b: &Value) -> bool {
     same(a, b, true)
 }
 
@@ -121,7 +121,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                 pending.extend(x.into_iter().zip(y));
             }
             (Value::Instance(x), Value::Instance(y)) => {
-                if x.class().kind != crate::lisp::value::class::ClassKind::Structure
+                if x.class().kind != crate::value::class::ClassKind::Structure
                     || !Rc::ptr_eq(&x.class(), &y.class())
                 {
                     return false;
@@ -141,7 +141,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                 }
             }
             _ => {
-                if !crate::lisp::value::number::equal_by_value(&a, &b) {
+                if !crate::value::number::equal_by_value(&a, &b) {
                     return false;
                 }
             }
@@ -151,7 +151,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
 }
 
 /// Feeds a key into a hasher so that keys that are equal under `test` hash alike.
-pub(crate) fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
+pub fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
     // Deep keys are distinguished by their first few leaves only.
     let mut budget = 64;
     let structural = matches!(test, HashTest::Equal | HashTest::Equalp);
@@ -190,7 +190,7 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
             if loosely =>
         {
             // The sum makes one zero of both.
-            let number = crate::lisp::value::number::to_f64(value).unwrap_or(0.0) + 0.0;
+            let number = crate::value::number::to_f64(value).unwrap_or(0.0) + 0.0;
             number.to_bits().hash(state);
         }
         Value::Int(n) => n.hash(state),

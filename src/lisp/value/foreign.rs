@@ -9,7 +9,7 @@ use super::release::{Dead, release};
 use super::symbol::Sym;
 
 /// What a value may need to know while it prints. The image implements it.
-pub(crate) trait PrintContext {
+pub trait PrintContext {
     /// A symbol's name.
     fn name(&self, sym: Sym) -> &str;
 
@@ -33,7 +33,7 @@ pub(crate) trait PrintContext {
 }
 
 /// A value whose behaviour another layer defines.
-pub(crate) trait Foreign: Any {
+pub trait Foreign: Any {
     /// The symbol that `type-of` returns.
     fn type_symbol(&self) -> Sym;
 
@@ -89,7 +89,7 @@ pub(crate) trait Foreign: Any {
 }
 
 /// What a copy of an image has in place of a foreign value.
-pub(crate) enum ForeignCopy {
+pub enum ForeignCopy {
     /// The value itself: neither it nor what it refers to ever changes.
     Same,
     /// Another one.
@@ -99,7 +99,7 @@ pub(crate) enum ForeignCopy {
 }
 
 /// Owner of a foreign value.
-pub(crate) struct ForeignBox {
+pub struct ForeignBox {
     object: Box<dyn Foreign>,
     /// Is it among those that may be in a circle?
     pub(super) is_suspect: Cell<bool>,
@@ -107,7 +107,7 @@ pub(crate) struct ForeignBox {
 
 impl ForeignBox {
     /// Wraps an object.
-    pub(crate) fn new(object: impl Foreign) -> ForeignBox {
+    pub fn new(object: impl Foreign) -> ForeignBox {
         ForeignBox::of(Box::new(object))
     }
 
@@ -120,13 +120,13 @@ impl ForeignBox {
     }
 
     /// The object, if it is of type `T`.
-    pub(crate) fn downcast_ref<T: 'static>(&self) -> Option<&T> {
+    pub fn downcast_ref<T: 'static>(&self) -> Option<&T> {
         let any: &dyn Any = self.object.as_ref();
         any.downcast_ref::<T>()
     }
 
     /// The object's behaviour.
-    pub(crate) fn object(&self) -> &dyn Foreign {
+    pub fn object(&self) -> &dyn Foreign {
         self.object.as_ref()
     }
 }

@@ -2,30 +2,32 @@
 
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::value::Value;
+use crate::value::known;
 
 /// A list of the items; after a semicolon, the tail in which the list ends.
-macro_rules! form {
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __form {
     ($($item:expr),* $(,)?) => {
-        $crate::lisp::value::Value::list([$($crate::lisp::value::Value::from($item)),*])
+        $crate::value::Value::list([$($crate::value::Value::from($item)),*])
     };
     ($($item:expr),* ; $tail:expr) => {
-        $crate::lisp::value::Value::list_with_tail(
-            [$($crate::lisp::value::Value::from($item)),*],
+        $crate::value::Value::list_with_tail(
+            [$($crate::value::Value::from($item)),*],
             $tail,
         )
     };
 }
-pub(crate) use form;
+pub use __form as form;
 
 /// `(quote value)`, whatever the value is.
-pub(crate) fn quoted(value: impl Into<Value>) -> Value {
+pub fn quoted(value: impl Into<Value>) -> Value {
     form![known::QUOTE, value.into()]
 }
 
 /// The forms as one form: a single form unchanged, others in a `progn`.
-pub(crate) fn progn(forms: Value) -> Value {
+pub fn progn(forms: Value) -> Value {
     match &forms {
         Value::Cons(cons) if cons.cdr().is_nil() => cons.car(),
         _ => Value::cons(known::PROGN.into(), forms),
@@ -33,7 +35,7 @@ pub(crate) fn progn(forms: Value) -> Value {
 }
 
 /// `(quote value)`; values that evaluate to themselves stay as they are.
-pub(crate) fn quote(value: impl Into<Value>) -> Value {
+pub fn quote(value: impl Into<Value>) -> Value {
     let value = value.into();
     match value {
         Value::Symbol(known::NIL | known::T, ..) | Value::Int(_) | Value::Str(_) => value,
@@ -54,16 +56,16 @@ pub(crate) fn style_warning(report: String) -> Value {
 }
 
 /// A body without its declarations and documentation.
-pub(crate) struct Body {
+pub struct Body {
     /// The `(declare …)` forms.
-    pub(crate) declarations: Vec<Value>,
+    pub declarations: Vec<Value>,
     /// The documentation string.
-    pub(crate) doc: Option<Rc<str>>,
-    pub(crate) forms: Value,
+    pub doc: Option<Rc<str>>,
+    pub forms: Value,
 }
 
 /// Splits the declarations and the documentation string from a body.
-pub(crate) fn split_body(body: &Value) -> Body {
+pub fn split_body(body: &Value) -> Body {
     let mut split = Body {
         declarations: Vec::new(),
         doc: None,

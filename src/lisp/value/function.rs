@@ -11,13 +11,13 @@ use super::release::release_values;
 use super::symbol::Sym;
 
 /// A function object.
-pub(crate) struct Function {
+pub struct Function {
     /// What the function does.
-    pub(crate) body: Body,
+    pub body: Body,
 }
 
 /// What a function does when it is called.
-pub(crate) enum Body {
+pub enum Body {
     /// Compiled code with the values of its free variables.
     Closure {
         /// The compiled code.
@@ -34,32 +34,32 @@ pub(crate) enum Body {
 }
 
 /// A function that is compiled when it is first called.
-pub(crate) struct Deferred {
-    pub(crate) name: Sym,
+pub struct Deferred {
+    pub name: Sym,
     /// The number of its definition among those of the image.
-    pub(crate) number: usize,
+    pub number: usize,
 }
 
 impl Deferred {
     /// A definition that has not been needed yet.
-    pub(crate) fn new(name: Sym, number: usize) -> Deferred {
+    pub fn new(name: Sym, number: usize) -> Deferred {
         Deferred { name, number }
     }
 }
 
 /// A function written in Rust.
-pub(crate) struct Native {
-    pub(crate) name: Sym,
+pub struct Native {
+    pub name: Sym,
     /// Fewest arguments.
-    pub(crate) min: u16,
+    pub min: u16,
     /// Most arguments; none if there is no limit.
-    pub(crate) max: Option<u16>,
+    pub max: Option<u16>,
     /// The Rust function.
-    pub(crate) body: NativeBody,
+    pub body: NativeBody,
 }
 
 /// Where the Rust function is.
-pub(crate) enum NativeBody {
+pub enum NativeBody {
     /// In the image's table of builtins, under this number.
     Builtin(u32),
     /// Here, with data of its own. Its type is known where such functions are made.
@@ -67,7 +67,7 @@ pub(crate) enum NativeBody {
 }
 
 /// A Rust function with data of its own.
-pub(crate) trait MadeBody: Any {
+pub trait MadeBody: Any {
     /// The same function with copies of its data; `None` if a copy of the image cannot have it.
     fn copied(&self, copier: &mut Copier) -> Option<Box<dyn MadeBody>>;
 }
@@ -89,7 +89,7 @@ impl Function {
     }
 
     /// A function written in Rust.
-    pub(crate) fn native(name: Sym, arity: (u16, Option<u16>), body: NativeBody) -> Function {
+    pub fn native(name: Sym, arity: (u16, Option<u16>), body: NativeBody) -> Function {
         Function {
             body: Body::Native(Native {
                 name,
@@ -101,14 +101,14 @@ impl Function {
     }
 
     /// A function that is compiled when it is first called.
-    pub(crate) fn deferred(deferred: Deferred) -> Function {
+    pub fn deferred(deferred: Deferred) -> Function {
         Function {
             body: Body::Deferred(deferred),
         }
     }
 
     /// The definition in the library, if this is a function or macro of it.
-    pub(crate) fn as_deferred(&self) -> Option<&Deferred> {
+    pub fn as_deferred(&self) -> Option<&Deferred> {
         match &self.body {
             Body::Deferred(deferred) => Some(deferred),
             _ => None,
@@ -116,7 +116,7 @@ impl Function {
     }
 
     /// The generic function, if this is one.
-    pub(crate) fn as_generic(&self) -> Option<&GenericFunction> {
+    pub fn as_generic(&self) -> Option<&GenericFunction> {
         match &self.body {
             Body::Generic(g) => Some(g),
             _ => None,

@@ -13,7 +13,7 @@ use super::symbol::{Sym, known};
 
 /// What an argument must be for a method to apply.
 #[derive(Clone)]
-pub(crate) enum Specializer {
+pub enum Specializer {
     /// An instance of the class or of a subclass.
     Class(Rc<Class>),
     /// `eql` to the value.
@@ -22,7 +22,7 @@ pub(crate) enum Specializer {
 
 impl Specializer {
     /// Do both accept the same values?
-    pub(crate) fn is_same(&self, other: &Specializer) -> bool {
+    pub fn is_same(&self, other: &Specializer) -> bool {
         match (self, other) {
             (Specializer::Class(a), Specializer::Class(b)) => Rc::ptr_eq(a, b),
             (Specializer::Eql(a), Specializer::Eql(b)) => a.is_eql(b),
@@ -33,11 +33,11 @@ impl Specializer {
 
 /// How a generic function combines its methods.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Combination {
+pub struct Combination {
     /// The name, which is also the qualifier of methods unless it is `STANDARD`.
-    pub(crate) name: Sym,
+    pub name: Sym,
     /// The operator that the values of all methods are given to.
-    pub(crate) operator: Sym,
+    pub operator: Sym,
     /// Is the value of a single method the value of the call?
     pub(crate) is_identity: bool,
 }
@@ -51,7 +51,7 @@ impl Combination {
     };
 
     /// Does a function of the program make the effective method of all that apply?
-    pub(crate) fn is_long(self) -> bool {
+    pub fn is_long(self) -> bool {
         self.operator == known::SYS_CALL_COMBINED
     }
 
@@ -63,50 +63,50 @@ impl Combination {
 
 /// A method that only reads or writes a slot of its instance.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Accessor {
+pub enum Accessor {
     /// Returns the value of the slot of the first argument.
     Reader(Sym),
     /// Stores the first argument in the slot of the second.
     Writer(Sym),
 }
 
-pub(crate) struct Method {
+pub struct Method {
     /// The name of its generic function: a symbol, or the list `(setf name)`.
-    pub(crate) name: Value,
+    pub name: Value,
     /// Qualifiers as written: none, `:before`, `+`, …
     pub(crate) qualifiers: Vec<Sym>,
     /// One per required argument.
-    pub(crate) specializers: Vec<Specializer>,
+    pub specializers: Vec<Specializer>,
     /// The parameters, required ones included.
-    pub(crate) parameters: Parameters,
+    pub parameters: Parameters,
     /// The method function. It takes the arguments of the call, after a function that
     /// calls the next method (or `NIL`) if `takes_next`.
-    pub(crate) function: Rc<Function>,
+    pub function: Rc<Function>,
     /// Does the function take the next method?
     pub(crate) takes_next: bool,
     /// Set if the method is a slot's reader or writer: such a call needs no function.
-    pub(crate) accessor: Option<Accessor>,
+    pub accessor: Option<Accessor>,
     /// Was the method made by the implementation?
     pub(crate) is_builtin: bool,
     /// Documentation.
-    pub(crate) doc: RefCell<Option<Rc<str>>>,
+    pub doc: RefCell<Option<Rc<str>>>,
     /// The value that stands for the method, as long as it is referenced.
-    pub(crate) object: RefCell<Weak<ForeignBox>>,
+    pub object: RefCell<Weak<ForeignBox>>,
 }
 
-pub(crate) struct GenericFunction {
+pub struct GenericFunction {
     /// Its name: a symbol, or the list `(setf name)`.
-    pub(crate) name: Value,
+    pub name: Value,
     /// The parameters that every method must agree with.
-    pub(crate) parameters: RefCell<Parameters>,
+    pub parameters: RefCell<Parameters>,
     /// Did a `defgeneric` fix the parameters?
     pub(crate) is_declared: Cell<bool>,
     /// The methods in order of definition.
-    pub(crate) methods: RefCell<Vec<Rc<Method>>>,
+    pub methods: RefCell<Vec<Rc<Method>>>,
     /// Methods that the `defgeneric` itself made; evaluating it again replaces them.
     pub(crate) own_methods: RefCell<Vec<Rc<Method>>>,
     /// Documentation.
-    pub(crate) doc: RefCell<Option<Rc<str>>>,
+    pub doc: RefCell<Option<Rc<str>>>,
     /// How the values of methods are combined.
     pub(crate) combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
@@ -115,12 +115,12 @@ pub(crate) struct GenericFunction {
     /// right.
     pub(crate) precedence: RefCell<Vec<usize>>,
     /// Which arguments decide, and the effective methods found so far.
-    pub(crate) dispatch: RefCell<Dispatch>,
+    pub dispatch: RefCell<Dispatch>,
 }
 
 impl GenericFunction {
     /// A generic function without methods, with the standard combination.
-    pub(crate) fn new(name: Value, parameters: Parameters) -> GenericFunction {
+    pub fn new(name: Value, parameters: Parameters) -> GenericFunction {
         GenericFunction {
             name,
             parameters: RefCell::new(parameters),

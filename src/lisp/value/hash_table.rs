@@ -12,7 +12,7 @@ use super::release::release_values;
 
 /// The equality by which a table finds its keys.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum HashTest {
+pub enum HashTest {
     /// Identity.
     Eq,
     /// `eql`.
@@ -27,9 +27,9 @@ pub(crate) enum HashTest {
 #[derive(Clone)]
 pub(crate) struct HashKey {
     /// The key.
-    pub(crate) value: Value,
+    pub value: Value,
     /// The table's test.
-    pub(crate) test: HashTest,
+    pub test: HashTest,
 }
 
 impl PartialEq for HashKey {
@@ -54,19 +54,19 @@ impl Hash for HashKey {
 /// Keys with their values in order of insertion; removed ones leave a gap.
 pub(super) type Entries = Vec<Option<(Value, Value)>>;
 
-pub(crate) struct HashTable {
+pub struct HashTable {
     /// How keys are compared.
-    pub(crate) test: HashTest,
+    pub test: HashTest,
     /// The position of each key's entry.
     index: RefCell<HashMap<HashKey, usize, BuildHasherDefault<KeyHasher>>>,
     entries: RefCell<Entries>,
     /// The size that the table was made for.
-    pub(crate) size: Cell<usize>,
+    pub size: Cell<usize>,
 }
 
 impl HashTable {
     /// An empty table.
-    pub(crate) fn new(test: HashTest) -> HashTable {
+    pub fn new(test: HashTest) -> HashTable {
         HashTable {
             test,
             index: RefCell::default(),
@@ -85,24 +85,24 @@ impl HashTable {
     // A table that is a key of itself may be inspected while it changes; it then appears empty.
 
     /// Number of entries.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.index.try_borrow().map_or(0, |index| index.len())
     }
 
     /// Is there no entry?
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// The value of a key.
-    pub(crate) fn get(&self, key: &Value) -> Option<Value> {
+    pub fn get(&self, key: &Value) -> Option<Value> {
         let place = *self.index.try_borrow().ok()?.get(&self.key(key))?;
         let entries = self.entries.try_borrow().ok()?;
         entries.get(place)?.as_ref().map(|(_, value)| value.clone())
     }
 
     /// Sets the value of a key.
-    pub(crate) fn insert(&self, key: Value, value: Value) {
+    pub fn insert(&self, key: Value, value: Value) {
         let mut index = self.index.borrow_mut();
         let mut entries = self.entries.borrow_mut();
         let place = *index.entry(self.key(&key)).or_insert(entries.len());
@@ -114,7 +114,7 @@ impl HashTable {
     }
 
     /// Removes a key, keeping the order of the others; returns whether it was there.
-    pub(crate) fn remove(&self, key: &Value) -> bool {
+    pub fn remove(&self, key: &Value) -> bool {
         let mut index = self.index.borrow_mut();
         let Some(place) = index.remove(&self.key(key)) else {
             return false;
@@ -165,13 +165,13 @@ impl HashTable {
     }
 
     /// Removes all entries.
-    pub(crate) fn clear(&self) {
+    pub fn clear(&self) {
         self.index.take();
         self.entries.take();
     }
 
     /// The entries in order of insertion.
-    pub(crate) fn pairs(&self) -> Vec<(Value, Value)> {
+    pub fn pairs(&self) -> Vec<(Value, Value)> {
         self.entries.try_borrow().map_or_else(
             |_| Vec::new(),
             |entries| entries.iter().flatten().cloned().collect(),
@@ -190,7 +190,7 @@ impl Drop for HashTable {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::hash_table::*;
+    use crate::value::hash_table::*;
 
     fn keys(table: &HashTable) -> Vec<i64> {
         let number = |v: Value| match v {

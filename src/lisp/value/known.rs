@@ -11,7 +11,7 @@ macro_rules! known {
         $($(
             #[doc = concat!("The symbol `", $name, "`.")]
             #[allow(dead_code, reason = "the table makes the symbol, named in Rust or not")]
-            pub(crate) const $id: Sym = Sym(Index::$id as u32);
+            pub const $id: Sym = Sym(Index::$id as u32);
         )*)*
         /// Package and name of every known symbol, in table order.
         const TABLE: &[(PackageId, &str)] = &[$($((PackageTable::$package, $name),)*)*];
@@ -192,7 +192,7 @@ const SPARE: u32 = 8;
 
 /// A symbol for which a layer above the language has a constant. It has no name until that
 /// layer gives it one.
-pub(crate) const fn spare(number: u32) -> Sym {
+pub const fn spare(number: u32) -> Sym {
     assert!(number < SPARE);
     Sym(TABLE.len() as u32 + number)
 }
@@ -231,7 +231,7 @@ pub(crate) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable)
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::known::*;
+    use crate::value::known::*;
 
     #[test]
     fn every_constant_names_its_own_symbol() {

@@ -3,39 +3,39 @@
 //! A value is sixteen bytes: immediate or a counted reference. Identity (`eq`) is the
 //! identity of the reference; nothing shows an address to the user.
 
-pub(crate) mod array;
-pub(crate) mod class;
-pub(crate) mod code;
-pub(crate) mod cons;
-pub(crate) mod copy;
-pub(crate) mod cycles;
-pub(crate) mod dispatch;
+pub mod array;
+pub mod class;
+pub mod code;
+pub mod cons;
+pub mod copy;
+pub mod cycles;
+pub mod dispatch;
 pub(crate) mod document;
 pub(crate) mod element_type;
-pub(crate) mod elements;
-pub(crate) mod equality;
-pub(crate) mod foreign;
-pub(crate) mod form;
-pub(crate) mod function;
-pub(crate) mod generic;
-pub(crate) mod hash_table;
+pub mod elements;
+pub mod equality;
+pub mod foreign;
+pub mod form;
+pub mod function;
+pub mod generic;
+pub mod hash_table;
 mod key_hasher;
-pub(crate) mod known;
-pub(crate) mod number;
-pub(crate) mod operation;
-pub(crate) mod package;
-pub(crate) mod parameters;
-pub(crate) mod pathname;
-pub(crate) mod placing;
-pub(crate) mod raise;
-pub(crate) mod release;
-pub(crate) mod sequence;
-pub(crate) mod slot;
+pub mod known;
+pub mod number;
+pub mod operation;
+pub mod package;
+pub mod parameters;
+pub mod pathname;
+pub mod placing;
+pub mod raise;
+pub mod release;
+pub mod sequence;
+pub mod slot;
 mod spare;
-pub(crate) mod stream;
-pub(crate) mod string;
-pub(crate) mod symbol;
-pub(crate) mod weak;
+pub mod stream;
+pub mod string;
+pub mod symbol;
+pub mod weak;
 
 use std::rc::Rc;
 
@@ -53,13 +53,13 @@ use self::slot::Slot;
 use self::stream::Stream;
 use self::string::LispString;
 use self::symbol::{Hold, Sym};
-use crate::lisp::guard::{self, Pace, STEPS};
+use crate::guard::{self, Pace, STEPS};
 
 /// A Lisp value.
 ///
 /// The kinds of which there is nothing to free come first, so that one comparison tells them.
 #[derive(Default)]
-pub(crate) enum Value {
+pub enum Value {
     /// Internal: no value (unbound variable or slot, argument not supplied).
     #[default]
     Unbound,
@@ -149,7 +149,7 @@ impl Value {
 
     /// Is there nothing to free?
     #[inline(always)]
-    pub(crate) fn is_plain(&self) -> bool {
+    pub fn is_plain(&self) -> bool {
         match self {
             Value::Unbound
             | Value::Int(_)
@@ -163,53 +163,53 @@ impl Value {
     }
 
     /// The empty list and falsehood.
-    pub(crate) const NIL: Value = Value::Symbol(known::NIL, Hold::NONE);
+    pub const NIL: Value = Value::Symbol(known::NIL, Hold::NONE);
     /// Truth.
-    pub(crate) const T: Value = Value::Symbol(known::T, Hold::NONE);
+    pub const T: Value = Value::Symbol(known::T, Hold::NONE);
 
     /// A symbol, without a hold on its data.
     #[inline]
-    pub(crate) const fn symbol(sym: Sym) -> Value {
+    pub const fn symbol(sym: Sym) -> Value {
         Value::Symbol(sym, Hold::NONE)
     }
 
     /// `T` or `NIL`.
     #[inline]
-    pub(crate) fn bool(b: bool) -> Value {
+    pub fn bool(b: bool) -> Value {
         if b { Value::T } else { Value::NIL }
     }
 
     /// Is this `NIL`?
     #[inline]
-    pub(crate) fn is_nil(&self) -> bool {
+    pub fn is_nil(&self) -> bool {
         matches!(self, Value::Symbol(known::NIL, ..))
     }
 
     /// Is this anything but `NIL`?
     #[inline]
-    pub(crate) fn is_true(&self) -> bool {
+    pub fn is_true(&self) -> bool {
         !self.is_nil()
     }
 
     /// Is this the internal marker for "no value"?
     #[inline]
-    pub(crate) fn is_unbound(&self) -> bool {
+    pub fn is_unbound(&self) -> bool {
         matches!(self, Value::Unbound)
     }
 
     /// A fresh string.
-    pub(crate) fn string(text: impl Into<String>) -> Value {
+    pub fn string(text: impl Into<String>) -> Value {
         Value::Str(Rc::new(LispString::new(text.into())))
     }
 
     /// A fresh pair.
     #[inline]
-    pub(crate) fn cons(car: Value, cdr: Value) -> Value {
+    pub fn cons(car: Value, cdr: Value) -> Value {
         Value::Cons(Cons::shared(car, cdr))
     }
 
     /// A fresh list of the items.
-    pub(crate) fn list<I>(items: I) -> Value
+    pub fn list<I>(items: I) -> Value
     where
         I: IntoIterator<Item = Value>,
         I::IntoIter: DoubleEndedIterator,
@@ -218,7 +218,7 @@ impl Value {
     }
 
     /// A fresh list of the items that ends in `tail`.
-    pub(crate) fn list_with_tail<I>(items: I, tail: Value) -> Value
+    pub fn list_with_tail<I>(items: I, tail: Value) -> Value
     where
         I: IntoIterator<Item = Value>,
         I::IntoIter: DoubleEndedIterator,
@@ -231,17 +231,17 @@ impl Value {
     }
 
     /// A fresh simple vector.
-    pub(crate) fn vector(items: Vec<Value>) -> Value {
+    pub fn vector(items: Vec<Value>) -> Value {
         Value::Vector(Rc::new(Vector::simple(items)))
     }
 
     /// A value of a higher layer.
-    pub(crate) fn foreign(object: impl foreign::Foreign) -> Value {
+    pub fn foreign(object: impl foreign::Foreign) -> Value {
         Value::Foreign(Rc::new(ForeignBox::new(object)))
     }
 
     /// The multiple values; exactly one value is itself.
-    pub(crate) fn values(mut items: Vec<Value>) -> Value {
+    pub fn values(mut items: Vec<Value>) -> Value {
         match items.len() {
             1 => items.pop().unwrap_or(Value::NIL),
             _ => Value::Multiple(Rc::new(items)),
@@ -250,7 +250,7 @@ impl Value {
 
     /// The first of possibly several values (`NIL` when there is none).
     #[inline]
-    pub(crate) fn primary(self) -> Value {
+    pub fn primary(self) -> Value {
         match self {
             Value::Multiple(values) => values.first().cloned().unwrap_or(Value::NIL),
             single => single,
@@ -258,7 +258,7 @@ impl Value {
     }
 
     /// All values of a call's result.
-    pub(crate) fn into_values(self) -> Vec<Value> {
+    pub fn into_values(self) -> Vec<Value> {
         match self {
             Value::Multiple(values) => values.as_ref().clone(),
             single => vec![single],
@@ -267,7 +267,7 @@ impl Value {
 
     /// The symbol, if this is one.
     #[inline]
-    pub(crate) fn as_symbol(&self) -> Option<Sym> {
+    pub fn as_symbol(&self) -> Option<Sym> {
         match self {
             Value::Symbol(s, ..) => Some(*s),
             _ => None,
@@ -276,7 +276,7 @@ impl Value {
 
     /// The pair, if this is one.
     #[inline]
-    pub(crate) fn as_cons(&self) -> Option<&Rc<Cons>> {
+    pub fn as_cons(&self) -> Option<&Rc<Cons>> {
         match self {
             Value::Cons(c) => Some(c),
             _ => None,
@@ -292,7 +292,7 @@ impl Value {
     }
 
     /// The text of a string, if this is one.
-    pub(crate) fn as_text(&self) -> Option<String> {
+    pub fn as_text(&self) -> Option<String> {
         match self {
             Value::Str(s) => Some(s.text()),
             _ => None,
@@ -300,7 +300,7 @@ impl Value {
     }
 
     /// The object of a higher layer, if this is one of type `T`.
-    pub(crate) fn as_foreign<T: 'static>(&self) -> Option<&T> {
+    pub fn as_foreign<T: 'static>(&self) -> Option<&T> {
         match self {
             Value::Foreign(f) => f.downcast_ref::<T>(),
             _ => None,
@@ -308,14 +308,14 @@ impl Value {
     }
 
     /// Is this a list: a pair or `NIL`?
-    pub(crate) fn is_list(&self) -> bool {
+    pub fn is_list(&self) -> bool {
         self.is_nil() || matches!(self, Value::Cons(_))
     }
 
     /// Identity: the same object. Numbers and characters are identical when `eql`, except that
     /// bignums, ratios and floats are compared only by `eql`.
     #[inline(always)]
-    pub(crate) fn is_eq(&self, other: &Value) -> bool {
+    pub fn is_eq(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Symbol(a, _), Value::Symbol(b, _)) => a == b,
             (Value::Int(a), Value::Int(b)) => a == b,
@@ -349,7 +349,7 @@ impl Value {
     }
 
     /// `eql`: identical, or numbers of one type and value.
-    pub(crate) fn is_eql(&self, other: &Value) -> bool {
+    pub fn is_eql(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Big(a), Value::Big(b)) => a == b,
             (Value::Ratio(a), Value::Ratio(b)) => a == b,
@@ -362,7 +362,7 @@ impl Value {
 
     /// Iterates over the elements of a list; stops at the first tail that is not a pair, and
     /// after a few rounds of a circular list.
-    pub(crate) fn iter_list(&self) -> ListIter {
+    pub fn iter_list(&self) -> ListIter {
         ListIter {
             rest: self.clone(),
             rounds: Rounds::default(),
@@ -370,7 +370,7 @@ impl Value {
     }
 
     /// The elements of a proper list, or `None` if the value is a dotted list or not a list.
-    pub(crate) fn list_to_vec(&self) -> Option<Vec<Value>> {
+    pub fn list_to_vec(&self) -> Option<Vec<Value>> {
         let mut iter = self.iter_list();
         let items: Vec<Value> = iter.by_ref().collect();
         iter.rest.is_nil().then_some(items)
@@ -385,12 +385,12 @@ impl Value {
     }
 
     /// The car of a pair; `NIL` for anything else.
-    pub(crate) fn car_or_nil(&self) -> Value {
+    pub fn car_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.car())
     }
 
     /// The cdr of a pair; `NIL` for anything else.
-    pub(crate) fn cdr_or_nil(&self) -> Value {
+    pub fn cdr_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.cdr())
     }
 }
@@ -450,10 +450,10 @@ impl Rounds {
 }
 
 /// Iterator over the elements of a list.
-pub(crate) struct ListIter {
+pub struct ListIter {
     /// What has not been visited yet; at the end, the list's tail: a pair if the list is
     /// circular.
-    pub(crate) rest: Value,
+    pub rest: Value,
     rounds: Rounds,
 }
 

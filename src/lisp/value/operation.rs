@@ -6,7 +6,7 @@ use super::symbol::Sym;
 /// the lowest one for ascending, the next one for equal, the highest one for descending numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(u8)]
-pub(crate) enum Comparison {
+pub enum Comparison {
     /// `<`
     Less = 0b001,
     /// `=`
@@ -22,7 +22,7 @@ pub(crate) enum Comparison {
 impl Comparison {
     /// Does it hold for two integers?
     #[inline(always)]
-    pub(crate) fn holds(self, a: i64, b: i64) -> bool {
+    pub fn holds(self, a: i64, b: i64) -> bool {
         let order = (a > b) as u8 * 2 + (a == b) as u8;
         (self as u8 >> order) & 1 != 0
     }
@@ -31,14 +31,14 @@ impl Comparison {
 /// A comparison, and whether to jump when it holds or when it does not. Its lowest three bits say for
 /// which orders of two integers it jumps, as those of a comparison say for which this holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Test(u8);
+pub struct Test(u8);
 
 impl Test {
     const WHEN: u8 = 0b1000;
     const ORDERS: u8 = 0b0111;
 
     /// Jumps when the comparison holds (if that is wanted) or when it does not.
-    pub(crate) fn new(comparison: Comparison, when: bool) -> Test {
+    pub fn new(comparison: Comparison, when: bool) -> Test {
         match when {
             true => Test(comparison as u8 | Test::WHEN),
             false => Test(comparison as u8 ^ Test::ORDERS),
@@ -53,7 +53,7 @@ impl Test {
     }
 
     /// The comparison.
-    pub(crate) fn comparison(self) -> Comparison {
+    pub fn comparison(self) -> Comparison {
         let orders = match self.when() {
             true => self.0 & Test::ORDERS,
             false => self.0 ^ Test::ORDERS,
@@ -68,7 +68,7 @@ impl Test {
     }
 
     /// Does it jump when the comparison holds?
-    pub(crate) fn when(self) -> bool {
+    pub fn when(self) -> bool {
         self.0 & Test::WHEN != 0
     }
 }
@@ -76,7 +76,7 @@ impl Test {
 /// One operation, in eight bytes; slots and numbers that do not fit are left to longer sequences.
 /// "Push" and "pop" refer to the value stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Op {
+pub enum Op {
     /// Push a constant.
     Const(u32),
     /// Push `NIL`.

@@ -7,11 +7,11 @@ use super::symbol::{Sym, SymbolTable};
 
 /// A package of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub(crate) struct PackageId(pub(crate) u16);
+pub struct PackageId(pub u16);
 
 /// How a name is accessible in a package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Access {
+pub enum Access {
     /// Present and exported.
     External,
     /// Present, not exported.
@@ -22,39 +22,39 @@ pub(crate) enum Access {
 
 /// One package.
 #[derive(Clone, Default)]
-pub(crate) struct Package {
-    pub(crate) name: Rc<str>,
+pub struct Package {
+    pub name: Rc<str>,
     /// Other names.
-    pub(crate) nicknames: Vec<Rc<str>>,
+    pub nicknames: Vec<Rc<str>>,
     /// Symbols present in the package, by name; the flag tells whether it is exported.
-    pub(crate) symbols: BTreeMap<Rc<str>, (Sym, bool)>,
+    pub symbols: BTreeMap<Rc<str>, (Sym, bool)>,
     /// Packages whose external symbols are inherited, in order.
-    pub(crate) uses: Vec<PackageId>,
+    pub uses: Vec<PackageId>,
     /// Names that the package shadows.
     pub(crate) shadowing: Vec<Rc<str>>,
     /// A sentence about the package.
-    pub(crate) doc: Option<Rc<str>>,
+    pub doc: Option<Rc<str>>,
 }
 
 /// All packages of an image. Copies share the packages until one changes them.
 #[derive(Clone, Default)]
-pub(crate) struct PackageTable {
+pub struct PackageTable {
     packages: Vec<Rc<Package>>,
     by_name: BTreeMap<Rc<str>, PackageId>,
 }
 
 impl PackageTable {
     /// `COMMON-LISP`.
-    pub(crate) const CL: PackageId = PackageId(0);
+    pub const CL: PackageId = PackageId(0);
     /// `KEYWORD`.
-    pub(crate) const KEYWORD: PackageId = PackageId(1);
+    pub const KEYWORD: PackageId = PackageId(1);
     /// `SYSTEM`: names that the implementation itself needs.
-    pub(crate) const SYSTEM: PackageId = PackageId(3);
+    pub const SYSTEM: PackageId = PackageId(3);
     /// `COMMON-LISP-USER`.
-    pub(crate) const USER: PackageId = PackageId(2);
+    pub const USER: PackageId = PackageId(2);
 
     /// Makes a package; `None` if a name is taken.
-    pub(crate) fn make(&mut self, name: &str, nicknames: &[&str]) -> Option<PackageId> {
+    pub fn make(&mut self, name: &str, nicknames: &[&str]) -> Option<PackageId> {
         if self.find(name).is_some() || nicknames.iter().any(|n| self.find(n).is_some()) {
             return None;
         }
@@ -72,7 +72,7 @@ impl PackageTable {
     }
 
     /// Gives a package another name, unless that name is taken.
-    pub(crate) fn add_nickname(&mut self, id: PackageId, nickname: &str) {
+    pub fn add_nickname(&mut self, id: PackageId, nickname: &str) {
         let nickname: Rc<str> = nickname.into();
         if !self.by_name.contains_key(&nickname) {
             self.by_name.insert(nickname.clone(), id);
@@ -81,37 +81,37 @@ impl PackageTable {
     }
 
     /// The package of that name or nickname.
-    pub(crate) fn find(&self, name: &str) -> Option<PackageId> {
+    pub fn find(&self, name: &str) -> Option<PackageId> {
         self.by_name.get(name).copied()
     }
 
     /// Forgets a package's names, so that it can no longer be found.
-    pub(crate) fn delete(&mut self, id: PackageId) {
+    pub fn delete(&mut self, id: PackageId) {
         self.by_name.retain(|_, found| *found != id);
     }
 
     /// The package.
-    pub(crate) fn get(&self, id: PackageId) -> &Package {
+    pub fn get(&self, id: PackageId) -> &Package {
         &self.packages[usize::from(id.0)]
     }
 
     /// The package, mutably.
-    pub(crate) fn get_mut(&mut self, id: PackageId) -> &mut Package {
+    pub fn get_mut(&mut self, id: PackageId) -> &mut Package {
         Rc::make_mut(&mut self.packages[usize::from(id.0)])
     }
 
     /// All names and nicknames with their packages, by name.
-    pub(crate) fn names(&self) -> impl Iterator<Item = (&str, PackageId)> {
+    pub fn names(&self) -> impl Iterator<Item = (&str, PackageId)> {
         self.by_name.iter().map(|(name, id)| (name.as_ref(), *id))
     }
 
     /// All packages, in order of creation.
-    pub(crate) fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
+    pub fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
         (0..self.packages.len()).filter_map(|i| u16::try_from(i).ok().map(PackageId))
     }
 
     /// The symbol accessible under a name in a package.
-    pub(crate) fn find_symbol(&self, package: PackageId, name: &str) -> Option<(Sym, Access)> {
+    pub fn find_symbol(&self, package: PackageId, name: &str) -> Option<(Sym, Access)> {
         let this = self.get(package);
         if let Some((sym, external)) = this.symbols.get(name) {
             let access = if *external {
@@ -129,12 +129,7 @@ impl PackageTable {
 
     /// The symbol accessible under a name; if there is none, a new one is made present. A new
     /// symbol in `KEYWORD` is exported and is its own value.
-    pub(crate) fn intern(
-        &mut self,
-        symbols: &mut SymbolTable,
-        package: PackageId,
-        name: &str,
-    ) -> Sym {
+    pub fn intern(&mut self, symbols: &mut SymbolTable, package: PackageId, name: &str) -> Sym {
         if let Some((sym, _)) = self.find_symbol(package, name) {
             return sym;
         }
@@ -145,7 +140,7 @@ impl PackageTable {
         data.package = Some(package);
         if is_keyword {
             data.value = sym.into();
-            data.kind = crate::lisp::value::symbol::VariableKind::Constant;
+            data.kind = crate::value::symbol::VariableKind::Constant;
         }
         self.get_mut(package)
             .symbols
@@ -154,7 +149,7 @@ impl PackageTable {
     }
 
     /// Makes a symbol present in a package (`import`), keeping its home.
-    pub(crate) fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         let data = symbols.get_mut(sym);
         if data.package.is_none() {
@@ -167,7 +162,7 @@ impl PackageTable {
     }
 
     /// Exports a symbol from a package, making it present first.
-    pub(crate) fn export(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub fn export(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
         self.import(symbols, package, sym);
         let name = symbols.get(sym).name.clone();
         if let Some(entry) = self.get_mut(package).symbols.get_mut(&name) {
@@ -176,7 +171,7 @@ impl PackageTable {
     }
 
     /// Lets a package inherit the external symbols of another.
-    pub(crate) fn use_package(&mut self, package: PackageId, used: PackageId) {
+    pub fn use_package(&mut self, package: PackageId, used: PackageId) {
         let uses = &mut self.get_mut(package).uses;
         if package != used && !uses.contains(&used) {
             uses.push(used);
@@ -236,7 +231,7 @@ impl PackageTable {
     }
 
     /// Gives a package a new name and nicknames; false if one is taken.
-    pub(crate) fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
+    pub fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
         let taken = |n: &str| self.find(n).is_some_and(|found| found != id);
         if taken(name) || nicknames.iter().any(|n| taken(n)) {
             return false;
@@ -253,7 +248,7 @@ impl PackageTable {
     }
 
     /// Has the package been deleted?
-    pub(crate) fn is_deleted(&self, id: PackageId) -> bool {
+    pub fn is_deleted(&self, id: PackageId) -> bool {
         self.find(&self.get(id).name) != Some(id)
     }
 }

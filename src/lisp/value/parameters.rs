@@ -4,22 +4,22 @@ use super::symbol::Sym;
 
 /// Numbers of parameters and keywords of a lambda list.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub(crate) struct Parameters {
+pub struct Parameters {
     /// Number of required parameters.
-    pub(crate) required: usize,
+    pub required: usize,
     /// Number of optional parameters.
-    pub(crate) optional: usize,
+    pub optional: usize,
     /// Is there a rest parameter?
     pub(crate) has_rest: bool,
     /// The keywords, if there is `&key`.
-    pub(crate) keys: Option<Vec<Sym>>,
+    pub keys: Option<Vec<Sym>>,
     /// Are keywords beyond those allowed?
     pub(crate) allows_other_keys: bool,
 }
 
 impl Parameters {
     /// Only required parameters.
-    pub(crate) fn required(count: usize) -> Parameters {
+    pub fn required(count: usize) -> Parameters {
         Parameters {
             required: count,
             ..Parameters::default()
@@ -36,7 +36,7 @@ impl Parameters {
     }
 
     /// May a call have more than the required and optional arguments?
-    pub(crate) fn has_more(&self) -> bool {
+    pub fn has_more(&self) -> bool {
         self.has_rest || self.keys.is_some()
     }
 

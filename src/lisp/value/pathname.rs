@@ -10,16 +10,16 @@ use super::symbol::Sym;
 /// The name of a file.
 pub(crate) struct Pathname {
     /// The host of a logical pathname, a string; `NIL` for the name of a file of the machine.
-    pub(crate) host: Value,
+    pub host: Value,
     /// `NIL`, or a list that begins with `:ABSOLUTE` or `:RELATIVE`, of strings, `:UP`, `:WILD` and
     /// `:WILD-INFERIORS`.
-    pub(crate) directory: Value,
+    pub directory: Value,
     /// A string, `:WILD` or `NIL`.
-    pub(crate) name: Value,
+    pub name: Value,
     /// What stands after the last dot: a string, `:WILD` or `NIL`.
-    pub(crate) kind: Value,
+    pub kind: Value,
     /// Kept as it is given; it is no part of a file's name.
-    pub(crate) version: Value,
+    pub version: Value,
 }
 
 impl Pathname {
@@ -191,7 +191,7 @@ impl Foreign for Pathname {
 }
 
 /// The name of a file that a value gives: a string, or a pathname.
-pub(crate) fn file_name(value: &Value) -> Option<String> {
+pub fn file_name(value: &Value) -> Option<String> {
     match value.as_foreign::<Pathname>() {
         Some(pathname) => Some(pathname.namestring()),
         None => value.as_text(),

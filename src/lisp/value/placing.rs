@@ -19,7 +19,7 @@ pub(crate) fn push_made<T>(stack: &mut Vec<T>, make: impl FnOnce() -> T) {
 impl Value {
     /// Stores a value where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, value: Value) {
+    pub fn fill(&mut self, value: Value) {
         std::mem::forget(std::mem::replace(self, value));
     }
 
@@ -45,7 +45,7 @@ impl Value {
 
     /// Drops the value, and leaves behind what needs not be freed.
     #[inline(always)]
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         if self.is_plain() {
             return;
         }

@@ -3,13 +3,13 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
-use crate::closest_name::closest_name;
-use crate::lisp::guard::{MOST_ELEMENTS, Stopped, TooDeep};
-use crate::lisp::source::Place;
+use crate::guard::{MOST_ELEMENTS, Stopped, TooDeep};
+use crate::source::Place;
+use closest_name::closest_name;
 
 /// A condition that is to be signalled as by `error`.
 #[derive(Clone)]
-pub(crate) enum Raise {
+pub enum Raise {
     /// A condition object that exists already.
     Condition {
         condition: Value,
@@ -30,7 +30,7 @@ pub(crate) enum Raise {
 
 impl Raise {
     /// A condition of a class with a report.
-    pub(crate) fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
+    pub fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
         Box::new(Raise::Make {
             class,
             report: Some(report.into()),
@@ -40,7 +40,7 @@ impl Raise {
     }
 
     /// Adds the value of an initarg (a keyword) to a condition still to be made.
-    pub(crate) fn with(mut self: Box<Self>, initarg: Sym, value: Value) -> Box<Raise> {
+    pub fn with(mut self: Box<Self>, initarg: Sym, value: Value) -> Box<Raise> {
         if let Raise::Make { initargs, .. } = self.as_mut() {
             initargs.push((initarg, value));
         }
@@ -48,7 +48,7 @@ impl Raise {
     }
 
     /// The error with the place of the form it is about, unless it has one.
-    pub(crate) fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
+    pub fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
         let (Raise::Make { place, .. } | Raise::Condition { place, .. }) = self.as_mut();
         if !place.is_some() {
             *place = here;
@@ -57,14 +57,14 @@ impl Raise {
     }
 
     /// The place of the form that the error is about, if it is about a form.
-    pub(crate) fn place(&self) -> Place {
+    pub fn place(&self) -> Place {
         match self {
             Raise::Make { place, .. } | Raise::Condition { place, .. } => *place,
         }
     }
 
     /// A condition object that exists already.
-    pub(crate) fn condition(condition: Value) -> Box<Raise> {
+    pub fn condition(condition: Value) -> Box<Raise> {
         Box::new(Raise::Condition {
             condition,
             place: Place::NONE,
@@ -72,21 +72,18 @@ impl Raise {
     }
 
     /// A `SIMPLE-ERROR` with a text.
-    pub(crate) fn simple(report: impl Into<String>) -> Box<Raise> {
+    pub fn simple(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_ERROR, report)
     }
 
     /// A `SIMPLE-PROGRAM-ERROR` with a text: a wrong form or a wrong call.
-    pub(crate) fn program(report: impl Into<String>) -> Box<Raise> {
+    pub fn program(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_PROGRAM_ERROR, report)
     }
 
     /// A call with a keyword argument that the function does not have; `shown` is its name as it is
     /// printed, `known` are the names of those that there are.
-    pub(crate) fn unknown_key<'a>(
-        shown: &str,
-        known: impl IntoIterator<Item = &'a str>,
-    ) -> Box<Raise> {
+    pub fn unknown_key<'a>(shown: &str, known: impl IntoIterator<Item = &'a str>) -> Box<Raise> {
         let mut report = format!("Unknown &KEY argument: {shown}");
         if let Some(near) = closest_name(shown.trim_start_matches(':'), known) {
             report.push_str(&format!("; did you mean :{near}?"));
@@ -95,7 +92,7 @@ impl Raise {
     }
 
     /// A `TYPE-ERROR`: `datum` is not of type `expected` (a type specifier).
-    pub(crate) fn type_error(datum: &Value, expected: impl Into<Value>) -> Box<Raise> {
+    pub fn type_error(datum: &Value, expected: impl Into<Value>) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::TYPE_ERROR,
             report: None,
@@ -136,7 +133,7 @@ impl Raise {
     }
 
     /// An `UNDEFINED-FUNCTION` error; the name is a symbol or `(setf symbol)`.
-    pub(crate) fn undefined_function(name: Value) -> Box<Raise> {
+    pub fn undefined_function(name: Value) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::UNDEFINED_FUNCTION,
             report: None,
@@ -146,7 +143,7 @@ impl Raise {
     }
 
     /// Is it an interrupt that came in the middle of a call?
-    pub(crate) fn is_interrupt(&self) -> bool {
+    pub fn is_interrupt(&self) -> bool {
         match self {
             Raise::Condition { condition, .. } => is_interrupt(condition),
             Raise::Make { class, .. } => *class == known::INTERACTIVE_INTERRUPT,
@@ -154,13 +151,13 @@ impl Raise {
     }
 
     /// A `CONTROL-ERROR` with a text.
-    pub(crate) fn control(report: impl Into<String>) -> Box<Raise> {
+    pub fn control(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_CONTROL_ERROR, report)
     }
 }
 
 /// Is the condition an interrupt that came in the middle of a call?
-pub(crate) fn is_interrupt(condition: &Value) -> bool {
+pub fn is_interrupt(condition: &Value) -> bool {
     matches!(condition, Value::Instance(i) if i.class().name == known::INTERACTIVE_INTERRUPT)
 }
 

@@ -58,7 +58,7 @@ pub(crate) fn put_off_others(others: impl Any, count: usize) {
 }
 
 /// Frees some of what is in the queue.
-pub(crate) fn some() {
+pub fn some() {
     if QUEUE.with_borrow(|queue| queue.is_empty()) || IS_FREEING.replace(true) {
         return;
     }
@@ -67,7 +67,7 @@ pub(crate) fn some() {
 }
 
 /// Frees everything that is in the queue; was there anything?
-pub(crate) fn all() -> bool {
+pub fn all() -> bool {
     let is_waiting = || !QUEUE.with_borrow(|queue| queue.is_empty()) && !IS_FREEING.get();
     let was_waiting = is_waiting();
     while is_waiting() {
@@ -131,7 +131,7 @@ pub(super) fn release_values(values: Vec<Value>) {
 
 /// Frees everything when it is dropped, and what holds each other.
 #[derive(Default)]
-pub(crate) struct FreesAll;
+pub struct FreesAll;
 
 impl Drop for FreesAll {
     fn drop(&mut self) {
@@ -149,14 +149,14 @@ impl Drop for FreesAll {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::Image;
-    use crate::lisp::value::function::Function;
-    use crate::lisp::value::hash_table::{HashTable, HashTest};
-    use crate::lisp::value::slot::Slot;
+    use crate::Image;
+    use crate::value::function::Function;
+    use crate::value::hash_table::{HashTable, HashTest};
+    use crate::value::slot::Slot;
 
     #[test]
     fn structures_of_any_depth_are_freed_without_recursion() {
-        let code = crate::lisp::compile::compile_form(&mut Image::new(), &Value::NIL)
+        let code = crate::compile::compile_form(&mut Image::new(), &Value::NIL)
             .unwrap_or_else(|_| unreachable!());
         let mut chain = Value::NIL;
         for i in 0..1_000_000 {

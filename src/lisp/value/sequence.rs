@@ -3,13 +3,13 @@
 use super::element_type::ElementType;
 use std::rc::Rc;
 
-use crate::lisp::value::array::Vector;
-use crate::lisp::value::cons::{self, Cons};
-use crate::lisp::value::cycles;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::{Rounds, Value};
+use crate::value::array::Vector;
+use crate::value::cons::{self, Cons};
+use crate::value::cycles;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::string::LispString;
+use crate::value::{Rounds, Value};
 
 #[derive(Clone)]
 pub(crate) enum Sequence {
@@ -207,7 +207,7 @@ pub(crate) fn index_too_large(index: usize, what: &str, length: usize) -> Box<Ra
 }
 
 /// What a vector with this element type stores for a value.
-pub(crate) fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
+pub fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
     checked_element(vector.element_type, value)
 }
 
@@ -224,7 +224,7 @@ pub(crate) fn checked_element(
 }
 
 /// A value as a character.
-pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
+pub fn character(value: &Value) -> Result<char, Box<Raise>> {
     match value {
         Value::Char(c) => Ok(*c),
         _ => Err(Raise::type_error(value, known::CHARACTER)),
@@ -232,13 +232,13 @@ pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
 }
 
 /// The text made of characters.
-pub(crate) fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
+pub fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
     items.iter().map(character).collect()
 }
 
 /// The kind of sequence that a result is to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A list.
     List,
     /// A vector with an element type.
@@ -249,7 +249,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// A fresh sequence of this kind.
-    pub(crate) fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         match self {
             Kind::List => Ok(Value::list(items)),
             Kind::Str => Ok(Value::string(text_of(&items)?)),
@@ -270,9 +270,9 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// Index of the first element.
-    pub(crate) start: usize,
+    pub start: usize,
     /// Index after the last element; none means the sequence's end.
-    pub(crate) end: Option<usize>,
+    pub end: Option<usize>,
 }
 
 impl Bounds {
@@ -357,7 +357,7 @@ fn bad_bounds(start: Option<&Value>, end: Option<&Value>, length: usize) -> Box<
 }
 
 /// A non-negative integer that can be an index or a count.
-pub(crate) fn index(value: &Value) -> Result<usize, Box<Raise>> {
+pub fn index(value: &Value) -> Result<usize, Box<Raise>> {
     match value {
         Value::Int(n) => {
             usize::try_from(*n).map_err(|_| Raise::type_error(value, known::UNSIGNED_BYTE))
@@ -410,7 +410,7 @@ impl Walk {
 /// the second round, is reached.
 pub(crate) struct ListWalk {
     /// What has not been visited yet.
-    pub(crate) rest: Value,
+    pub rest: Value,
     rounds: Rounds,
 }
 
@@ -449,7 +449,7 @@ impl ListWalk {
 }
 
 /// The error for a circular list that should end.
-pub(crate) fn circular(list: &Value) -> Box<Raise> {
+pub fn circular(list: &Value) -> Box<Raise> {
     Raise::new(known::TYPE_ERROR, "The list is circular.")
         .with(known::K_DATUM, list.clone())
         .with(known::K_EXPECTED_TYPE, known::LIST.into())

@@ -9,18 +9,18 @@ use super::cons::Cons;
 
 /// A mutable place for one value.
 #[derive(Default)]
-pub(crate) struct Slot(Cell<Value>);
+pub struct Slot(Cell<Value>);
 
 impl Slot {
     /// A place that holds `value`.
     #[inline]
-    pub(crate) fn new(value: Value) -> Slot {
+    pub fn new(value: Value) -> Slot {
         Slot(Cell::new(value))
     }
 
     /// The value.
     #[inline]
-    pub(crate) fn get(&self) -> Value {
+    pub fn get(&self) -> Value {
         let mut value = Value::Unbound;
         self.copy_into(&mut value);
         value
@@ -108,7 +108,7 @@ impl Slot {
 
     /// Looks at the value without counting a reference. `look` must not touch this slot.
     #[inline]
-    pub(crate) fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+    pub fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
         let value = self.0.take();
         let result = look(&value);
         self.put_back(value);
@@ -117,13 +117,13 @@ impl Slot {
 
     /// Stores a value.
     #[inline]
-    pub(crate) fn set(&self, value: Value) {
+    pub fn set(&self, value: Value) {
         self.0.set(value);
     }
 
     /// Takes the value out and leaves "no value".
     #[inline]
-    pub(crate) fn take(&self) -> Value {
+    pub fn take(&self) -> Value {
         self.0.take()
     }
 }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use super::Value;
 use super::cons::Cons;
-use crate::lisp::source::Place;
+use crate::source::Place;
 
 /// Pairs that are kept at most: about half a megabyte.
 const MOST: usize = 8192;

@@ -15,24 +15,24 @@ use super::symbol::Sym;
 /// The deepest nesting of streams that are made of other streams.
 pub(crate) const MAX_NESTING: u32 = 100;
 
-pub(crate) struct Stream {
+pub struct Stream {
     /// Where its characters come from or go to.
-    pub(crate) kind: RefCell<StreamKind>,
+    pub kind: RefCell<StreamKind>,
     /// Its class, which it keeps when it is closed.
-    pub(crate) class: Sym,
+    pub class: Sym,
     /// The name of the file that it reads or writes.
-    pub(crate) file: Option<Rc<str>>,
+    pub file: Option<Rc<str>>,
     /// What its elements are.
-    pub(crate) elements: Elements,
+    pub elements: Elements,
     /// How many levels of other streams it is made of.
-    pub(crate) nesting: u32,
+    pub nesting: u32,
     /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
     pub(crate) backquotes: Cell<usize>,
 }
 
 /// What the elements of a stream are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Elements {
+pub enum Elements {
     /// Characters, which files encode as UTF-8.
     Characters,
     /// Integers of so many bits, the low byte first in files.
@@ -45,7 +45,7 @@ pub(crate) enum Elements {
 }
 
 /// Where a stream's elements come from or go to.
-pub(crate) enum StreamKind {
+pub enum StreamKind {
     /// The image's standard output.
     StandardOutput,
     /// The image's standard input, which is at its end unless somebody can be asked.
@@ -146,7 +146,7 @@ impl StreamKind {
 
 impl Stream {
     /// A stream of a kind that is not made of other streams.
-    pub(crate) fn new(kind: StreamKind) -> Stream {
+    pub fn new(kind: StreamKind) -> Stream {
         Stream {
             class: kind.class(),
             kind: RefCell::new(kind),
@@ -158,7 +158,7 @@ impl Stream {
     }
 
     /// A stream that reads or writes a file.
-    pub(crate) fn of_file(kind: StreamKind, name: &str, elements: Elements) -> Stream {
+    pub fn of_file(kind: StreamKind, name: &str, elements: Elements) -> Stream {
         Stream {
             class: known::FILE_STREAM,
             file: Some(name.into()),
@@ -183,7 +183,7 @@ impl Stream {
     }
 
     /// A stream that yields the characters of a text.
-    pub(crate) fn from_text(text: impl Into<Rc<str>>) -> Stream {
+    pub fn from_text(text: impl Into<Rc<str>>) -> Stream {
         Stream::new(StreamKind::StringInput {
             text: text.into(),
             position: 0,
@@ -237,7 +237,7 @@ impl Stream {
     }
 
     /// Number of bytes that an element takes in a file; characters count as one.
-    pub(crate) fn width(&self) -> usize {
+    pub fn width(&self) -> usize {
         match self.elements {
             Elements::Characters => 1,
             Elements::Integers { bits, .. } => bits.div_ceil(8).max(1) as usize,

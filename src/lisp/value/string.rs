@@ -4,7 +4,7 @@ use std::cell::{Cell, Ref, RefCell};
 
 use super::Value;
 use super::elements::Displacement;
-use crate::lisp::guard::{permit_length, reserve};
+use crate::guard::{permit_length, reserve};
 
 /// Bytes of a text for which there may be no room.
 const LARGE: usize = 1 << 16;
@@ -14,7 +14,7 @@ const LARGE: usize = 1 << 16;
 /// Positions count characters, not bytes. Texts of ASCII characters are indexed in
 /// constant time; in other texts, walking from one position to the next is constant too.
 #[derive(Clone)]
-pub(crate) struct LispString {
+pub struct LispString {
     text: RefCell<String>,
     /// Number of characters.
     length: Cell<usize>,
@@ -23,7 +23,7 @@ pub(crate) struct LispString {
     /// Does the string have a fill pointer, that is, can characters be pushed?
     pub(crate) has_fill_pointer: Cell<bool>,
     /// May the string grow beyond its capacity?
-    pub(crate) adjustable: Cell<bool>,
+    pub adjustable: Cell<bool>,
     /// How many characters there is room for, if there is a fill pointer.
     capacity: Cell<usize>,
     /// Characters beyond a fill pointer that was set back, the nearest one last.
@@ -35,7 +35,7 @@ pub(crate) struct LispString {
 
 impl LispString {
     /// A simple string.
-    pub(crate) fn new(text: String) -> LispString {
+    pub fn new(text: String) -> LispString {
         let length = text.chars().count();
         permit_length(length);
         LispString {
@@ -124,7 +124,7 @@ impl LispString {
     }
 
     /// The character at a position, whether or not the fill pointer covers it.
-    pub(crate) fn element(&self, index: usize) -> Option<char> {
+    pub fn element(&self, index: usize) -> Option<char> {
         if index < self.len() {
             return self.char_at(index);
         }
@@ -156,7 +156,7 @@ impl LispString {
     }
 
     /// A copy of the text.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         self.refresh();
         let text = self.text.borrow();
         if text.len() > LARGE {
@@ -166,18 +166,18 @@ impl LispString {
     }
 
     /// The text, borrowed; must not be held across a change of the string.
-    pub(crate) fn borrow(&self) -> Ref<'_, String> {
+    pub fn borrow(&self) -> Ref<'_, String> {
         self.refresh();
         self.text.borrow()
     }
 
     /// Number of characters.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.length.get()
     }
 
     /// How many characters there is room for.
-    pub(crate) fn capacity(&self) -> usize {
+    pub fn capacity(&self) -> usize {
         self.capacity.get().max(self.len())
     }
 
@@ -219,7 +219,7 @@ impl LispString {
     }
 
     /// The characters from `start` to `end` (none: to the end).
-    pub(crate) fn slice(&self, start: usize, end: Option<usize>) -> String {
+    pub fn slice(&self, start: usize, end: Option<usize>) -> String {
         self.refresh();
         let length = self.length.get();
         let start = self.offset(start.min(length)).unwrap_or(0);
@@ -240,7 +240,7 @@ impl LispString {
     }
 
     /// Replaces as many characters from `start` on as `new` has, but none beyond the end.
-    pub(crate) fn overwrite(&self, start: usize, new: &str) {
+    pub fn overwrite(&self, start: usize, new: &str) {
         self.refresh();
         let count = new.chars().count();
         let end = start.saturating_add(count).min(self.length.get());
@@ -270,7 +270,7 @@ impl LispString {
     }
 
     /// Gives the string other characters, its own, of which so many are before the fill pointer.
-    pub(crate) fn replace(&self, text: &str, length: usize) {
+    pub fn replace(&self, text: &str, length: usize) {
         drop(self.displaced.take());
         let mut characters = text.chars();
         let active: String = characters.by_ref().take(length).collect();
@@ -282,7 +282,7 @@ impl LispString {
     }
 
     /// Appends a character.
-    pub(crate) fn push(&self, c: char) {
+    pub fn push(&self, c: char) {
         permit_length(self.length.get() + 1);
         self.refresh();
         self.length.set(self.length.get() + 1);
@@ -292,7 +292,7 @@ impl LispString {
     }
 
     /// Removes and returns the last character.
-    pub(crate) fn pop(&self) -> Option<char> {
+    pub fn pop(&self) -> Option<char> {
         self.refresh();
         let c = self.text.borrow_mut().pop()?;
         self.length.set(self.length.get().saturating_sub(1));
@@ -320,7 +320,7 @@ impl LispString {
 
 #[cfg(test)]
 mod tests {
-    use crate::lisp::value::string::*;
+    use crate::value::string::*;
 
     #[test]
     fn positions_count_characters() {

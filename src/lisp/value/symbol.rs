@@ -17,15 +17,15 @@ use super::copy::{Copied, Copier};
 use super::function::Function;
 use super::package::PackageId;
 
-pub(crate) use super::known;
+pub use super::known;
 
 /// A symbol of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub(crate) struct Sym(pub(crate) u32);
+pub struct Sym(pub u32);
 
 /// What a symbol means in function position.
 #[derive(Clone, Default)]
-pub(crate) enum FunctionCell {
+pub enum FunctionCell {
     /// Nothing.
     #[default]
     Unbound,
@@ -39,7 +39,7 @@ pub(crate) enum FunctionCell {
 
 impl FunctionCell {
     /// Is it a macro that a program has defined, not one of the language?
-    pub(crate) fn is_macro_of_program(&self) -> bool {
+    pub fn is_macro_of_program(&self) -> bool {
         match self {
             FunctionCell::Macro(function) => function.as_deferred().is_none(),
             _ => false,
@@ -49,7 +49,7 @@ impl FunctionCell {
 
 /// How a symbol behaves as a variable.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(crate) enum VariableKind {
+pub enum VariableKind {
     /// Bindings are lexical.
     #[default]
     Lexical,
@@ -61,24 +61,24 @@ pub(crate) enum VariableKind {
 
 /// What an image knows about a symbol.
 #[derive(Default)]
-pub(crate) struct SymbolData {
-    pub(crate) name: Rc<str>,
+pub struct SymbolData {
+    pub name: Rc<str>,
     /// The home package; none if uninterned.
-    pub(crate) package: Option<PackageId>,
+    pub package: Option<PackageId>,
     /// The global value.
-    pub(crate) value: Value,
+    pub value: Value,
     /// How the symbol is bound as a variable.
-    pub(crate) kind: VariableKind,
+    pub kind: VariableKind,
     /// The global function.
-    pub(crate) function: FunctionCell,
+    pub function: FunctionCell,
     /// The function of `(setf (name …) …)`.
-    pub(crate) setf_function: Option<Rc<Function>>,
+    pub setf_function: Option<Rc<Function>>,
     /// The property list.
-    pub(crate) plist: Value,
+    pub plist: Value,
     /// Expansion of a global symbol macro.
-    pub(crate) symbol_macro: Option<Value>,
+    pub symbol_macro: Option<Value>,
     /// Documentation as a variable, if any.
-    pub(crate) variable_doc: Option<Rc<str>>,
+    pub variable_doc: Option<Rc<str>>,
     /// Documentation as a function that a program has given since its definition, if any.
     pub(crate) function_doc: Option<Rc<str>>,
     /// Does something refer to it that is no value?
@@ -131,20 +131,20 @@ impl SymbolData {
 
 /// What holds the data of a passing symbol; nothing, for all others.
 #[derive(Clone, Default)]
-pub(crate) struct Hold(Option<Rc<Held>>);
+pub struct Hold(Option<Rc<Held>>);
 
 impl Hold {
     /// For symbols that stay.
-    pub(crate) const NONE: Hold = Hold(None);
+    pub const NONE: Hold = Hold(None);
 
     /// Does the symbol stay?
-    pub(crate) fn is_none(&self) -> bool {
+    pub fn is_none(&self) -> bool {
         self.0.is_none()
     }
 }
 
 /// What holds the passing symbols of a table that is being copied.
-pub(crate) struct Holds {
+pub struct Holds {
     held: BTreeMap<u32, Rc<Held>>,
     gone: Rc<RefCell<Vec<Sym>>>,
 }
@@ -180,7 +180,7 @@ impl Drop for Held {
 const PASSING: u32 = 1 << 31;
 
 /// All symbols of an image.
-pub(crate) struct SymbolTable {
+pub struct SymbolTable {
     entries: Vec<SymbolData>,
     passing: BTreeMap<u32, SymbolData>,
     next_passing: u32,
@@ -192,7 +192,7 @@ pub(crate) struct SymbolTable {
 
 impl SymbolTable {
     /// An empty table.
-    pub(crate) fn new() -> SymbolTable {
+    pub fn new() -> SymbolTable {
         SymbolTable {
             entries: Vec::with_capacity(4096),
             passing: BTreeMap::new(),
@@ -203,7 +203,7 @@ impl SymbolTable {
     }
 
     /// Adds a symbol that belongs to no package yet.
-    pub(crate) fn make(&mut self, name: Rc<str>) -> Sym {
+    pub fn make(&mut self, name: Rc<str>) -> Sym {
         // More than two billion symbols do not fit in memory.
         let index = u32::try_from(self.entries.len()).unwrap_or(PASSING - 1);
         self.entries.push(SymbolData::named(name));
@@ -211,7 +211,7 @@ impl SymbolTable {
     }
 
     /// Adds a symbol that belongs to no package, and that is freed once no value refers to it.
-    pub(crate) fn make_passing(&mut self, name: Rc<str>) -> Value {
+    pub fn make_passing(&mut self, name: Rc<str>) -> Value {
         self.free_gone();
         while self.passing.contains_key(&self.next_passing) {
             self.count_on();
@@ -232,7 +232,7 @@ impl SymbolTable {
     }
 
     /// A copy of the table, with copies of the symbols' values and functions.
-    pub(crate) fn copied(&self, copier: &mut Copier) -> SymbolTable {
+    pub fn copied(&self, copier: &mut Copier) -> SymbolTable {
         let entries = self.entries.iter().map(|data| data.copied(copier));
         let entries = entries.collect();
         let passing = self.passing.iter();
@@ -260,7 +260,7 @@ impl SymbolTable {
     }
 
     /// Keeps a symbol for good, since something refers to it that is no value.
-    pub(crate) fn keep(&self, sym: Sym) {
+    pub fn keep(&self, sym: Sym) {
         if let Some(data) = self.passing.get(&sym.0) {
             data.is_kept.set(true);
         }
@@ -268,7 +268,7 @@ impl SymbolTable {
 
     /// The symbol's data.
     #[inline]
-    pub(crate) fn get(&self, sym: Sym) -> &SymbolData {
+    pub fn get(&self, sym: Sym) -> &SymbolData {
         if sym.0 >= PASSING {
             return self.passing.get(&sym.0).unwrap_or(&self.forgotten);
         }
@@ -277,7 +277,7 @@ impl SymbolTable {
 
     /// The symbol's data, mutably.
     #[inline]
-    pub(crate) fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
+    pub fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
         if sym.0 >= PASSING {
             let name = &self.forgotten.name;
             let again = || SymbolData::named(name.clone());
@@ -287,12 +287,12 @@ impl SymbolTable {
     }
 
     /// Number of symbols.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.entries.len() + self.passing.len()
     }
 
     /// All symbols but passing ones, in order of creation.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
         self.entries
             .iter()
             .enumerate()

@@ -14,7 +14,7 @@ use super::stream::Stream;
 use super::string::LispString;
 
 /// A reference to a value that may be gone.
-pub(crate) enum Reference {
+pub enum Reference {
     Cons(Weak<Cons>),
     Str(Weak<LispString>),
     Vector(Weak<Vector>),
@@ -33,7 +33,7 @@ macro_rules! references {
     ($($kind:ident)*) => {
         impl Reference {
             /// A reference to a value.
-            pub(crate) fn to(value: &Value) -> Reference {
+            pub fn to(value: &Value) -> Reference {
                 cycles::note_watched(value);
                 match value {
                     $(Value::$kind(object) => Reference::$kind(Rc::downgrade(object)),)*
@@ -42,7 +42,7 @@ macro_rules! references {
             }
 
             /// The value, if it is still there.
-            pub(crate) fn value(&self) -> Option<Value> {
+            pub fn value(&self) -> Option<Value> {
                 match self {
                     $(Reference::$kind(object) => object.upgrade().map(Value::$kind),)*
                     Reference::Kept(value) => Some(value.clone()),

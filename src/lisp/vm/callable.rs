@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::function::{Body, Function};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::{FunctionCell, Sym};
 
 /// The function that a function designator denotes, if it denotes one.
 pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
@@ -20,7 +20,7 @@ pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option
 
 /// Checks that a value designates a function, and replaces a symbol by the function that
 /// it names.
-pub(crate) fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> {
+pub fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> {
     match designator {
         Value::Function(_) => Ok(designator.clone()),
         Value::Symbol(sym, ..) => match &image.symbol(*sym).function {
@@ -39,7 +39,7 @@ pub(crate) fn callable(image: &Image, designator: &Value) -> Result<Value, Box<R
 }
 
 /// The name of the builtin, if a function value is one.
-pub(crate) fn builtin_name(function: &Value) -> Option<Sym> {
+pub fn builtin_name(function: &Value) -> Option<Sym> {
     match function {
         Value::Function(f) => match &f.body {
             Body::Native(native) => Some(native.name),

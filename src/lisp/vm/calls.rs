@@ -19,18 +19,18 @@ use super::callable::function_of;
 use super::computation::{Progress, Remainder};
 use super::machine::Machine;
 use super::step::Step;
-use crate::lisp::image::Image;
-use crate::lisp::native::NativeCall;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::raise::Raise;
+use crate::image::Image;
+use crate::native::NativeCall;
+use crate::value::Value;
+use crate::value::function::Body;
+use crate::value::raise::Raise;
 
 /// The most calls of pure builtins that are answered in a row before the machine gets a turn, so
 /// that endless ones can be interrupted.
 const DIRECT_CALLS: u32 = 1000;
 
 /// Arguments of a call.
-pub(crate) enum Args {
+pub enum Args {
     /// One argument.
     One([Value; 1]),
     /// Two arguments.
@@ -59,11 +59,11 @@ impl Args {
 
 /// What a layer above the language says about a call while it is open, for code that inspects the
 /// stack.
-pub(crate) struct Annotation {
+pub struct Annotation {
     /// What the call is about; shown as its argument.
-    pub(crate) subject: Value,
+    pub subject: Value,
     /// Whatever else that layer wants to keep with the frame.
-    pub(crate) note: Box<dyn Any>,
+    pub note: Box<dyn Any>,
 }
 
 /// What an asynchronous builtin waits for.
@@ -99,21 +99,21 @@ struct Exchange {
 }
 
 /// The means by which an asynchronous builtin calls functions.
-pub(crate) struct Calls(Rc<Exchange>);
+pub struct Calls(Rc<Exchange>);
 
 impl Calls {
     /// Calls a function with one argument, for the primary value.
-    pub(crate) fn call1(&self, function: &Value, a: Value) -> Awaited<'_> {
+    pub fn call1(&self, function: &Value, a: Value) -> Awaited<'_> {
         self.call(function, Args::One([a]))
     }
 
     /// Calls a function with two arguments, for the primary value.
-    pub(crate) fn call2(&self, function: &Value, a: Value, b: Value) -> Awaited<'_> {
+    pub fn call2(&self, function: &Value, a: Value, b: Value) -> Awaited<'_> {
         self.call(function, Args::Two([a, b]))
     }
 
     /// Calls a function, for the primary value.
-    pub(crate) fn call(&self, function: &Value, args: Args) -> Awaited<'_> {
+    pub fn call(&self, function: &Value, args: Args) -> Awaited<'_> {
         self.call_in(function, args, Manner::Plain)
     }
 
@@ -124,12 +124,12 @@ impl Calls {
     }
 
     /// Calls a function, for all values (`Value::Multiple` unless exactly one).
-    pub(crate) fn call_for_values(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
+    pub fn call_for_values(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
         self.call_in(function, Args::Many(args), Manner::Values)
     }
 
     /// Calls a function with an annotation of the call, for the primary value.
-    pub(crate) fn call_about(
+    pub fn call_about(
         &self,
         annotation: Annotation,
         function: &Value,
@@ -149,7 +149,7 @@ impl Calls {
     }
 
     /// Makes a request to the code that runs the fiber, for all values of the answer.
-    pub(crate) fn request(&self, request: impl Any) -> Awaited<'_> {
+    pub fn request(&self, request: impl Any) -> Awaited<'_> {
         self.awaited(Errand::Request(Box::new(request)))
     }
 
@@ -161,7 +161,7 @@ impl Calls {
     }
 
     /// Runs a closure on the machine.
-    pub(crate) fn with<R, F>(&self, work: F) -> Working<'_, R, F>
+    pub fn with<R, F>(&self, work: F) -> Working<'_, R, F>
     where
         R: 'static,
         F: FnOnce(&mut Machine<'_>) -> R + 'static,
@@ -177,7 +177,7 @@ impl Calls {
 }
 
 /// A call or a request under way.
-pub(crate) struct Awaited<'a> {
+pub struct Awaited<'a> {
     exchange: &'a Exchange,
     errand: Option<Errand>,
 }
@@ -216,7 +216,7 @@ impl<R, F: FnOnce(&mut Machine<'_>) -> R> Work for Job<R, F> {
 }
 
 /// Work on the machine under way.
-pub(crate) struct Working<'a, R, F> {
+pub struct Working<'a, R, F> {
     exchange: &'a Exchange,
     job: Rc<Job<R, F>>,
 }
@@ -241,7 +241,7 @@ where
 
 /// Runs an asynchronous builtin until it ends or needs the machine for a call. `name` is shown in
 /// backtraces. The builtin ends with a value, or with a step that replaces it.
-pub(crate) fn run<F, T>(
+pub fn run<F, T>(
     machine: &mut Machine<'_>,
     name: &'static str,
     body: impl FnOnce(Calls) -> F,
@@ -264,7 +264,7 @@ where
 }
 
 /// A builtin that is waiting.
-pub(crate) struct Suspended {
+pub struct Suspended {
     name: &'static str,
     rest: Rest,
     annotation: Option<Rc<Annotation>>,
@@ -378,7 +378,7 @@ impl Suspended {
     }
 
     /// Continues with the value that it was waiting for.
-    pub(crate) fn resume(
+    pub fn resume(
         self: Box<Self>,
         machine: &mut Machine<'_>,
         value: Value,
@@ -387,12 +387,12 @@ impl Suspended {
     }
 
     /// The builtin's name, for backtraces.
-    pub(crate) fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         self.name
     }
 
     /// The annotation of the open call.
-    pub(crate) fn annotation(&self) -> Option<&Rc<Annotation>> {
+    pub fn annotation(&self) -> Option<&Rc<Annotation>> {
         self.annotation.as_ref()
     }
 }

@@ -3,11 +3,11 @@
 use super::calls::{Args, Calls, Suspended};
 use super::machine::Machine;
 use super::step::Step;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::raise::Raise;
 
 /// How far a computation has progressed.
-pub(crate) enum Progress<T> {
+pub enum Progress<T> {
     /// It has ended.
     Done(T),
     /// It needs the primary value of a call.
@@ -19,7 +19,7 @@ pub(crate) enum Progress<T> {
 }
 
 /// A computation that may need Lisp calls.
-pub(crate) trait Computation: 'static {
+pub trait Computation: 'static {
     /// What it computes.
     type Output: 'static;
 
@@ -37,10 +37,7 @@ pub(crate) trait Computation: 'static {
 
 impl Calls {
     /// Carries a computation out.
-    pub(crate) async fn compute<C: Computation>(
-        &self,
-        computation: C,
-    ) -> Result<C::Output, Box<Raise>> {
+    pub async fn compute<C: Computation>(&self, computation: C) -> Result<C::Output, Box<Raise>> {
         // Boxed, since it moves to the machine and back for every call.
         let mut computation = Box::new(computation);
         let mut answer = None;
@@ -63,7 +60,7 @@ impl Calls {
 }
 
 /// A builtin that carries a computation out and ends with what it computes.
-pub(crate) fn compute<C>(
+pub fn compute<C>(
     machine: &mut Machine<'_>,
     name: &'static str,
     mut computation: C,

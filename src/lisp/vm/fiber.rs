@@ -4,21 +4,21 @@ use std::rc::Rc;
 
 use super::frames::Frames;
 use super::stack::Stack;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::release::put_off_others;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::release::put_off_others;
+use crate::value::symbol::Sym;
 
 /// A handler: a type of conditions and a function.
-pub(crate) struct Handler {
+pub struct Handler {
     /// The type specifier.
-    pub(crate) condition_type: Value,
+    pub condition_type: Value,
     /// The function of one argument.
-    pub(crate) function: Value,
+    pub function: Value,
 }
 
 /// Something with dynamic extent.
-pub(crate) enum Dynamic {
+pub enum Dynamic {
     /// A binding of a special variable, with the value outside it.
     Bind(Sym, Value),
     /// The start of the bindings of a `progv`.
@@ -83,7 +83,7 @@ pub(crate) enum Dynamic {
 
 /// The destination of an unwinding.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Target {
+pub enum Target {
     /// Out of the block or catch at this dynamic index.
     Exit(usize),
     /// To a tag of the tagbody at this dynamic index.
@@ -96,27 +96,27 @@ pub(crate) enum Target {
 }
 
 /// An unwinding that waits for cleanup code to finish.
-pub(crate) struct Pending {
-    pub(crate) target: Target,
+pub struct Pending {
+    pub target: Target,
     /// The value it carries.
-    pub(crate) value: Value,
+    pub value: Value,
     /// Number of dynamic entries while the cleanup code runs.
-    pub(crate) dynamic: usize,
+    pub dynamic: usize,
     /// The condition whose handler has begun it, if one has.
-    pub(crate) cause: Option<Value>,
+    pub cause: Option<Value>,
 }
 
 /// A line of execution.
 #[derive(Default)]
-pub(crate) struct Fiber {
+pub struct Fiber {
     /// The value stack.
-    pub(crate) stack: Stack,
+    pub stack: Stack,
     /// The frames, innermost last.
-    pub(crate) frames: Frames,
+    pub frames: Frames,
     /// The dynamic entries, innermost last.
-    pub(crate) dynamic: Vec<Dynamic>,
+    pub dynamic: Vec<Dynamic>,
     /// Unwindings that wait for cleanup code to finish, innermost last.
-    pub(crate) pending: Vec<Pending>,
+    pub pending: Vec<Pending>,
     /// Does the pending request want all values of the answer?
     pub(crate) wants_all: bool,
     /// A value that was on its way to the innermost frame when an interrupt came.
@@ -139,7 +139,7 @@ impl Fiber {
     }
 
     /// Puts the fiber's special bindings in force: it is about to run.
-    pub(crate) fn enter(&mut self, image: &mut Image) {
+    pub fn enter(&mut self, image: &mut Image) {
         if self.in_force {
             return;
         }
@@ -150,7 +150,7 @@ impl Fiber {
     }
 
     /// Takes the fiber's special bindings out of force: another fiber may run.
-    pub(crate) fn leave(&mut self, image: &mut Image) {
+    pub fn leave(&mut self, image: &mut Image) {
         if !self.in_force {
             return;
         }
@@ -162,7 +162,7 @@ impl Fiber {
 
     /// Binds a special variable for the rest of the fiber's life; to be called before it first
     /// runs.
-    pub(crate) fn bind(&mut self, sym: Sym, value: Value) {
+    pub fn bind(&mut self, sym: Sym, value: Value) {
         self.dynamic.push(Dynamic::Bind(sym, value));
     }
 }

@@ -8,26 +8,26 @@ use std::ops::Deref;
 use std::rc::Rc;
 
 use super::calls::Suspended;
-use crate::lisp::value::function::Function;
+use crate::value::function::Function;
 
 /// A call that has not returned.
 #[derive(Default)]
-pub(crate) struct Frame {
+pub struct Frame {
     /// What continues when a callee returns.
-    pub(crate) kind: FrameKind,
+    pub kind: FrameKind,
     /// Where the frame's values start on the stack.
-    pub(crate) base: usize,
+    pub base: usize,
     /// Length to which its return cuts the stack.
-    pub(crate) cut: usize,
+    pub cut: usize,
     /// Number of dynamic entries when it was entered.
-    pub(crate) dynamic: usize,
+    pub dynamic: usize,
     /// Does the caller want all values?
     pub(crate) multi: bool,
 }
 
 /// What runs in a frame.
 #[derive(Default)]
-pub(crate) enum FrameKind {
+pub enum FrameKind {
     /// Compiled code.
     Code {
         /// The closure that was called.
@@ -57,7 +57,7 @@ impl Frame {
 
 /// Calls, innermost last; as a slice, those that have not returned.
 #[derive(Default)]
-pub(crate) struct Frames {
+pub struct Frames {
     /// Beyond the depth, frames that are over.
     places: Vec<Frame>,
     depth: usize,
@@ -68,13 +68,13 @@ const FEWEST: usize = 16;
 
 impl Frames {
     /// Makes a frame the innermost one.
-    pub(crate) fn push(&mut self, frame: Frame) {
+    pub fn push(&mut self, frame: Frame) {
         *self.next() = frame;
     }
 
     /// Enters a function whose slots are filled from `base` on.
     #[inline(always)]
-    pub(crate) fn enter(
+    pub fn enter(
         &mut self,
         function: Rc<Function>,
         base: usize,
@@ -112,7 +112,7 @@ impl Frames {
 
     /// Ends the innermost frame, if it is one of code.
     #[inline(always)]
-    pub(crate) fn leave(&mut self) {
+    pub fn leave(&mut self) {
         if let [.., frame] = &mut self.places[..self.depth]
             && frame.is_of_code()
         {
@@ -126,13 +126,13 @@ impl Frames {
     }
 
     /// Takes out the innermost frame.
-    pub(crate) fn pop(&mut self) -> Option<Frame> {
+    pub fn pop(&mut self) -> Option<Frame> {
         self.depth = self.depth.checked_sub(1)?;
         self.places.get_mut(self.depth).map(take)
     }
 
     /// Ends the innermost frames, down to so many.
-    pub(crate) fn truncate(&mut self, depth: usize) {
+    pub fn truncate(&mut self, depth: usize) {
         while self.depth > depth {
             self.depth -= 1;
             match take(&mut self.places[self.depth].kind) {
@@ -143,7 +143,7 @@ impl Frames {
     }
 
     /// Takes out the innermost frames, down to so many.
-    pub(crate) fn split_off(&mut self, depth: usize) -> Vec<Frame> {
+    pub fn split_off(&mut self, depth: usize) -> Vec<Frame> {
         let above = self.places[depth..self.depth].iter_mut();
         let above = above.map(take).collect();
         self.depth = depth;

@@ -7,17 +7,17 @@
 use std::any::Any;
 
 use super::fiber::Fiber;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
+use crate::image::Image;
+use crate::value::Value;
 
 /// A fiber that runs on an image.
-pub(crate) struct Machine<'a> {
-    pub(crate) image: &'a mut Image,
-    pub(crate) fiber: &'a mut Fiber,
+pub struct Machine<'a> {
+    pub image: &'a mut Image,
+    pub fiber: &'a mut Fiber,
 }
 
 /// Why the machine stopped.
-pub(crate) enum Event {
+pub enum Event {
     /// The fiber's function returned (`Value::Multiple` unless exactly one value).
     Done(Value),
     /// A builtin made a request; `resume` takes the answer.
@@ -35,7 +35,7 @@ pub(crate) enum Event {
 
 impl<'a> Machine<'a> {
     /// A machine for a fiber.
-    pub(crate) fn new(image: &'a mut Image, fiber: &'a mut Fiber) -> Machine<'a> {
+    pub fn new(image: &'a mut Image, fiber: &'a mut Fiber) -> Machine<'a> {
         Machine { image, fiber }
     }
 }

@@ -8,11 +8,11 @@ use std::cell::Cell;
 use std::mem::take;
 use std::ops::{Deref, DerefMut};
 
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// A stack of values; as a slice, it is those that are in use.
 #[derive(Default)]
-pub(crate) struct Stack {
+pub struct Stack {
     places: Vec<Value>,
     height: Cell<usize>,
 }
@@ -20,9 +20,9 @@ pub(crate) struct Stack {
 /// The places of the code that runs, from the base of its frame on.
 pub(crate) struct Window<'a> {
     /// Its slots, and the room for what it pushes.
-    pub(crate) slots: &'a mut [Value],
+    pub slots: &'a mut [Value],
     /// The number of those that are in use.
-    pub(crate) top: usize,
+    pub top: usize,
     base: usize,
     height: &'a Cell<usize>,
 }
@@ -56,7 +56,7 @@ impl Stack {
 
     /// Pushes a value.
     #[inline]
-    pub(crate) fn push(&mut self, value: Value) {
+    pub fn push(&mut self, value: Value) {
         let height = self.height.get();
         if height == self.places.len() {
             self.grow(height + 1);
@@ -66,7 +66,7 @@ impl Stack {
     }
 
     /// Pushes values.
-    pub(crate) fn extend(&mut self, values: impl IntoIterator<Item = Value>) {
+    pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) {
         for value in values {
             self.push(value);
         }
@@ -81,14 +81,14 @@ impl Stack {
 
     /// Pops the top value.
     #[inline]
-    pub(crate) fn pop(&mut self) -> Option<Value> {
+    pub fn pop(&mut self) -> Option<Value> {
         let top = self.height.get().checked_sub(1)?;
         self.height.set(top);
         Some(take(&mut self.places[top]))
     }
 
     /// Drops values down to a height.
-    pub(crate) fn truncate(&mut self, height: usize) {
+    pub fn truncate(&mut self, height: usize) {
         for top in (height..self.height.get()).rev() {
             self.height.set(top);
             self.places[top].clear();
@@ -96,7 +96,7 @@ impl Stack {
     }
 
     /// Takes out the values from a height on.
-    pub(crate) fn split_off(&mut self, height: usize) -> Vec<Value> {
+    pub fn split_off(&mut self, height: usize) -> Vec<Value> {
         let above = self.places[height..self.height.get()].iter_mut();
         let above = above.map(take).collect();
         self.height.set(height);
@@ -104,7 +104,7 @@ impl Stack {
     }
 
     /// Drops all values.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.truncate(0);
     }
 

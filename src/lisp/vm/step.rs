@@ -4,10 +4,10 @@ use std::any::Any;
 
 use super::calls::Suspended;
 use super::fiber::Target;
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// The next step of a control builtin.
-pub(crate) enum Step {
+pub enum Step {
     /// Return a value (`Value::values` for several).
     Return(Value),
     /// Call a function (or a symbol that names one) and hand its value to `then`.
@@ -40,7 +40,7 @@ pub(crate) enum Step {
 
 impl Step {
     /// Calls a function in place of this builtin.
-    pub(crate) fn tail_call(function: impl Into<Value>, args: Vec<Value>) -> Step {
+    pub fn tail_call(function: impl Into<Value>, args: Vec<Value>) -> Step {
         Step::TailCall {
             function: function.into(),
             args,
@@ -48,7 +48,7 @@ impl Step {
     }
 
     /// Makes a request whose answer is this builtin's value.
-    pub(crate) fn request(request: impl Any) -> Step {
+    pub fn request(request: impl Any) -> Step {
         Step::Request(Box::new(request))
     }
 }

@@ -3,12 +3,12 @@
 use super::context::Context;
 use super::designators::{self, Spot};
 use super::files;
-use crate::session::Session;
-use crate::session::dialogue::{Candidate, Completions};
+use crate::Session;
+use crate::dialogue::{Candidate, Completions};
 
 impl Session {
     /// The completions at byte `at` of an input.
-    pub(in crate::session) fn complete(&self, text: &str, at: usize) -> Completions {
+    pub(crate) fn complete(&self, text: &str, at: usize) -> Completions {
         let context = Context::of(text, at);
         if context.in_comment {
             return Completions::default();

@@ -1,21 +1,21 @@
 //! The syntactic context of the cursor.
 
 use super::locals::locals;
-use crate::lisp::reader::{Lexer, Token, TokenKind};
+use lisp::reader::{Lexer, Token, TokenKind};
 
 /// A list that is open at the cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Open<'t> {
     /// Its first element, if that is an atom and the cursor is after it.
-    pub(crate) operator: Option<&'t str>,
+    pub operator: Option<&'t str>,
     /// Number of elements before the one at the cursor, including the first.
-    pub(crate) elements: usize,
+    pub elements: usize,
     /// The atom just before the one at the cursor.
-    pub(crate) last: Option<&'t str>,
+    pub last: Option<&'t str>,
     /// The first two atoms of each list among its elements.
-    pub(crate) lists: Vec<(&'t str, Option<&'t str>)>,
+    pub lists: Vec<(&'t str, Option<&'t str>)>,
     /// The second element, if that is an atom.
-    pub(crate) second: Option<&'t str>,
+    pub second: Option<&'t str>,
     /// Whether it is quoted.
     pub(crate) is_quoted: bool,
 }
@@ -24,9 +24,9 @@ pub(super) struct Open<'t> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Context<'t> {
     /// The open lists, innermost last.
-    pub(crate) lists: Vec<Open<'t>>,
+    pub lists: Vec<Open<'t>>,
     /// The part of the atom at the cursor that precedes it.
-    pub(crate) word: &'t str,
+    pub word: &'t str,
     /// Byte at which it begins.
     pub(crate) word_start: usize,
     /// Whether the cursor is in a string; `word` is then its contents so far.
@@ -36,7 +36,7 @@ pub(super) struct Context<'t> {
     /// Whether a `'` or `#'` precedes the word.
     pub(crate) is_quoted: bool,
     /// The variables that are bound there by the text itself.
-    pub(crate) locals: Vec<&'t str>,
+    pub locals: Vec<&'t str>,
 }
 
 impl<'t> Context<'t> {

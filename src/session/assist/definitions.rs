@@ -1,8 +1,8 @@
 //! Where a text defines something.
 
-use crate::lisp::reader::{Lexer, Token, TokenKind};
-use crate::lisp::source::Location;
-use crate::session::dialogue::Definition;
+use crate::dialogue::Definition;
+use lisp::reader::{Lexer, Token, TokenKind};
+use lisp::source::Location;
 
 /// The definitions at top level of a text, with the names that they define in upper case.
 ///

@@ -1,14 +1,14 @@
 //! What is known about the name at the cursor.
 
 use super::context::Context;
-use crate::lisp::builtins::help;
-use crate::lisp::reader::{Lexer, TokenKind};
-use crate::session::Session;
+use crate::Session;
+use lisp::builtins::help;
+use lisp::reader::{Lexer, TokenKind};
 
 impl Session {
     /// All that is known about the name at byte `at` of an input, or about the operator of the
     /// innermost form there.
-    pub(in crate::session) fn description_at(&self, text: &str, at: usize) -> Option<String> {
+    pub(crate) fn description_at(&self, text: &str, at: usize) -> Option<String> {
         let context = Context::of(text, at);
         if context.in_string || context.in_comment {
             return None;

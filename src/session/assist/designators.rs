@@ -2,17 +2,17 @@
 
 use super::context::{Context, Open, bare};
 use super::{first_sentence, lower};
-use crate::lisp::image::Image;
-use crate::location::{Direction, Orientation, containers, surfaces};
-use crate::plan::designator::schema;
-use crate::plan::designator::schema::{Key, Kind};
-use crate::plan::designator::value::Class;
-use crate::session::Session;
-use crate::session::dialogue::Candidate;
+use crate::Session;
+use crate::dialogue::Candidate;
+use cram::designator::schema;
+use cram::designator::schema::{Key, Kind};
+use cram::designator::value::Class;
+use lisp::image::Image;
+use robotics::location::{Direction, Orientation, containers, surfaces};
 
 /// A designator form around the cursor.
 pub(super) struct Described<'c, 't> {
-    pub(crate) class: Class,
+    pub class: Class,
     list: &'c Open<'t>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::session::dialogue::{Candidate, Completions};
+use crate::dialogue::{Candidate, Completions};
 
 /// Maximum number of files offered.
 const MOST_FILES: usize = 100;

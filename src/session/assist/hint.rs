@@ -3,9 +3,9 @@
 use super::context::{Context, Open, bare};
 use super::designators::{self, Spot};
 use super::lower;
-use crate::lisp::builtins::help;
-use crate::session::Session;
-use crate::session::dialogue::{current_parameter, parameters};
+use crate::Session;
+use crate::dialogue::{current_parameter, parameters};
+use lisp::builtins::help;
 
 /// Maximum length of a hint in characters.
 const LONGEST: usize = 100;
@@ -13,7 +13,7 @@ const LONGEST: usize = 100;
 impl Session {
     /// The signature of the form being typed at byte `at`, with the current argument
     /// between two `*`.
-    pub(in crate::session) fn hint_at(&self, text: &str, at: usize) -> Option<String> {
+    pub(crate) fn hint_at(&self, text: &str, at: usize) -> Option<String> {
         let context = Context::of(text, at);
         if context.in_comment || (context.lists.is_empty()) {
             return None;

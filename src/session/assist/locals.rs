@@ -1,6 +1,6 @@
 //! Variables that are bound around the cursor, in a form that is still being typed.
 
-use crate::lisp::reader::{Lexer, TokenKind};
+use lisp::reader::{Lexer, TokenKind};
 
 /// A list that is open at the cursor.
 #[derive(Default)]

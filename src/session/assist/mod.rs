@@ -16,8 +16,8 @@ mod uses;
 pub(super) use names::ToldNames;
 
 use super::Session;
-use crate::plan::designator::schema;
-use crate::plan::designator::value::Class;
+use cram::designator::schema;
+use cram::designator::value::Class;
 
 /// A name as users type it.
 fn lower(name: &str) -> String {

@@ -4,20 +4,20 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::lisp::builtin::Entry;
-use crate::lisp::builtins::help;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::{PackageId, PackageTable};
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::plan::designator::schema;
-use crate::plan::designator::schema::TypeRow;
-use crate::plan::designator::value::Class;
-use crate::session::dialogue::{
+use crate::dialogue::{
     Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
 };
-use crate::session::{Session, prompt_name};
+use crate::{Session, prompt_name};
+use cram::designator::schema;
+use cram::designator::schema::TypeRow;
+use cram::designator::value::Class;
+use lisp::builtin::Entry;
+use lisp::builtins::help;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::package::{PackageId, PackageTable};
+use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 use super::{definitions, designators};
 
@@ -54,7 +54,7 @@ impl Definitions {
 
 /// What was told about names last. Most of it holds still after an evaluation, and is told again.
 #[derive(Default)]
-pub(in crate::session) struct ToldNames {
+pub(crate) struct ToldNames {
     definitions: Definitions,
     names: Names,
     packages: Vec<PackageId>,
@@ -183,7 +183,7 @@ fn told_symbol(image: &mut Image, sym: Sym, packages: &[PackageId]) -> KnownSymb
 
 impl Session {
     /// What is known about all names.
-    pub(in crate::session) fn all_names(&mut self) -> Arc<Names> {
+    pub(crate) fn all_names(&mut self) -> Arc<Names> {
         let image = &mut self.image;
         let ids = image.packages.ids();
         let ids: Vec<_> = ids.filter(|id| *id != PackageTable::SYSTEM).collect();

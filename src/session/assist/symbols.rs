@@ -4,13 +4,13 @@ use std::collections::HashSet;
 
 use super::context::Context;
 use super::{first_sentence, lower};
-use crate::lisp::builtins::help;
-use crate::lisp::image::identity::aside;
-use crate::lisp::print;
-use crate::lisp::value::package::{PackageId, PackageTable};
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::session::Session;
-use crate::session::dialogue::Candidate;
+use crate::Session;
+use crate::dialogue::Candidate;
+use lisp::builtins::help;
+use lisp::image::identity::aside;
+use lisp::print;
+use lisp::value::package::{PackageId, PackageTable};
+use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// Maximum number of names offered.
 const MOST_NAMES: usize = 500;
@@ -204,6 +204,6 @@ impl Session {
         }
         let image = &self.image;
         let shown = aside(image, || print::to_string(image, &data.value, true));
-        Some(format!("= {}", crate::session::on_one_line(&shown)))
+        Some(format!("= {}", crate::on_one_line(&shown)))
     }
 }

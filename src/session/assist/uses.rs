@@ -4,17 +4,17 @@
 use std::rc::Rc;
 
 use super::definitions::occurrences;
-use crate::lisp::compile;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::source::Place;
-use crate::lisp::value::code::Code;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::generic::Specializer;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::session::Session;
-use crate::session::dialogue::{Relation, Unrecorded, Use};
+use crate::Session;
+use crate::dialogue::{Relation, Unrecorded, Use};
+use lisp::compile;
+use lisp::image::Image;
+use lisp::print;
+use lisp::source::Place;
+use lisp::value::code::Code;
+use lisp::value::function::{Body, Function};
+use lisp::value::generic::Specializer;
+use lisp::value::operation::Op;
+use lisp::value::symbol::{FunctionCell, Sym};
 
 /// A function with code, or a method.
 struct Coded {
@@ -26,7 +26,7 @@ struct Coded {
 
 impl Session {
     /// The places where a name is used, in the order of packages and names.
-    pub(in crate::session) fn all_uses(
+    pub(crate) fn all_uses(
         &mut self,
         relation: Relation,
         package: &str,

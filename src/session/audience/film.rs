@@ -1,9 +1,9 @@
 //! Taking shots of the world at regular intervals, for animations.
 
 use super::Audience;
-use crate::picture::animation::Shot;
-use crate::picture::{View, ViewError};
-use crate::session::simulation::Simulation;
+use crate::simulation::Simulation;
+use view::picture::animation::Shot;
+use view::picture::{View, ViewError};
 
 /// Shots of a session over time.
 pub(crate) struct Film {
@@ -15,20 +15,20 @@ pub(crate) struct Film {
 
 /// How to film.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Filming {
+pub struct Filming {
     /// The viewpoint.
-    pub(crate) view: View,
+    pub view: View,
     /// Width of a shot in pixels.
-    pub(crate) width: usize,
+    pub width: usize,
     /// Height of a shot in pixels.
-    pub(crate) height: usize,
+    pub height: usize,
     /// Simulated time (s) from one shot to the next.
-    pub(crate) every: f64,
+    pub every: f64,
 }
 
 impl Audience {
     /// Starts to film.
-    pub(crate) fn start_film(
+    pub fn start_film(
         &mut self,
         simulation: &Simulation,
         wanted: Filming,
@@ -46,13 +46,13 @@ impl Audience {
     }
 
     /// Ends the film and returns its shots; the last one shows the present state.
-    pub(crate) fn end_film(&mut self, simulation: &Simulation) -> Vec<Shot> {
+    pub fn end_film(&mut self, simulation: &Simulation) -> Vec<Shot> {
         self.shoot(simulation);
         self.film.take().map_or_else(Vec::new, |film| film.shots)
     }
 
     /// Takes a shot if one is due.
-    pub(crate) fn film(&mut self, simulation: &Simulation) {
+    pub fn film(&mut self, simulation: &Simulation) {
         let now = simulation.now;
         let Some(film) = &mut self.film else { return };
         if now + 1e-9 < film.next {

@@ -1,15 +1,15 @@
 //! The session's followers, which are notified of every step, of edits and of other events.
 
 use super::{Audience, task_news};
-use crate::lisp::image::Image;
-use crate::motion::PlannedTrajectory;
-use crate::plan::Plan;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::jobs::Job;
-use crate::watch::{
+use crate::simulation::Simulation;
+use crate::simulation::jobs::Job;
+use cram::Plan;
+use lisp::image::Image;
+use robotics::motion::PlannedTrajectory;
+use robotics::world::CollisionHit;
+use view::watch::{
     About, Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent,
 };
-use crate::world::CollisionHit;
 
 /// The followers of a session.
 #[derive(Default)]
@@ -61,7 +61,7 @@ impl Audience {
     }
 
     /// Shows the followers the present state of the world.
-    pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
+    pub fn show(&mut self, simulation: &Simulation, cause: Cause) {
         // A state that is an old one is not shown.
         if self.followers.all.is_empty() || simulation.tape.is_stale() {
             return;
@@ -77,7 +77,7 @@ impl Audience {
     }
 
     /// Notifies the followers of an event.
-    pub(crate) fn tell(&mut self, now: f64, event: &WatchEvent) {
+    pub fn tell(&mut self, now: f64, event: &WatchEvent) {
         for (_, follower) in &mut self.followers.all {
             follower.hear(now, event);
         }

@@ -9,16 +9,16 @@ mod views;
 
 use std::sync::Arc;
 
-use crate::picture::Image;
-use crate::session::dialogue::Swept;
-use crate::session::simulation::Simulation;
-use crate::watch::live::{PaceControl, Place, Speed};
-use crate::world::World;
+use crate::dialogue::Swept;
+use crate::simulation::Simulation;
 use film::Film;
-pub(crate) use film::Filming;
+pub use film::Filming;
 use following::Followers;
 use pace::Pace;
-pub(crate) use views::WatchError;
+use robotics::world::World;
+use view::picture::Image;
+use view::watch::live::{PaceControl, Place, Speed};
+pub use views::WatchError;
 use views::{KeptRun, LiveView, OpenRecording};
 
 /// Called with the world after every step of a motion.
@@ -26,7 +26,7 @@ pub(crate) type Observer = Box<dyn FnMut(&World)>;
 
 /// Everything that shows a session.
 #[derive(Default)]
-pub(crate) struct Audience {
+pub struct Audience {
     /// Limits how fast simulated time passes.
     pub(super) pace: Option<Pace>,
     observer: Option<Observer>,
@@ -71,8 +71,7 @@ impl Audience {
     }
 
     /// Sets a function to be called after every step of a motion.
-    #[cfg(test)]
-    pub(crate) fn set_observer(&mut self, observer: Observer) {
+    pub fn set_observer(&mut self, observer: Observer) {
         self.observer = Some(observer);
     }
 

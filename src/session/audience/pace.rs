@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::watch::live::{PaceControl, Speed};
+use view::watch::live::{PaceControl, Speed};
 
 /// Longest lag (s) behind real time that is made up for; after longer pauses, such as at the
 /// prompt, time continues from the present.

@@ -1,15 +1,15 @@
 //! What followers learn of tasks, actions and motions, as texts.
 
-use crate::lisp::image::Image;
-use crate::lisp::image::identity::aside;
-use crate::lisp::print;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::plan::designator::value::as_designator;
-use crate::plan::journal::{ActionEnd, BegunAction, Change, Starter};
-use crate::plan::{Plan, Status, TaskId as PlanTask};
-use crate::session::printing::on_line_of;
-use crate::watch::{About, TaskId, TaskNews, TaskState};
+use crate::printing::on_line_of;
+use cram::designator::value::as_designator;
+use cram::journal::{ActionEnd, BegunAction, Change, Starter};
+use cram::{Plan, Status, TaskId as PlanTask};
+use lisp::image::Image;
+use lisp::image::identity::aside;
+use lisp::print;
+use lisp::source::Place;
+use lisp::value::Value;
+use view::watch::{About, TaskId, TaskNews, TaskState};
 
 /// Greatest number of characters shown of a value.
 const LONGEST: usize = 400;
@@ -60,7 +60,7 @@ pub(super) fn of_change(image: &Image, change: Change) -> (f64, TaskNews) {
 }
 
 /// What starts something that a task starts now.
-pub(in crate::session) fn starter_in(image: &Image, task: PlanTask) -> TaskId {
+pub(crate) fn starter_in(image: &Image, task: PlanTask) -> TaskId {
     starter(Plan::of(image).starter(task))
 }
 
@@ -95,7 +95,7 @@ fn state(status: Status) -> TaskState {
 }
 
 /// What the designator of an action or motion says, and where it is performed.
-pub(in crate::session) fn about(image: &Image, designator: &Value, place: Place) -> About {
+pub(crate) fn about(image: &Image, designator: &Value, place: Place) -> About {
     let properties = as_designator(designator).map(|d| d.properties());
     let keys = properties.unwrap_or_default().into_iter().take(MOST_KEYS);
     let keys = keys.map(|(key, values)| {

@@ -9,13 +9,13 @@ use thiserror::Error;
 use super::Audience;
 use super::following::FollowerId;
 use super::pace::Pace;
-use crate::lisp::image::Image;
-use crate::session::simulation::Simulation;
-use crate::watch::live::{
+use crate::simulation::Simulation;
+use lisp::image::Image;
+use view::watch::live::{
     History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views, run_file,
 };
-use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
-use crate::watch::{Cause, FrameBuilder};
+use view::watch::recording::{Recorder, RecordingError, RecordingResult};
+use view::watch::{Cause, FrameBuilder};
 
 /// A recording in progress.
 pub(crate) struct OpenRecording {
@@ -49,7 +49,7 @@ pub(crate) struct LiveView {
 
 /// Why the session cannot be watched.
 #[derive(Debug, Error)]
-pub(crate) enum WatchError {
+pub enum WatchError {
     /// The server cannot be started.
     #[error("the live view cannot be opened: {0}")]
     View(PlaceError),
@@ -73,7 +73,7 @@ pub(crate) enum WatchError {
 
 impl Audience {
     /// Opens the live view, unless it is open; returns the page's address.
-    pub(crate) fn open_view(
+    pub fn open_view(
         &mut self,
         simulation: &Simulation,
         image: &Image,
@@ -121,7 +121,7 @@ impl Audience {
     }
 
     /// Starts a recording into the file; any earlier recording ends.
-    pub(crate) fn begin_recording(
+    pub fn begin_recording(
         &mut self,
         simulation: &Simulation,
         image: &Image,
@@ -143,7 +143,7 @@ impl Audience {
     }
 
     /// Ends the recording, if there is one; fails if it could not be written.
-    pub(crate) fn end_recording(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
+    pub fn end_recording(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
         let Some(open) = self.recording.take() else {
             return Ok(());
         };
@@ -159,7 +159,7 @@ impl Audience {
     }
 
     /// Keeps what happens from now on, to be written into the file as a page.
-    pub(crate) fn keep_run(
+    pub fn keep_run(
         &mut self,
         simulation: &Simulation,
         image: &Image,
@@ -179,7 +179,7 @@ impl Audience {
     }
 
     /// Writes the run that was to be kept, if there is one.
-    pub(crate) fn write_kept_run(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
+    pub fn write_kept_run(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
         let Some(kept) = self.kept.take() else {
             return Ok(());
         };
@@ -209,7 +209,7 @@ impl Audience {
     }
 
     /// The reason why the recording has ended by itself, if it has; told once.
-    pub(in crate::session) fn broken_recording(&mut self) -> Option<WatchError> {
+    pub(crate) fn broken_recording(&mut self) -> Option<WatchError> {
         let error = self.recording.as_ref()?.result.take()?;
         let open = self.recording.take()?;
         self.remove_follower(open.follower);
@@ -220,7 +220,7 @@ impl Audience {
     }
 
     /// The server of the live view, if it is open.
-    pub(crate) fn view_server(&self) -> Option<&Server> {
+    pub fn view_server(&self) -> Option<&Server> {
         self.view.as_ref().map(|view| &view.server)
     }
 }

@@ -3,19 +3,19 @@
 
 use super::known::KnownNames;
 use super::meant::{self, Meant};
-use crate::lisp::image::Image;
-use crate::lisp::image::notes::NoteKind;
-use crate::lisp::library::definition_of;
-use crate::lisp::print;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use lisp::image::Image;
+use lisp::image::notes::NoteKind;
+use lisp::library::definition_of;
+use lisp::print;
+use lisp::value::function::{Body, Function};
+use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A mistake: what is wrong, and the name concerned in upper case, unless the whole form is
 /// wrong.
 #[derive(Debug, PartialEq)]
 pub(super) struct Mistake {
-    pub(crate) text: String,
-    pub(crate) name: Option<String>,
+    pub text: String,
+    pub name: Option<String>,
 }
 
 /// Judges a note.
@@ -91,7 +91,7 @@ fn arity(image: &Image, function: &Function) -> Option<(usize, Option<usize>)> {
     match &function.body {
         Body::Deferred(_) => {
             let lambda_list = &definition_of(image, function)?.signature().lambda_list;
-            let (min, max) = crate::lisp::builtin::arity(lambda_list);
+            let (min, max) = lisp::builtin::arity(lambda_list);
             Some((min.into(), max.map(usize::from)))
         }
         Body::Native(native) => Some((native.min.into(), native.max.map(usize::from))),

@@ -3,21 +3,21 @@
 
 use std::collections::BTreeSet;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::symbol::Sym;
 
 /// Names that must not be reported as unknown.
 #[derive(Clone, Default)]
-pub(in crate::session) struct KnownNames {
+pub(crate) struct KnownNames {
     /// Names of functions, macros and variables.
-    pub(crate) defined: BTreeSet<Sym>,
+    pub defined: BTreeSet<Sym>,
     /// Names in rules and definitions for designators, in upper case.
     pub(crate) in_rules: BTreeSet<String>,
     /// Whether anything may be defined, because another file is loaded or a form made at run
     /// time is evaluated.
-    pub(crate) is_open: bool,
+    pub is_open: bool,
 }
 
 impl KnownNames {

@@ -3,16 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::closest_name::closest_name;
-use crate::lisp::builtins::help;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::{Access, PackageId, PackageTable};
-use crate::lisp::value::pathname::file_name;
-use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::plan::designator::schema;
-use crate::plan::designator::value::Class;
+use closest_name::closest_name;
+use cram::designator::schema;
+use cram::designator::value::Class;
+use lisp::builtins::help;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::package::{Access, PackageId, PackageTable};
+use lisp::value::pathname::file_name;
+use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// How many files of a folder are looked at.
 const MOST_ENTRIES: usize = 10_000;
@@ -53,7 +53,7 @@ impl Meant {
 }
 
 /// What to say to somebody whose program has met a name that means nothing; `condition` tells of that.
-pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<String> {
+pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
     let Value::Instance(instance) = condition else {
         return None;
     };

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use crate::session::dialogue::Evaluate;
-use crate::session::{Session, SessionOptions};
+use crate::dialogue::Evaluate;
+use crate::{Session, SessionOptions};
 
 fn found(name: &str, text: &str) -> Vec<String> {
     let mut session = Session::new(&SessionOptions::default()).unwrap();

@@ -1,16 +1,16 @@
 //! Evaluating forms in a stack frame of a stopped evaluation.
 
 use super::{Cause, Session};
-use crate::lisp::compile;
-use crate::lisp::evaluator::aside::Aside;
-use crate::lisp::evaluator::backtrace::VariablePlace;
-use crate::lisp::reader::Reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{Sym, VariableKind};
-use crate::session::dialogue::{Event, Outcome};
+use crate::dialogue::{Event, Outcome};
+use lisp::compile;
+use lisp::evaluator::aside::Aside;
+use lisp::evaluator::backtrace::VariablePlace;
+use lisp::reader::Reader;
+use lisp::value::Value;
+use lisp::value::function::Function;
+use lisp::value::known;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::{Sym, VariableKind};
 
 /// A function of the variables of a frame, a function that assigns them, and a tag.
 pub(super) struct InFrame {
@@ -56,7 +56,7 @@ impl Session {
         &mut self,
         source_name: &str,
         text: &str,
-    ) -> Result<Vec<Value>, Box<crate::session::dialogue::Abort>> {
+    ) -> Result<Vec<Value>, Box<crate::dialogue::Abort>> {
         let source = self.image.sources.add(source_name, text);
         let mut reader = Reader::new(&self.image, source);
         let mut forms = Vec::new();
@@ -176,7 +176,7 @@ fn store(places: Vec<VariablePlace>) -> Value {
         for (place, value) in places.iter().zip(values) {
             place.set(machine.fiber, value);
         }
-        Ok(crate::lisp::vm::step::Step::Return(Value::NIL))
+        Ok(lisp::vm::step::Step::Return(Value::NIL))
     });
     Value::Function(store)
 }

@@ -8,14 +8,14 @@ use std::rc::Rc;
 
 use super::Session;
 use super::aside::InFrame;
-use crate::lisp::evaluator::aside::Aside;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
-use crate::lisp::value::known;
-use crate::lisp::vm::step::Step;
-use crate::plan::Evaluation;
-use crate::session::dialogue::{Event, Outcome};
-use crate::session::interrupted;
+use crate::dialogue::{Event, Outcome};
+use crate::interrupted;
+use cram::Evaluation;
+use lisp::evaluator::aside::Aside;
+use lisp::value::Value;
+use lisp::value::function::Function;
+use lisp::value::known;
+use lisp::vm::step::Step;
 
 /// The values of variables after an evaluation.
 type Assigned = Rc<RefCell<Vec<Value>>>;

@@ -3,16 +3,16 @@
 use std::ops::Range;
 
 use super::{Asking, Outcome, Session};
-use crate::lisp::evaluator::nested;
-use crate::lisp::evaluator::restart::Restart;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::vm::fiber::Dynamic;
-use crate::session::dialogue::Event;
+use crate::dialogue::Event;
+use lisp::evaluator::nested;
+use lisp::evaluator::restart::Restart;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::function::Body;
+use lisp::value::known;
+use lisp::value::package::PackageTable;
+use lisp::vm::fiber::Dynamic;
 
 /// A way to continue.
 #[derive(Clone)]
@@ -117,7 +117,7 @@ impl Session {
                 let text = "(lambda (report) (with-output-to-string (s) (funcall report s)))";
                 let lambda = self.form_of("restart", text);
                 let compiled = lambda.and_then(|lambda| {
-                    crate::lisp::compile::compile_lambda(&mut self.image, &lambda).ok()
+                    lisp::compile::compile_lambda(&mut self.image, &lambda).ok()
                 });
                 compiled
                     .and_then(|show| {

@@ -1,10 +1,10 @@
 //! The inspector: descending into the parts of a value, and back.
 
 use super::{Asking, Session};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::session::dialogue::{Event, Outcome};
-use crate::session::host::parts::View;
+use crate::dialogue::{Event, Outcome};
+use crate::host::parts::View;
+use lisp::value::Value;
+use lisp::value::known;
 
 /// Help text on what can be typed.
 const REMARK: &str =
@@ -13,7 +13,7 @@ const REMARK: &str =
 impl Session {
     /// Handles an input for the inspector; `None` if it is not for the inspector, or if nothing
     /// is being inspected.
-    pub(in crate::session) fn inspector_input(
+    pub(crate) fn inspector_input(
         &mut self,
         text: &str,
         sink: &mut dyn FnMut(Event),
@@ -55,7 +55,7 @@ impl Session {
 
     /// After a form: starts to inspect the value that it requested, if the session is
     /// interactive.
-    pub(in crate::session) fn open_inspector(&mut self, sink: &mut dyn FnMut(Event)) {
+    pub(crate) fn open_inspector(&mut self, sink: &mut dyn FnMut(Event)) {
         let Some(value) = self.host.person.inspected.take() else {
             return;
         };

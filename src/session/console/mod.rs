@@ -19,22 +19,22 @@ mod stack_frames;
 use std::ops::Range;
 
 use super::dialogue::{Abort, Event, Outcome};
-use crate::lisp::evaluator::aside::Aside;
-use crate::lisp::reader::Reader;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::plan::TaskId;
+use cram::TaskId;
+use lisp::evaluator::aside::Aside;
+use lisp::reader::Reader;
+use lisp::source::Place;
+use lisp::value::Value;
 
 use super::Session;
 use super::halting::halt_of;
-use crate::watch::{Halt, HaltKind};
 use choices::Choice;
 use commands::Command;
+use view::watch::{Halt, HaltKind};
 
 /// The stopped evaluations, innermost last, and what the next input is.
 #[derive(Default)]
 pub(super) struct Console {
-    pub(crate) is_interactive: bool,
+    pub is_interactive: bool,
     levels: Vec<Level>,
     /// Number of levels that there have been.
     opened: u64,
@@ -77,9 +77,9 @@ enum Asking {
 
 /// A form whose evaluation is stopped, and the text that follows it.
 pub(super) struct Suspended {
-    pub(crate) form: Value,
-    pub(crate) place: Place,
-    pub(crate) rest: Reader,
+    pub form: Value,
+    pub place: Place,
+    pub rest: Reader,
 }
 
 /// A stopped evaluation.

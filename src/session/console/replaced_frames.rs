@@ -1,14 +1,14 @@
 //! Calls in the place of a frame: a value is returned from it, or it is restarted.
 
 use super::{Outcome, Session};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::vm::step::Step;
-use crate::plan::designator::perform::Performance;
-use crate::plan::packages;
-use crate::session::dialogue::Event;
+use crate::dialogue::Event;
+use cram::designator::perform::Performance;
+use cram::packages;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::function::{Body, Function};
+use lisp::value::known;
+use lisp::vm::step::Step;
 
 impl Session {
     /// Leaves a frame and all that it has called, and calls a function in its place.

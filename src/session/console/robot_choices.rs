@@ -3,18 +3,18 @@
 
 use super::choices::Choice;
 use super::stack_frames::Told;
-use crate::lisp::compile;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::plan::Reply;
-use crate::plan::designator::perform::Performance;
-use crate::plan::designator::value::{Class, as_class};
-use crate::plan::packages;
-use crate::session::host::call::done;
-use crate::session::simulation::Simulation;
-use crate::session::{Session, on_one_line};
+use crate::host::call::done;
+use crate::simulation::Simulation;
+use crate::{Session, on_one_line};
+use cram::Reply;
+use cram::designator::perform::Performance;
+use cram::designator::value::{Class, as_class};
+use cram::packages;
+use lisp::compile;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
 
 /// Maximum number of actions for which a repetition is offered.
 const MOST_ACTIONS: usize = 3;
@@ -130,7 +130,7 @@ impl Session {
             properties.push(Value::list([key, value.clone()]));
         }
         let description = Value::list(properties);
-        let copy = crate::plan::designator::value::Designator::new(
+        let copy = cram::designator::value::Designator::new(
             &mut self.image,
             class,
             quantifier,

@@ -1,19 +1,19 @@
 //! What an editor asks of stopped evaluations.
 
 use super::{Cause, Choice, Session};
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::session::dialogue::{Need, StackFrame, Stop};
+use crate::dialogue::{Need, StackFrame, Stop};
+use lisp::print;
+use lisp::value::Value;
 
 impl Session {
     /// The numbers of the levels, innermost last.
-    pub(in crate::session) fn level_numbers(&self) -> Vec<u64> {
+    pub(crate) fn level_numbers(&self) -> Vec<u64> {
         let levels = self.console.levels.iter();
         levels.map(|level| level.number).collect()
     }
 
     /// The last stop with all its choices.
-    pub(in crate::session) fn stop(&self) -> Option<Stop> {
+    pub(crate) fn stop(&self) -> Option<Stop> {
         let last = self.console.levels.last()?;
         Some(Stop {
             level: self.console.levels.len(),
@@ -25,7 +25,7 @@ impl Session {
     }
 
     /// What a choice at the last stop needs.
-    pub(in crate::session) fn need_of_choice(&self, number: usize) -> Need {
+    pub(crate) fn need_of_choice(&self, number: usize) -> Need {
         let last = self.console.levels.last();
         let choice = last.and_then(|last| last.choices.get(number));
         match choice {
@@ -41,7 +41,7 @@ impl Session {
     }
 
     /// The condition that opened the last level; none if an interrupt did.
-    pub(in crate::session) fn stopping_condition(&self) -> Option<Value> {
+    pub(crate) fn stopping_condition(&self) -> Option<Value> {
         match &self.console.levels.last()?.cause {
             Cause::Condition(condition) => Some(condition.clone()),
             Cause::Interrupt => None,
@@ -49,7 +49,7 @@ impl Session {
     }
 
     /// The frames of the last stop.
-    pub(in crate::session) fn stack_frames(&self) -> Vec<StackFrame> {
+    pub(crate) fn stack_frames(&self) -> Vec<StackFrame> {
         let frames = self.frames();
         let image = &self.image;
         let frame = |told: &super::stack_frames::Told| {
@@ -66,7 +66,7 @@ impl Session {
     }
 
     /// The names and values of the variables of a frame; those without a value left out.
-    pub(in crate::session) fn variables_of_frame(&self, number: usize) -> Vec<(String, Value)> {
+    pub(crate) fn variables_of_frame(&self, number: usize) -> Vec<(String, Value)> {
         let frames = self.frames();
         let Some(told) = frames.get(number) else {
             return Vec::new();

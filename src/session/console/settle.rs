@@ -3,16 +3,16 @@
 use std::ops::Range;
 
 use super::{Asking, Cause, Level, Suspended, choices};
-use crate::lisp::evaluator::aside::AsideState;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::plan::builtins::combinators::NESTED;
-use crate::plan::{Evaluation, Scheduler};
-use crate::session::Session;
-use crate::session::dialogue::{Abort, Event, Outcome, Stop};
-use crate::session::live_host::LiveHost;
-use crate::session::printing::on_one_line;
+use crate::Session;
+use crate::dialogue::{Abort, Event, Outcome, Stop};
+use crate::live_host::LiveHost;
+use crate::printing::on_one_line;
+use cram::builtins::combinators::NESTED;
+use cram::{Evaluation, Scheduler};
+use lisp::evaluator::aside::AsideState;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
 
 const DEBUGGER_REMARK: &str =
     "; Type a number, or a form to look around; q aborts, :bt shows the frames, :help the rest.";
@@ -33,7 +33,7 @@ impl Session {
     }
 
     /// Handles an evaluation that has stopped for the first time.
-    pub(in crate::session) fn open_level(
+    pub(crate) fn open_level(
         &mut self,
         base: Suspended,
         evaluation: Evaluation,

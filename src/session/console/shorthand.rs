@@ -1,8 +1,8 @@
 //! Shorthand for forms, which people type at a prompt.
 
 use super::Session;
-use crate::lisp::value::symbol::FunctionCell;
-use crate::session::dialogue::screen::is_input_name;
+use crate::dialogue::screen::is_input_name;
+use lisp::value::symbol::FunctionCell;
 
 /// What is said to `q` where nothing has stopped.
 const NOTHING_STOPPED: &str =
@@ -13,7 +13,7 @@ impl Session {
     /// documentation, `help` and the like are calls, `_` is the last value, and the functions of
     /// package `PLANWRIGHT` can be called from every package. A variable with a value is meant as
     /// such.
-    pub(in crate::session) fn in_full(&self, source_name: &str, text: &str) -> Option<String> {
+    pub(crate) fn in_full(&self, source_name: &str, text: &str) -> Option<String> {
         if !is_input_name(source_name) {
             return None;
         }

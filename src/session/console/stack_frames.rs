@@ -2,12 +2,12 @@
 //! wait for it, innermost first.
 
 use super::Session;
-use crate::lisp::evaluator::backtrace::FrameView;
-use crate::lisp::print;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::session::dialogue::{ActionStep, Event, Outcome};
-use crate::session::on_one_line;
+use crate::dialogue::{ActionStep, Event, Outcome};
+use crate::on_one_line;
+use lisp::evaluator::backtrace::FrameView;
+use lisp::print;
+use lisp::source::Place;
+use lisp::value::Value;
 
 /// Number of frames shown by default.
 const MOST_FRAMES: usize = 40;
@@ -16,8 +16,8 @@ const MOST_ACTIONS: usize = 8;
 
 /// A frame with the index of its fiber.
 pub(super) struct Told {
-    pub(crate) link: usize,
-    pub(crate) view: FrameView,
+    pub link: usize,
+    pub view: FrameView,
 }
 
 /// Internal builtins, which do not appear in users' code.
@@ -119,7 +119,7 @@ impl Session {
     }
 
     /// Up to `count` frames, each on a line.
-    pub(in crate::session) fn backtrace_text(&self, count: usize) -> String {
+    pub(crate) fn backtrace_text(&self, count: usize) -> String {
         let frames = self.frames();
         let selected = self.console.levels.last().map_or(0, |level| level.frame);
         let mut text = String::new();

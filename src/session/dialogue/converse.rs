@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use super::repeat::Repeat;
 use super::taping::Taping;
-use crate::lisp::image::input::Source;
+use lisp::image::input::Source;
 
 /// An evaluator for interactive use.
-pub(crate) trait Converse: Repeat + Taping {
+pub trait Converse: Repeat + Taping {
     /// Number of stopped evaluations.
     fn level(&self) -> usize;
 
@@ -43,18 +43,18 @@ pub(crate) trait Converse: Repeat + Taping {
 
 /// The completions at a place.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub(crate) struct Completions {
+pub struct Completions {
     /// First byte of the text that a candidate replaces, up to the cursor.
-    pub(crate) start: usize,
+    pub start: usize,
     /// The candidates in the order in which they are shown.
-    pub(crate) candidates: Vec<Candidate>,
+    pub candidates: Vec<Candidate>,
 }
 
 /// A possible completion.
 #[derive(Clone, Default, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) struct Candidate {
+pub struct Candidate {
     /// The text.
-    pub(crate) text: String,
+    pub text: String,
     /// One line about it; may be empty.
-    pub(crate) doc: String,
+    pub doc: String,
 }

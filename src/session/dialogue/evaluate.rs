@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::lisp::source::Location;
-use crate::picture::Image;
+use lisp::source::Location;
+use view::picture::Image;
 
 /// An event during the evaluation of an input.
 #[derive(Clone, PartialEq, Debug)]

@@ -15,7 +15,7 @@ const BETWEEN_INTERRUPTS: Duration = Duration::from_millis(100);
 ///
 /// If the output cannot be written any more, the evaluation is interrupted and the error is
 /// returned: nobody would see what the robot does.
-pub(crate) fn evaluate_on<W: Write>(
+pub fn evaluate_on<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
     source_name: &str,
@@ -25,7 +25,7 @@ pub(crate) fn evaluate_on<W: Write>(
 }
 
 /// As [`evaluate_on`], but an unhandled condition is returned, not shown.
-pub(crate) fn evaluate_keeping_abort<W: Write>(
+pub fn evaluate_keeping_abort<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
     source_name: &str,
@@ -110,8 +110,8 @@ impl Drop for Insisting {
 
 #[cfg(test)]
 mod tests {
-    use crate::session::dialogue::Finding;
-    use crate::session::dialogue::evaluate_on::*;
+    use crate::dialogue::Finding;
+    use crate::dialogue::evaluate_on::*;
     /// Outputs its input again and again until it is interrupted.
     #[derive(Default)]
     struct Endless {

@@ -1,12 +1,12 @@
 //! What a notebook shows beyond what the prompt does.
 
 use super::converse::Converse;
-use crate::picture::{Image, View};
-use crate::sweep::Record;
-use crate::sweep::summary::Title;
+use sweep::Record;
+use sweep::summary::Title;
+use view::picture::{Image, View};
 
 /// An evaluator for a face that has room for pictures and longer texts.
-pub(crate) trait Illustrate: Converse {
+pub trait Illustrate: Converse {
     /// All that is known about the name at byte `at` of an input, or about the operator of the form
     /// there, in lines.
     fn description(&self, text: &str, at: usize) -> Option<String>;
@@ -29,18 +29,18 @@ pub(crate) trait Illustrate: Converse {
 
 /// Things with the same kinds of properties.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Table {
+pub struct Table {
     /// What is in the columns.
-    pub(crate) head: Vec<String>,
+    pub head: Vec<String>,
     /// The things, each with a text for each column; an empty one where it has no such property.
-    pub(crate) rows: Vec<Vec<String>>,
+    pub rows: Vec<Vec<String>>,
 }
 
 /// What came of a sweep.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Swept {
+pub struct Swept {
     /// What it is called and wants.
-    pub(crate) title: Title,
+    pub title: Title,
     /// What came of each world.
-    pub(crate) records: Vec<Record>,
+    pub records: Vec<Record>,
 }

@@ -1,16 +1,16 @@
 //! Detecting the end of an input.
 
-use crate::lisp::reader::{Completeness, is_complete};
+use lisp::reader::{Completeness, is_complete};
 
 /// Whether the text is a complete input. One with too many closing parentheses is complete,
 /// but wrong.
-pub(crate) fn is_whole(text: &str) -> bool {
+pub fn is_whole(text: &str) -> bool {
     !matches!(is_complete(text), Completeness::Incomplete { .. })
 }
 
 /// Whether the text ends inside a string, a block comment or a symbol in bars, so that whatever
 /// follows belongs to that.
-pub(crate) fn ends_in_quotes(text: &str) -> bool {
+pub fn ends_in_quotes(text: &str) -> bool {
     let Completeness::Incomplete { opened_at, .. } = is_complete(text) else {
         return false;
     };
@@ -22,7 +22,7 @@ pub(crate) fn ends_in_quotes(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::session::dialogue::input::*;
+    use crate::dialogue::input::*;
 
     #[test]
     fn parentheses_in_strings_comments_characters_and_symbols_do_not_count() {

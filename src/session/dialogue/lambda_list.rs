@@ -1,7 +1,7 @@
 //! Lambda lists as people read them.
 
 /// The elements of a lambda list.
-pub(crate) fn parameters(lambda_list: &str) -> Vec<&str> {
+pub fn parameters(lambda_list: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut depth = 0usize;
     let mut start = None;
@@ -24,11 +24,7 @@ pub(crate) fn parameters(lambda_list: &str) -> Vec<&str> {
 }
 
 /// The element of the lambda list to which the argument at that position belongs.
-pub(crate) fn current_parameter(
-    words: &[&str],
-    position: usize,
-    last: Option<&str>,
-) -> Option<usize> {
+pub fn current_parameter(words: &[&str], position: usize, last: Option<&str>) -> Option<usize> {
     let mut left = position;
     let mut in_keys = false;
     for (at, word) in words.iter().enumerate() {

@@ -6,32 +6,32 @@
 //! where the text is finally written.
 
 mod converse;
-pub(crate) mod evaluate;
+pub mod evaluate;
 mod evaluate_on;
 mod illustrate;
 mod input;
 mod lambda_list;
 mod names;
-pub(crate) mod prompt_line;
-pub(crate) mod repeat;
-pub(crate) mod screen;
+pub mod prompt_line;
+pub mod repeat;
+pub mod screen;
 mod serve;
 mod shown_ahead;
 mod taping;
 mod uses;
 
-pub(crate) use converse::{Candidate, Completions, Converse};
+pub use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
-pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
-pub(crate) use illustrate::{Illustrate, Swept, Table};
-pub(crate) use input::{ends_in_quotes, is_whole};
-pub(crate) use lambda_list::{current_parameter, parameters};
-pub(crate) use names::{
+pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
+pub use illustrate::{Illustrate, Swept, Table};
+pub use input::{ends_in_quotes, is_whole};
+pub use lambda_list::{current_parameter, parameters};
+pub use names::{
     Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
 };
-pub(crate) use repeat::Repeat;
-pub(crate) use screen::Screen;
-pub(crate) use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
-pub(crate) use shown_ahead::ShownAhead;
-pub(crate) use taping::Taping;
-pub(crate) use uses::{Relation, Unrecorded, Use};
+pub use repeat::Repeat;
+pub use screen::Screen;
+pub use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
+pub use shown_ahead::ShownAhead;
+pub use taping::Taping;
+pub use uses::{Relation, Unrecorded, Use};

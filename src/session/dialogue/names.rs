@@ -5,109 +5,109 @@ use std::sync::Arc;
 
 /// The names of an image at one time.
 #[derive(Clone, Default, Debug)]
-pub(crate) struct Names {
+pub struct Names {
     /// All packages.
-    pub(crate) packages: Vec<Arc<KnownPackage>>,
+    pub packages: Vec<Arc<KnownPackage>>,
     /// Names and nicknames of packages with their indices.
-    pub(crate) package_names: BTreeMap<String, usize>,
+    pub package_names: BTreeMap<String, usize>,
     /// The index of the package in which forms at top level are read.
-    pub(crate) current: usize,
+    pub current: usize,
     /// All symbols with a home.
-    pub(crate) symbols: Vec<Arc<KnownSymbol>>,
+    pub symbols: Vec<Arc<KnownSymbol>>,
     /// The places of definitions by name in upper case, the newest first.
-    pub(crate) definitions: Arc<BTreeMap<String, Vec<Arc<Definition>>>>,
+    pub definitions: Arc<BTreeMap<String, Vec<Arc<Definition>>>>,
     /// What designators are made of.
-    pub(crate) descriptions: Arc<Vec<KnownDescription>>,
+    pub descriptions: Arc<Vec<KnownDescription>>,
 }
 
 /// The keys of designators of a class, and of a type if that decides.
 #[derive(Default, Debug)]
-pub(crate) struct KnownDescription {
+pub struct KnownDescription {
     /// `ACTION`, `MOTION`, `OBJECT` or `LOCATION`.
-    pub(crate) class: &'static str,
+    pub class: &'static str,
     /// The type in lower case, with its aliases; empty where the type does not matter.
-    pub(crate) types: Vec<String>,
+    pub types: Vec<String>,
     /// The keys in lower case, and whether each is needed.
-    pub(crate) keys: Vec<(String, bool)>,
+    pub keys: Vec<(String, bool)>,
 }
 
 /// A package.
 #[derive(Default, Debug)]
-pub(crate) struct KnownPackage {
+pub struct KnownPackage {
     /// Its name.
-    pub(crate) name: String,
+    pub name: String,
     /// The name that prompts show.
-    pub(crate) prompt: String,
+    pub prompt: String,
     /// The symbols that are present in it, as indices, and whether each is exported, by name.
-    pub(crate) symbols: BTreeMap<String, (usize, bool)>,
+    pub symbols: BTreeMap<String, (usize, bool)>,
     /// Indices of the packages whose exported symbols are inherited.
-    pub(crate) uses: Vec<usize>,
+    pub uses: Vec<usize>,
 }
 
 /// A symbol.
 #[derive(Clone, Default, Debug)]
-pub(crate) struct KnownSymbol {
+pub struct KnownSymbol {
     /// Its name.
-    pub(crate) name: String,
+    pub name: String,
     /// The index of its home package.
-    pub(crate) package: usize,
+    pub package: usize,
     /// Its function, macro or special operator.
-    pub(crate) function: Option<KnownFunction>,
+    pub function: Option<KnownFunction>,
     /// Whether it is a variable or a constant.
-    pub(crate) is_variable: bool,
+    pub is_variable: bool,
     /// Its documentation as a variable.
-    pub(crate) variable_doc: Option<String>,
+    pub variable_doc: Option<String>,
     /// Whether it names a class or type.
-    pub(crate) is_class: bool,
+    pub is_class: bool,
     /// What it means to the robot, such as the keys of an action.
-    pub(crate) topics: String,
+    pub topics: String,
 }
 
 /// A function, macro or special operator.
 #[derive(Clone, Default, Debug)]
-pub(crate) struct KnownFunction {
+pub struct KnownFunction {
     /// What it is.
-    pub(crate) kind: &'static str,
+    pub kind: &'static str,
     /// The lambda list without its parentheses, in lower case.
-    pub(crate) lambda_list: String,
+    pub lambda_list: String,
     /// The documentation.
-    pub(crate) doc: Option<String>,
+    pub doc: Option<String>,
     /// Its text, if it belongs to the language and is written in Lisp.
-    pub(crate) library: Option<LibraryText>,
+    pub library: Option<LibraryText>,
 }
 
 /// A definition of the language that is written in Lisp.
 #[derive(Clone, Debug)]
-pub(crate) struct LibraryText {
+pub struct LibraryText {
     /// File and line in the sources of this program.
-    pub(crate) place: String,
+    pub place: String,
     /// The form.
-    pub(crate) text: &'static str,
+    pub text: &'static str,
 }
 
 /// A definition in a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Definition {
+pub struct Definition {
     /// What defines and what is defined, such as `(DEFUN F)`.
-    pub(crate) label: String,
+    pub label: String,
     /// The name of the text.
-    pub(crate) source: String,
+    pub source: String,
     /// The line, from one.
-    pub(crate) line: usize,
+    pub line: usize,
     /// The column, from one, in characters.
-    pub(crate) column: usize,
+    pub column: usize,
     /// The form.
-    pub(crate) text: String,
+    pub text: String,
 }
 
 impl KnownSymbol {
     /// Whether it means anything.
-    pub(crate) fn has_meaning(&self) -> bool {
+    pub fn has_meaning(&self) -> bool {
         self.function.is_some() || self.is_variable || self.is_class || !self.topics.is_empty()
     }
 
     /// The shape of a call.
-    pub(crate) fn call(&self) -> Option<String> {
+    pub fn call(&self) -> Option<String> {
         let list = &self.function.as_ref()?.lambda_list;
         let name = self.name.to_lowercase();
         Some(match list.is_empty() {
@@ -119,7 +119,7 @@ impl KnownSymbol {
 
 impl Names {
     /// The index of a package of that name or nickname, in any case.
-    pub(crate) fn package(&self, name: &str) -> Option<usize> {
+    pub fn package(&self, name: &str) -> Option<usize> {
         let exact = self.package_names.get(name);
         exact
             .or_else(|| self.package_names.get(&name.to_uppercase()))
@@ -127,7 +127,7 @@ impl Names {
     }
 
     /// The keys of designators of a class and a type, as typed.
-    pub(crate) fn description(&self, class: &str, of_type: &str) -> Option<&KnownDescription> {
+    pub fn description(&self, class: &str, of_type: &str) -> Option<&KnownDescription> {
         let (class, of_type) = (class.to_uppercase(), of_type.to_lowercase());
         let mut all = self.descriptions.iter();
         all.find(|known| {
@@ -136,7 +136,7 @@ impl Names {
     }
 
     /// The symbol accessible under a name in a package.
-    pub(crate) fn accessible(&self, package: usize, name: &str) -> Option<&KnownSymbol> {
+    pub fn accessible(&self, package: usize, name: &str) -> Option<&KnownSymbol> {
         let this = self.packages.get(package)?;
         let own = this.symbols.get(name).map(|(symbol, _)| *symbol);
         let inherited = || {
@@ -149,7 +149,7 @@ impl Names {
     }
 
     /// The symbol that is typed so in a package.
-    pub(crate) fn typed(&self, package: usize, text: &str) -> Option<&KnownSymbol> {
+    pub fn typed(&self, package: usize, text: &str) -> Option<&KnownSymbol> {
         let upper = text.to_uppercase();
         match upper.rsplit_once(':') {
             None => self.accessible(package, &upper),
@@ -161,10 +161,7 @@ impl Names {
     }
 
     /// All symbols accessible in a package by name; those of used packages after its own.
-    pub(crate) fn all_accessible(
-        &self,
-        package: usize,
-    ) -> impl Iterator<Item = (&str, &KnownSymbol)> {
+    pub fn all_accessible(&self, package: usize) -> impl Iterator<Item = (&str, &KnownSymbol)> {
         let this = self.packages.get(package);
         let own = this.into_iter().flat_map(|package| &package.symbols);
         let used = this.into_iter().flat_map(|package| &package.uses);

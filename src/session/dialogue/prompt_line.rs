@@ -2,18 +2,18 @@
 
 /// A line that begins with a prompt.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct PromptLine<'a> {
+pub struct PromptLine<'a> {
     /// The name before the `>`.
-    pub(crate) name: &'a str,
+    pub name: &'a str,
     /// What the prompt says about a stopped evaluation, such as `1]`; empty at the top level.
-    pub(crate) state: &'a str,
+    pub state: &'a str,
     /// What follows the prompt.
-    pub(crate) input: &'a str,
+    pub input: &'a str,
 }
 
 /// Splits off the prompt of a line, if there is one: an upper-case name, perhaps the state of a
 /// stopped evaluation, `>`, and a space or the end of the line.
-pub(crate) fn prompt_line(line: &str) -> Option<PromptLine<'_>> {
+pub fn prompt_line(line: &str) -> Option<PromptLine<'_>> {
     let (prompt, rest) = line.split_once('>')?;
     let (name, state) = prompt.split_once(' ').unwrap_or((prompt, ""));
     if !is_state(state) && prompt != name {
@@ -51,7 +51,7 @@ fn is_state(state: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::session::dialogue::prompt_line::*;
+    use crate::dialogue::prompt_line::*;
 
     fn input(line: &str) -> Option<&str> {
         prompt_line(line).map(|found| found.input)

@@ -4,7 +4,7 @@
 use super::evaluate::Evaluate;
 
 /// An evaluator whose sessions can be repeated.
-pub(crate) trait Repeat: Evaluate {
+pub trait Repeat: Evaluate {
     /// Sets whether an unhandled condition or an interrupt stops the evaluation where it is,
     /// so that the next input says how to continue; by default, both end it.
     fn set_interactive(&mut self, is_interactive: bool);
@@ -25,7 +25,7 @@ pub(crate) fn with_interrupt(input: &str, at: u64) -> String {
 }
 
 /// An input of a transcript and where it was interrupted, if it was.
-pub(crate) fn split_interrupt(input: &str) -> (&str, Option<u64>) {
+pub fn split_interrupt(input: &str) -> (&str, Option<u64>) {
     let split = input.trim_end().rsplit_once(MARK);
     let found = split.and_then(|(input, at)| Some((input, at.parse().ok()?)));
     found.map_or((input, None), |(input, at)| (input, Some(at)))

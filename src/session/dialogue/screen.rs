@@ -6,13 +6,13 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use crate::lisp::source::Location;
-use crate::picture::{Image, InlinePictures};
-use crate::session::dialogue::evaluate::{Abort, Event, Stop};
+use crate::dialogue::evaluate::{Abort, Event, Stop};
+use lisp::source::Location;
+use view::picture::{Image, InlinePictures};
 
 /// Turns events into text.
 #[derive(Clone)]
-pub(crate) struct Screen<W> {
+pub struct Screen<W> {
     to: W,
     at_line_start: bool,
     /// Whether values of forms are shown.
@@ -29,7 +29,7 @@ pub(crate) struct Screen<W> {
 
 impl<W: Write> Screen<W> {
     /// A screen that writes to `to`, the cursor being at the start of a line.
-    pub(crate) fn new(to: W) -> Self {
+    pub fn new(to: W) -> Self {
         Screen {
             to,
             at_line_start: true,
@@ -45,22 +45,22 @@ impl<W: Write> Screen<W> {
 
     /// Sets whether it writes to a terminal: it then shows the progress of motions, and takes
     /// into account that an interrupt leaves a `^C` there.
-    pub(crate) fn set_terminal(&mut self, is_terminal: bool) {
+    pub fn set_terminal(&mut self, is_terminal: bool) {
         self.is_terminal = is_terminal;
     }
 
     /// Sets whether the actions around a condition are shown.
-    pub(crate) fn set_detailed(&mut self, is_detailed: bool) {
+    pub fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
     }
 
     /// Sets how pictures are shown, if at all.
-    pub(crate) fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
         self.pictures = pictures;
     }
 
     /// Sets whether the values of forms are shown.
-    pub(crate) fn set_echo(&mut self, echo: bool) {
+    pub fn set_echo(&mut self, echo: bool) {
         self.echo = echo;
     }
 
@@ -68,13 +68,13 @@ impl<W: Write> Screen<W> {
     ///
     /// An aborted evaluation shows its place if that is in another file or if the input has
     /// several lines.
-    pub(crate) fn begin_input(&mut self, source_name: &str, text: &str) {
+    pub fn begin_input(&mut self, source_name: &str, text: &str) {
         source_name.clone_into(&mut self.source_name);
         self.source_has_lines = text.trim_end().contains('\n');
     }
 
     /// Shows an event.
-    pub(crate) fn show(&mut self, event: &Event) -> io::Result<()> {
+    pub fn show(&mut self, event: &Event) -> io::Result<()> {
         if let Event::Progress(line) = event {
             return self.progress(line);
         }
@@ -109,7 +109,7 @@ impl<W: Write> Screen<W> {
     }
 
     /// Ends the current line, if it is not empty.
-    pub(crate) fn fresh_line(&mut self) -> io::Result<()> {
+    pub fn fresh_line(&mut self) -> io::Result<()> {
         self.end_progress()?;
         if self.at_line_start {
             Ok(())
@@ -119,17 +119,17 @@ impl<W: Write> Screen<W> {
     }
 
     /// Flushes what has been written so far.
-    pub(crate) fn flush(&mut self) -> io::Result<()> {
+    pub fn flush(&mut self) -> io::Result<()> {
         self.to.flush()
     }
 
     /// The underlying writer.
-    pub(crate) fn written(&self) -> &W {
+    pub fn written(&self) -> &W {
         &self.to
     }
 
     /// Returns the underlying writer.
-    pub(crate) fn into_inner(self) -> W {
+    pub fn into_inner(self) -> W {
         self.to
     }
 
@@ -279,7 +279,7 @@ fn folded(range: &Range<usize>, width: usize, below: usize) -> String {
 }
 
 /// An interrupt as printed.
-pub(crate) const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
+pub const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
 
 const INPUT_NAME: &str = "prompt[";
 /// How many choices are shown, of those that stand first and of those that stand last.
@@ -287,19 +287,19 @@ const FIRST_CHOICES: usize = 20;
 const LAST_CHOICES: usize = 10;
 
 /// The name of the `number`th input at a prompt, as the source of places.
-pub(crate) fn input_name(number: usize) -> String {
+pub fn input_name(number: usize) -> String {
     format!("{INPUT_NAME}{number}]")
 }
 
 /// Whether this names an input at a prompt.
-pub(crate) fn is_input_name(source_name: &str) -> bool {
+pub fn is_input_name(source_name: &str) -> bool {
     source_name.starts_with(INPUT_NAME)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::source::Location;
+    use lisp::source::Location;
 
     fn shown(events: &[Event]) -> String {
         shown_for("x", events)

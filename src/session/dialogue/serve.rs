@@ -11,14 +11,14 @@ use super::converse::Converse;
 use super::evaluate::Stop;
 use super::names::Names;
 use super::uses::{Relation, Unrecorded, Use};
-use crate::lisp::source::Location;
-use crate::lisp::value::Value;
+use lisp::source::Location;
+use lisp::value::Value;
 
 /// The number of a value that an editor refers to.
-pub(crate) type ObjectNumber = u64;
+pub type ObjectNumber = u64;
 
 /// An evaluator for an editor.
-pub(crate) trait Serve: Converse {
+pub trait Serve: Converse {
     /// Sets whether an editor serves as the front: values are kept so that it can refer to them,
     /// and a value that a form asks to inspect is given to it.
     fn set_served(&mut self, is_served: bool);
@@ -90,7 +90,7 @@ pub(crate) trait Serve: Converse {
 
 /// What a choice needs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Need {
+pub enum Need {
     /// Nothing.
     Nothing,
     /// A form for its value.
@@ -101,26 +101,26 @@ pub(crate) enum Need {
 
 /// A frame of a stopped evaluation.
 #[derive(Clone, Debug)]
-pub(crate) struct StackFrame {
+pub struct StackFrame {
     /// The call on one line.
-    pub(crate) call: String,
+    pub call: String,
     /// The package of what was called, or the current one.
-    pub(crate) package: String,
+    pub package: String,
     /// The form that it was executing.
-    pub(crate) place: Option<Location>,
+    pub place: Option<Location>,
 }
 
 /// A value with parts.
 #[derive(Clone, Default, Debug)]
-pub(crate) struct Inspection {
+pub struct Inspection {
     /// What it is.
-    pub(crate) title: String,
+    pub title: String,
     /// Names and texts of the parts, with their values unless they have none.
-    pub(crate) parts: Vec<(String, String, Option<ObjectNumber>)>,
+    pub parts: Vec<(String, String, Option<ObjectNumber>)>,
     /// Number of all parts.
-    pub(crate) count: usize,
+    pub count: usize,
 }
 
 /// What an input begins with: the current package and the latest forms and values.
 #[derive(Clone, Default)]
-pub(crate) struct Beginning(pub(in crate::session) Vec<Value>);
+pub struct Beginning(pub(crate) Vec<Value>);

@@ -4,22 +4,22 @@ use std::cell::Cell;
 
 /// How much of the output that comes next has been seen.
 #[derive(Default)]
-pub(crate) struct ShownAhead(Cell<usize>);
+pub struct ShownAhead(Cell<usize>);
 
 impl ShownAhead {
     /// Nothing has been seen of what comes next.
-    pub(crate) fn reset(&self) {
+    pub fn reset(&self) {
         self.0.set(0);
     }
 
     /// The unseen part of what a program has written and was not reported; it is seen from now on.
-    pub(crate) fn show<'t>(&self, written: &'t str) -> &'t str {
+    pub fn show<'t>(&self, written: &'t str) -> &'t str {
         let seen = self.0.replace(written.len());
         written.get(seen..).unwrap_or_default()
     }
 
     /// The unseen part of an output that is reported.
-    pub(crate) fn unseen<'t>(&self, output: &'t str) -> &'t str {
+    pub fn unseen<'t>(&self, output: &'t str) -> &'t str {
         let seen = self.0.take();
         let now = seen.min(output.len());
         self.0.set(seen - now);

@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::session::tape::{Frame, Part};
+use crate::tape::{Frame, Part};
 
 /// An evaluator that can record what its world answers, and evaluate inputs again with these
 /// answers.
-pub(crate) trait Taping {
+pub trait Taping {
     /// A checksum of everything besides the inputs that decides what happens in the session.
     fn fingerprint(&self) -> u32;
 

@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use crate::lisp::source::Location;
+use lisp::source::Location;
 
 /// How something uses a name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Relation {
+pub enum Relation {
     /// A function calls it, or performs actions or motions of that type.
     Calls,
     /// It is what the function of that name calls.
@@ -25,14 +25,14 @@ pub(crate) enum Relation {
 
 /// A place where something is used.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Use {
+pub struct Use {
     /// The function or method there; for callees, what is called.
-    pub(crate) label: String,
+    pub label: String,
     /// The place.
-    pub(crate) place: Option<Location>,
+    pub place: Option<Location>,
 }
 
 /// Calls of this function are compiled in place, and not recorded.
 #[derive(Clone, Copy, Debug, Error)]
 #[error("calls of it are compiled in place; code does not tell who calls it")]
-pub(crate) struct Unrecorded;
+pub struct Unrecorded;

@@ -1,27 +1,27 @@
 //! `choose-grasp`: an arm and a grasp that work.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::motion::GraspQuestion;
-use crate::motion::interruption::interruptible;
-use crate::plan::Reply;
-use crate::plan::pose::value::pose_stamped;
-use crate::robot::Side;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::grasp_choice::PlacingTarget;
-use crate::session::simulation::motions::{side, side_keyword, sides};
-use crate::session::simulation::names::{type_keyword, type_text, type_text_of};
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::grasp_choice::PlacingTarget;
+use crate::simulation::motions::{side, side_keyword, sides};
+use crate::simulation::names::{type_keyword, type_text, type_text_of};
+use cram::Reply;
+use cram::pose::value::pose_stamped;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::motion::GraspQuestion;
+use robotics::motion::interruption::interruptible;
+use robotics::robot::Side;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "CHOOSE-GRASP",
     "object &key arms grasps base-pose target target-base-pose failed",
     "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",

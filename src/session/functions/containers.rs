@@ -1,22 +1,22 @@
 //! Builtins for drawers and doors: what there is, how it is open, and how a hand can open it.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::location::{Container, containers};
-use crate::motion::interruption::interruptible;
-use crate::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
-use crate::plan::Reply;
-use crate::plan::pose::value::pose_stamped;
-use crate::robot::{JointKind, Side};
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::motions::{side, side_keyword, sides};
-use crate::session::simulation::names::{type_keyword, type_text};
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::motions::{side, side_keyword, sides};
+use crate::simulation::names::{type_keyword, type_text};
+use cram::Reply;
+use cram::pose::value::pose_stamped;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
 use nalgebra::Translation3;
+use robotics::location::{Container, containers};
+use robotics::motion::interruption::interruptible;
+use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
+use robotics::robot::{JointKind, Side};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -24,7 +24,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const CLOSED: f64 = 0.1;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "LIST-CONTAINERS",
         "",

@@ -1,15 +1,15 @@
 //! `explain`: the long form of the last failure.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "EXPLAIN",
         "",

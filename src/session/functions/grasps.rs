@@ -2,27 +2,27 @@
 
 use std::sync::Arc;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::plan::pose::argument;
-use crate::session::LogLevel;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::motions::sides;
-use crate::session::simulation::names::type_text;
-use crate::world::grasp_library::{GraspDefinition, Lift};
+use crate::LogLevel;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::motions::sides;
+use crate::simulation::names::type_text;
+use cram::Reply;
+use cram::pose::argument;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::world::grasp_library::{GraspDefinition, Lift};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-OBJECT-INTERFACES`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
     "types arms grasp &key grasp-translation grasp-rot-matrix pregrasp-offsets 2nd-pregrasp-offsets lift-offsets 2nd-lift-offsets lift-translation lift-rotation 2nd-lift-translation 2nd-lift-rotation location-type",
     "Defines how objects of the types (one or a list) are grasped by the arms (one or a list). Offsets are relative to the translation, along the object's axes (m); LIFT-TRANSLATION and LIFT-ROTATION (a quaternion) move hand and object along the axes of the robot's base. A grasp that exists is replaced.",

@@ -1,16 +1,16 @@
 //! Exiting the shell.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::call::{done, host};
-use crate::session::person::Person;
+use crate::host::call::{done, host};
+use crate::person::Person;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "QUIT",
         "&optional status",

@@ -1,23 +1,23 @@
 //! Builtins for symbolic locations: the samples that generators give, what validators say of a
 //! pose, and the furniture by name.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::location::surfaces;
-use crate::plan::Reply;
-use crate::plan::designator::value::{as_designator, first};
-use crate::plan::pose::value::{as_placement, pose_stamped};
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::type_keyword;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::names::type_keyword;
+use cram::Reply;
+use cram::designator::value::{as_designator, first};
+use cram::pose::value::{as_placement, pose_stamped};
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::location::surfaces;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-LOCATION-COSTMAP`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "NEXT-LOCATION-SAMPLE",
         "location references",

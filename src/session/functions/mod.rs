@@ -22,7 +22,7 @@ mod snapshots;
 mod sweep_things;
 mod sweeps;
 mod tables;
-pub(crate) mod tour;
+pub mod tour;
 mod tutorial;
 mod watching;
 

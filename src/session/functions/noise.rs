@@ -1,21 +1,21 @@
 //! The errors of the robot's sensors and motors.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::name_text;
-use crate::world::noise::NoiseLevels;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::names::name_text;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::world::noise::NoiseLevels;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "SET-NOISE",
     "&rest settings",
     "Sets the errors of the robot's sensors and motors, and returns the former settings. Settings are names and numbers: :POSITION (m) and :YAW (rad) are standard deviations of what is detected, :MISSES and :FALSE-TYPES the probabilities that an object is overlooked or taken for another, :ODOMETRY-POSITION (m) and :ODOMETRY-YAW (rad) standard deviations of where a drive ends, :GRASP-POSITION (m) and :GRASP-YAW (rad) of where a hand approaches an object. What is not named is zero; without settings there are no errors. :USUAL stands for the errors of a common robot. The same seed gives the same errors.",

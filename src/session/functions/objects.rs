@@ -1,21 +1,21 @@
 //! Builtins for objects: spawning, moving, removing.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::plan::pose::value::pose_stamped;
-use crate::session::LogLevel;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, suggestion, type_text_of};
-use crate::spatial::Pose;
-use crate::world::{Object, SpawnReport, WorldError};
+use crate::LogLevel;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::names::{name_text, suggestion, type_text_of};
+use cram::Reply;
+use cram::pose::value::pose_stamped;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::world::{Object, SpawnReport, WorldError};
+use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -29,7 +29,7 @@ const LOWER: f64 = 0.05;
 const FALL: f64 = 0.3;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "SPAWN-OBJECT",
         "name type &key pose color mass",
@@ -85,11 +85,11 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 /// The arguments for spawning an object.
 pub(super) struct Spawning<'a> {
-    pub(crate) name: &'a Value,
-    pub(crate) kind: &'a Value,
-    pub(crate) pose: Pose,
-    pub(crate) color: Option<&'a Value>,
-    pub(crate) mass: Option<f64>,
+    pub name: &'a Value,
+    pub kind: &'a Value,
+    pub pose: Pose,
+    pub color: Option<&'a Value>,
+    pub mass: Option<f64>,
 }
 
 impl Simulation {

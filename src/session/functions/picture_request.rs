@@ -1,20 +1,20 @@
 //! The arguments of the functions that make pictures.
 
-use crate::plan::pose::names;
+use cram::pose::names;
 use nalgebra::Point3;
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::picture::View;
-use crate::picture::view::FIELD_OF_VIEW;
-use crate::plan::pose::argument;
-use crate::plan::pose::value::{as_placement, as_vector};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, suggestion};
+use crate::simulation::Simulation;
+use crate::simulation::names::{name_text, suggestion};
+use cram::pose::argument;
+use cram::pose::value::{as_placement, as_vector};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use view::picture::View;
+use view::picture::view::FIELD_OF_VIEW;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -30,14 +30,14 @@ const ASIDE: [f64; 3] = [-1.15, -1.25, 0.95];
 /// A picture's arguments: a file and a view, both optional, then keys with their values.
 pub(super) struct PictureRequest {
     /// The requested file, if any.
-    pub(crate) file: Option<String>,
+    pub file: Option<String>,
     view: Option<Value>,
     keys: Vec<(&'static str, Value)>,
 }
 
 impl PictureRequest {
     /// Parses the arguments; `keys` are the permitted keys.
-    pub(crate) fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
+    pub(super) fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
         let mut request = Self {
             file: None,
             view: None,
@@ -78,13 +78,13 @@ impl PictureRequest {
     }
 
     /// The value of a key, if given.
-    pub(crate) fn get(&self, key: &str) -> Option<&Value> {
+    pub(super) fn get(&self, key: &str) -> Option<&Value> {
         let found = self.keys.iter().find(|(known, _)| *known == key);
         found.map(|(_, value)| value)
     }
 
     /// A number of pixels.
-    pub(crate) fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
+    pub(super) fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
         let Some(value) = self.get(key) else {
             return Ok(otherwise);
         };
@@ -119,7 +119,7 @@ impl PictureRequest {
     }
 
     /// The viewpoint.
-    pub(crate) fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
+    pub(super) fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
         let named = self.view.as_ref().or_else(|| self.get("VIEW"));
         let (from, at) = (self.get("FROM"), self.get("AT"));
         match (named, from, at) {
@@ -224,7 +224,7 @@ fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3
     Ok(point)
 }
 
-fn origin(pose: &crate::spatial::Pose) -> Point3<f64> {
+fn origin(pose: &spatial::Pose) -> Point3<f64> {
     pose.translation.vector.into()
 }
 

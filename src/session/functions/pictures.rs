@@ -4,20 +4,20 @@
 use std::fs;
 
 use super::picture_request::PictureRequest;
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::picture;
-use crate::picture::map_picture::add_legend;
-use crate::picture::{CameraPicture, FloorMap, View, camera_picture, map_scene, render};
-use crate::plan::Reply;
-use crate::plan::designator::value::current;
-use crate::session::audience::Audience;
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::properties::property;
+use crate::audience::Audience;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::simulation::properties::property;
+use cram::Reply;
+use cram::designator::value::current;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
+use view::picture;
+use view::picture::map_picture::add_legend;
+use view::picture::{CameraPicture, FloorMap, View, camera_picture, map_scene, render};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -31,7 +31,7 @@ const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "PICTURE",
         "&rest arguments",

@@ -1,38 +1,36 @@
 //! What the plans for picking up and placing query from the world and the grasp library.
 
-use crate::plan::designator::value::current;
-use crate::session::simulation::properties::property;
+use crate::simulation::properties::property;
+use cram::designator::value::current;
 use nalgebra::Translation3;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::motion::{
+use crate::LogLevel;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::held::Held;
+use crate::simulation::imagined::Imagined;
+use crate::simulation::motions::{side, side_keyword};
+use crate::simulation::names::{name_text, suggestion, type_keyword, type_text, type_text_of};
+use cram::Reply;
+use cram::pose::value::{as_placement, frame_of, pose_stamped};
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::motion::{
     Effort, HeldGrip, LetGo, Overhead, PutReach, about_z, releasing_opening, take_hold,
 };
-use crate::plan::Reply;
-use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
-use crate::robot::Side;
-use crate::session::LogLevel;
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::held::Held;
-use crate::session::simulation::imagined::Imagined;
-use crate::session::simulation::motions::{side, side_keyword};
-use crate::session::simulation::names::{
-    name_text, suggestion, type_keyword, type_text, type_text_of,
-};
-use crate::spatial::{Pose, pose};
-use crate::world::grasp_library::{GraspDefinition, Grip};
+use robotics::robot::Side;
+use robotics::world::grasp_library::{GraspDefinition, Grip};
+use spatial::{Pose, pose};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "ARM-POSTURE",
         "arm posture",
@@ -134,18 +132,18 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// An object as described by perception.
-pub(crate) struct Perceived {
+pub struct Perceived {
     /// Name in the world.
-    pub(crate) name: String,
+    pub name: String,
     /// Name of the type.
-    pub(crate) kind: String,
+    pub kind: String,
     /// Pose in the current frame of the robot's base.
-    pub(crate) in_base: Pose,
+    pub in_base: Pose,
 }
 
 impl Simulation {
     /// Reads the designator of a perceived object.
-    pub(crate) fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
+    pub fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
         let current = current(object);
         let name = property(image, &current, "NAME");
         let kind = property(image, &current, "TYPE");
@@ -186,7 +184,7 @@ impl Simulation {
     }
 
     /// The definition of a grasp, or an error that lists the existing ones.
-    pub(crate) fn grasp(
+    pub fn grasp(
         &self,
         image: &Image,
         kind: &str,
@@ -219,7 +217,7 @@ impl Simulation {
     }
 
     /// The definition of a grasp of a type, or of the nearest of its supertypes that has it.
-    pub(crate) fn definition(&self, kind: &str, arm: Side, grasp: &str) -> Option<GraspDefinition> {
+    pub fn definition(&self, kind: &str, arm: Side, grasp: &str) -> Option<GraspDefinition> {
         let mut kinds = self.models.objects.lineage(kind);
         kinds.find_map(|k| self.grasps.get(k, arm, grasp)).cloned()
     }
@@ -260,7 +258,7 @@ impl Simulation {
         pose::yaw(&Pose::from_parts(Translation3::identity(), turn))
     }
 
-    pub(crate) fn grip(&self, kind: &str) -> Grip {
+    pub fn grip(&self, kind: &str) -> Grip {
         self.grasps.grip(kind)
     }
 

@@ -5,31 +5,31 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::tour;
-use crate::lisp::builtin::{Builtin, Operator, control};
-use crate::lisp::builtins::help::{self, Topic, Topics};
-use crate::lisp::image::Image;
-use crate::lisp::stream;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::calls::run;
-use crate::plan::designator::schema;
-use crate::plan::designator::value::Class;
-use crate::plan::{Plan, Reply, tell_overview};
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::host::parts::View;
-use crate::session::person::Person;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, type_text};
-use crate::world::Models;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::host::parts::View;
+use crate::person::Person;
+use crate::simulation::Simulation;
+use crate::simulation::names::{name_text, type_text};
+use cram::designator::schema;
+use cram::designator::value::Class;
+use cram::{Plan, Reply, tell_overview};
+use lisp::builtin::{Builtin, Operator, control};
+use lisp::builtins::help::{self, Topic, Topics};
+use lisp::image::Image;
+use lisp::stream;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::package::PackageTable;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::Sym;
+use lisp::vm::calls::run;
+use robotics::world::Models;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "HELP",
         "",
@@ -148,7 +148,7 @@ fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Re
 }
 
 /// Makes known what names mean to the robot: actions, motions and types of objects.
-pub(in crate::session) fn install_topics(image: &mut Image, models: Arc<Models>) {
+pub(crate) fn install_topics(image: &mut Image, models: Arc<Models>) {
     let topics = move |image: &Image, sym: Sym| {
         let name = image.name(sym);
         let mut topics = Vec::new();

@@ -1,25 +1,25 @@
 //! Queries of what the robot could do from a base pose, without moving it.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::can_stand;
-use crate::plan::Reply;
-use crate::plan::designator::value::{as_designator, current};
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::imagined::Imagined;
-use crate::session::simulation::motions::side;
-use crate::session::simulation::properties::property;
-use crate::spatial::pose;
-use crate::world::WorldError;
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::imagined::Imagined;
+use crate::simulation::motions::side;
+use crate::simulation::properties::property;
+use cram::Reply;
+use cram::designator::value::{as_designator, current};
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::can_stand;
+use robotics::world::WorldError;
+use spatial::pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "BASE-POSE-FREE-P",
         "base-pose",

@@ -1,10 +1,10 @@
 //! Macros around plans: `with-simulated-robot`.
 
-use crate::lisp::builtin::Operator;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use lisp::builtin::Operator;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 
 /// Macros of package `CRAM-PR2-PROJECTION`.
 pub(crate) static OPERATORS: &[Operator] = &[

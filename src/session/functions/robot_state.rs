@@ -2,25 +2,25 @@
 
 use nalgebra::Point3;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::motion::pan_and_tilt;
-use crate::plan::Reply;
-use crate::plan::designator::names::{name_text, rosify};
-use crate::plan::pose::value::pose_stamped;
-use crate::robot::{JointId, KinematicTree};
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::motions::side;
-use crate::session::simulation::names::{suggestion, type_keyword};
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::motions::side;
+use crate::simulation::names::{suggestion, type_keyword};
+use cram::Reply;
+use cram::designator::names::{name_text, rosify};
+use cram::pose::value::pose_stamped;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
+use robotics::motion::pan_and_tilt;
+use robotics::robot::{JointId, KinematicTree};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-ROBOT-INTERFACES`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "JOINT-POSITION",
         "joint",

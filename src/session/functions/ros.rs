@@ -1,18 +1,18 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::builtins::loading::load_text;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::plan::designator::names::{name_text, rosify};
-use crate::plan::packages::{self, PACKAGES};
-use crate::session::LogLevel;
-use crate::session::host::call::{done, host};
-use crate::session::plans::{DEMO_SYSTEMS, demo_text};
-use crate::session::simulation::Simulation;
+use crate::LogLevel;
+use crate::host::call::{done, host};
+use crate::plans::{DEMO_SYSTEMS, demo_text};
+use crate::simulation::Simulation;
+use cram::Reply;
+use cram::designator::names::{name_text, rosify};
+use cram::packages::{self, PACKAGES};
+use lisp::builtin::{Builtin, control, pure};
+use lisp::builtins::loading::load_text;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -132,7 +132,7 @@ fn systems() -> Vec<String> {
 }
 
 /// Puts folders at the front of those in which systems are looked for.
-pub(in crate::session) fn name_system_folders(image: &mut Image, folders: &[String]) {
+pub(crate) fn name_system_folders(image: &mut Image, folders: &[String]) {
     let registry = packages::symbol(image, "ASDF", "*CENTRAL-REGISTRY*");
     let folders = folders.iter().map(|folder| Value::string(folder.as_str()));
     image.set_special(registry, Value::list(folders));
@@ -140,13 +140,7 @@ pub(in crate::session) fn name_system_folders(image: &mut Image, folders: &[Stri
 
 impl Simulation {
     /// Writes a log line: `[(TAG …) LEVEL] seconds: text`.
-    pub(in crate::session) fn log(
-        &self,
-        image: &mut Image,
-        level: LogLevel,
-        tags: &str,
-        text: &str,
-    ) {
+    pub(crate) fn log(&self, image: &mut Image, level: LogLevel, tags: &str, text: &str) {
         if level < self.log_level {
             return;
         }

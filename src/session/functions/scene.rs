@@ -3,18 +3,18 @@
 
 use nalgebra::Vector3;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::plan::pose::value::pose_stamped;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::spatial::{Pose, trig};
-use crate::world::{Object, WorldError};
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use cram::Reply;
+use cram::pose::value::pose_stamped;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::world::{Object, WorldError};
+use spatial::{Pose, trig};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -22,7 +22,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const TIPPED: f64 = 5.0;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "SCENE-AT-REST",
         "",

@@ -1,16 +1,16 @@
 //! Serving the session to an editor.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::call::{done, host};
-use crate::session::person::Person;
+use crate::host::call::{done, host};
+use crate::person::Person;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 /// Builtins of package `SWANK`.
-pub(crate) static TABLE: &[Builtin] = &[control(
+pub(super) static TABLE: &[Builtin] = &[control(
     "CREATE-SERVER",
     "&key (port 4005) dont-close style",
     "At the prompt: serves the session to Emacs, which connects by M-x slime-connect, until Ctrl-C; the prompt waits meanwhile. With port 0, any that is free. Returns the port that was asked for.",

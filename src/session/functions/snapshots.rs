@@ -1,22 +1,22 @@
 //! Restoring earlier states of the world: `rewind`, `snapshot`, `restore`.
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::on_one_line;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::name_text;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::on_one_line;
+use crate::simulation::Simulation;
+use crate::simulation::names::name_text;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "REWIND",
         "&optional count",

@@ -2,24 +2,24 @@
 
 use nalgebra::Vector3;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords::optional;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::robot::LinkId;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
-use crate::session::simulation::obstacle::{OBSTACLE, obstacle};
-use crate::spatial::pose::from_xy_yaw;
-use crate::spatial::{Pose, trig};
-use crate::world::body_name::BodyName;
-use crate::world::object_library::ObjectType;
-use crate::world::{AllowedPairs, Ground, Load, NoRoom, Object, StandingRoom, WorldError};
+use crate::host::call::{done, host};
+use crate::simulation::Simulation;
+use crate::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::simulation::obstacle::{OBSTACLE, obstacle};
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords::optional;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::robot::LinkId;
+use robotics::world::body_name::BodyName;
+use robotics::world::object_library::ObjectType;
+use robotics::world::{AllowedPairs, Ground, Load, NoRoom, Object, StandingRoom, WorldError};
+use spatial::pose::from_xy_yaw;
+use spatial::{Pose, trig};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -40,7 +40,7 @@ const TOLERANCE: f64 = 0.002;
 const FLOOR: f64 = 0.02;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "%SURFACE-POINT",
         "surface u v",

@@ -1,27 +1,27 @@
 //! What sweeps ask of the session: a fresh world, the numbers of its draws, and the record of what
 //! came of it. The rest of sweeps is written in Lisp (`plans/lib/sweeps.plan`).
 
-use crate::closest_name::closest_name;
-use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::{Handlers, Reply};
-use crate::session::dialogue::Swept;
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::injection::{Fault, FaultKind};
-use crate::session::simulation::names::name_text;
-use crate::session::sweeping::{Known, Sweeping};
-use crate::sweep::summary::{Summary, Title};
-use crate::sweep::{Drawn, Ending, Record, normal_quantile};
+use crate::dialogue::Swept;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use crate::simulation::injection::{Fault, FaultKind};
+use crate::simulation::names::name_text;
+use crate::sweeping::{Known, Sweeping};
+use closest_name::closest_name;
+use cram::{Handlers, Reply};
+use lisp::builtin::{Builtin, control, pure};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use sweep::summary::{Summary, Title};
+use sweep::{Drawn, Ending, Record, normal_quantile};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "%SWEEP-BEGIN",
         "seed world",

@@ -1,10 +1,10 @@
 //! Installing the builtins that act on the world.
 
-use crate::lisp::builtin::{Builtin, Operator};
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageTable;
-use crate::session::functions;
-use crate::session::simulation::motion_types;
+use crate::functions;
+use crate::simulation::motion_types;
+use lisp::builtin::{Builtin, Operator};
+use lisp::image::Image;
+use lisp::value::package::PackageTable;
 
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
@@ -38,8 +38,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::watching::TABLE),
     ("PLAN-SYSTEM", functions::sweeps::TABLE),
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
-    ("PLANWRIGHT", crate::session::record::TABLE),
-    ("SWANK", crate::session::objects::TABLE),
+    ("PLANWRIGHT", crate::record::TABLE),
+    ("SWANK", crate::objects::TABLE),
     ("SWANK", functions::serving::TABLE),
     ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
@@ -97,8 +97,8 @@ pub(crate) fn install(image: &mut Image) {
 /// symbol with that name, that symbol gets the same meaning.
 fn alias(
     image: &mut Image,
-    from: crate::lisp::value::package::PackageId,
-    to: crate::lisp::value::package::PackageId,
+    from: lisp::value::package::PackageId,
+    to: lisp::value::package::PackageId,
     name: &str,
 ) {
     let original = image.export_symbol(from, name);

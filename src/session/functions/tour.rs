@@ -1,15 +1,15 @@
 //! The tour, a first session for newcomers: a few steps, each with a form to type.
 
 /// A step: an explanation, and a form to type.
-pub(crate) struct Step {
+pub struct Step {
     /// The explanation.
-    pub(crate) text: &'static str,
+    pub text: &'static str,
     /// The form to type.
-    pub(crate) form: &'static str,
+    pub form: &'static str,
 }
 
 /// The steps, in order.
-pub(crate) static STEPS: &[Step] = &[
+pub static STEPS: &[Step] = &[
     Step {
         text: "Everything typed here is a form in parentheses: a function and its arguments.\n\
                Enter evaluates it, and shows its value. Names live in packages; first go to\n\
@@ -66,7 +66,7 @@ pub(crate) static STEPS: &[Step] = &[
 ];
 
 /// The text of a step, counted from zero.
-pub(in crate::session) fn step_text(number: usize) -> String {
+pub(crate) fn step_text(number: usize) -> String {
     match STEPS.get(number) {
         Some(step) => format!(
             "Step {} of {}. {}\n\n{}\n",

@@ -1,26 +1,26 @@
 //! The functions of the tutorial's package that query or change the world.
 
 use super::objects::Spawning;
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords::{self, optional};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::plan::Reply;
-use crate::plan::designator::value::current;
-use crate::plan::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
-use crate::session::LogLevel;
-use crate::session::host::call::{done, host};
-use crate::session::simulation::motions::side;
-use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
-use crate::session::simulation::properties::property;
-use crate::session::simulation::{Axes, Simulation};
+use crate::LogLevel;
+use crate::host::call::{done, host};
+use crate::simulation::motions::side;
+use crate::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
+use crate::simulation::properties::property;
+use crate::simulation::{Axes, Simulation};
+use cram::Reply;
+use cram::designator::value::current;
+use cram::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
+use lisp::builtin::{Builtin, control};
+use lisp::builtins::keywords::{self, optional};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::Sym;
 
 /// Default length (m) of coordinate axes.
 const AXES_SIZE: f64 = 0.3;
@@ -28,7 +28,7 @@ const AXES_SIZE: f64 = 0.3;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "INIT-PROJECTION",
         "",
@@ -375,9 +375,9 @@ fn look_up_transformation(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::dialogue::Evaluate;
-    use crate::session::{Session, SessionOptions};
-    use crate::spatial::Pose;
+    use crate::dialogue::Evaluate;
+    use crate::{Session, SessionOptions};
+    use spatial::Pose;
 
     fn session() -> Session {
         let mut session = Session::new(&SessionOptions::default()).expect("a session");

@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::host::SimulationHost;
-use crate::session::host::call::{done, host};
-use crate::watch::live::open_in_browser;
+use crate::host::SimulationHost;
+use crate::host::call::{done, host};
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
+use view::watch::live::open_in_browser;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(super) static TABLE: &[Builtin] = &[
     control(
         "VIEW",
         "&optional (on t)",

@@ -1,13 +1,13 @@
 //! Builtins that act on the world: they are requests that the session carries out.
 
 use super::SimulationHost;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
-use crate::session::audience::Audience;
-use crate::session::person::Person;
-use crate::session::simulation::Simulation;
+use crate::audience::Audience;
+use crate::person::Person;
+use crate::simulation::Simulation;
+use cram::Reply;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 /// A function that acts on a part of the host.
 pub(crate) type OwnerFn<O> = fn(&mut O, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
@@ -18,14 +18,14 @@ pub(crate) type HostFn = OwnerFn<SimulationHost>;
 /// The request to call a function on the host.
 pub(crate) struct HostCall {
     /// The name of the function, in Rust.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Whether its reply is all that comes of it, besides changes of the physical state: then the
     /// tape answers for it.
     pub(crate) is_answered: bool,
     /// The function.
-    pub(crate) call: HostFn,
+    pub call: HostFn,
     /// Its arguments.
-    pub(crate) args: Vec<Value>,
+    pub args: Vec<Value>,
 }
 
 /// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
@@ -76,25 +76,22 @@ pub(crate) fn is_answered<O: Owner>(_: OwnerFn<O>) -> bool {
 /// look.
 macro_rules! host {
     ($function:path) => {
-        $crate::session::host::call::host!(
-            $function,
-            $crate::session::host::call::is_answered($function)
-        )
+        $crate::host::call::host!($function, $crate::host::call::is_answered($function))
     };
     (answered $function:path) => {
-        $crate::session::host::call::host!($function, true)
+        $crate::host::call::host!($function, true)
     };
     (repeated $function:path) => {
-        $crate::session::host::call::host!($function, false)
+        $crate::host::call::host!($function, false)
     };
     ($function:path, $is_answered:expr) => {
         |_, args| {
-            Ok($crate::lisp::vm::step::Step::request(
-                $crate::session::host::call::HostCall {
+            Ok(lisp::vm::step::Step::request(
+                $crate::host::call::HostCall {
                     name: stringify!($function),
                     is_answered: $is_answered,
                     call: |host, image, args| {
-                        $function($crate::session::host::call::Owner::of(host), image, args)
+                        $function($crate::host::call::Owner::of(host), image, args)
                     },
                     args,
                 },

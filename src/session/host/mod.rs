@@ -10,22 +10,22 @@ pub(super) mod parts;
 mod request;
 mod taped;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::copy::Copier;
-use crate::plan::TaskId;
-use crate::plan::designator::perform::MotionsBegun;
-use crate::session::audience::Audience;
-use crate::session::person::Person;
-use crate::session::simulation::Simulation;
+use crate::audience::Audience;
+use crate::person::Person;
+use crate::simulation::Simulation;
+use cram::TaskId;
+use cram::designator::perform::MotionsBegun;
+use lisp::image::Image;
+use lisp::value::copy::Copier;
 
 /// Everything outside Lisp that a task can use.
 pub(crate) struct SimulationHost {
     /// The robot in its world.
-    pub(crate) simulation: Simulation,
+    pub simulation: Simulation,
     /// The state of the prompt.
     pub(crate) person: Person,
     /// The outputs that show the session.
-    pub(crate) audience: Audience,
+    pub audience: Audience,
     /// The task whose request is being carried out.
     asking: TaskId,
 }

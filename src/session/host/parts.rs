@@ -2,19 +2,19 @@
 
 use super::SimulationHost;
 use super::call::done;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::types::type_of::type_of;
-use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Deferred, Native};
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::plan::designator::value::as_designator;
-use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
-use crate::plan::{Reply, TaskRef};
-use crate::robot::Side;
-use crate::session::simulation::motions::side_keyword;
-use crate::session::simulation::names::{name_text, type_keyword};
-use crate::session::simulation::properties::property;
+use crate::simulation::motions::side_keyword;
+use crate::simulation::names::{name_text, type_keyword};
+use crate::simulation::properties::property;
+use cram::designator::value::as_designator;
+use cram::pose::value::{as_placement, frame_of, pose_stamped};
+use cram::{Reply, TaskRef};
+use lisp::image::Image;
+use lisp::print;
+use lisp::types::type_of::type_of;
+use lisp::value::Value;
+use lisp::value::function::{Body, Deferred, Native};
+use lisp::value::symbol::{FunctionCell, Sym};
+use robotics::robot::Side;
 
 /// Maximum number of parts shown.
 const MOST_PARTS: usize = 60;
@@ -25,20 +25,16 @@ const LONGEST_PART: usize = 100;
 const LONGEST_LIST: usize = 100_000;
 
 /// A value with its parts.
-pub(in crate::session) struct View {
-    pub(crate) title: String,
+pub(crate) struct View {
+    pub title: String,
     /// Names and values.
-    pub(crate) parts: Vec<(String, Value)>,
+    pub parts: Vec<(String, Value)>,
 }
 
 impl View {
     /// The parts of a value. A symbol that names an object in the world stands for that object,
     /// and `:robot` for the robot.
-    pub(in crate::session) fn of(
-        host: &mut SimulationHost,
-        image: &mut Image,
-        value: &Value,
-    ) -> View {
+    pub(crate) fn of(host: &mut SimulationHost, image: &mut Image, value: &Value) -> View {
         if let Some(view) = View::in_world(host, image, value) {
             return view;
         }
@@ -53,7 +49,7 @@ impl View {
     }
 
     /// The parts of the object in the world that a symbol names, or of the robot.
-    pub(in crate::session) fn in_world(
+    pub(crate) fn in_world(
         host: &mut SimulationHost,
         image: &mut Image,
         value: &Value,
@@ -93,7 +89,7 @@ impl View {
     }
 
     /// The parts with numbers.
-    pub(in crate::session) fn text(&self, image: &Image) -> String {
+    pub(crate) fn text(&self, image: &Image) -> String {
         let mut text = format!("{}\n", self.title);
         let width = self
             .parts
@@ -329,7 +325,7 @@ fn of_foreign(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
         }
         let quaternion = [q.x, q.y, q.z, q.w].map(Value::Double);
         parts.push(part("quaternion x y z w", Value::list(quaternion)));
-        parts.push(part("heading (rad)", crate::spatial::pose::yaw(&pose)));
+        parts.push(part("heading (rad)", spatial::pose::yaw(&pose)));
         return parts;
     }
     Vec::new()

@@ -4,17 +4,17 @@ use std::any::Any;
 
 use super::call::HostCall;
 use super::{SimulationHost, note_motions};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::{Motion, MotionStatus};
-use crate::plan::designator::MotionRequest;
-use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::session::audience::task_news;
-use crate::session::simulation::jobs::{Completion, Job, Told};
-use crate::session::tape::{Done, RaiseData};
-use crate::watch::{Cause, TaskState};
-use crate::world::physics::STEP_SECONDS;
+use crate::audience::task_news;
+use crate::simulation::jobs::{Completion, Job, Told};
+use crate::tape::{Done, RaiseData};
+use cram::designator::MotionRequest;
+use cram::{Advance, Host, Reply, TaskId, Ticket};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::{Motion, MotionStatus};
+use robotics::world::physics::STEP_SECONDS;
+use view::watch::{Cause, TaskState};
 
 impl Host for SimulationHost {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
@@ -100,7 +100,7 @@ impl SimulationHost {
     }
 
     /// As [`Host::advance`]; `watch` is called after every step.
-    pub(in crate::session) fn advance_watched(
+    pub(crate) fn advance_watched(
         &mut self,
         image: &mut Image,
         now: f64,
@@ -164,7 +164,7 @@ impl SimulationHost {
 
     /// What is going on, if that is known, what the robot is doing, its progress, and the simulated
     /// time, on one line.
-    pub(in crate::session) fn progress(&self, what: Option<&str>) -> String {
+    pub(crate) fn progress(&self, what: Option<&str>) -> String {
         let what = what.map(str::to_owned).into_iter();
         let mut parts: Vec<String> = what.chain(self.simulation.jobs.progress()).collect();
         parts.push(format!("{:.1} s", self.simulation.now));
@@ -218,7 +218,7 @@ impl SimulationHost {
     }
 
     /// What followers are told of a motion.
-    pub(in crate::session) fn told(&self, image: &Image, request: Option<&MotionRequest>) -> Told {
+    pub(crate) fn told(&self, image: &Image, request: Option<&MotionRequest>) -> Told {
         if !self.audience.has_followers() {
             return Told::default();
         }

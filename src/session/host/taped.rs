@@ -1,12 +1,12 @@
 //! Answers of the world, with the tape between: they are recorded, or come from the tape.
 
 use super::SimulationHost;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::{Advance, Reply, Ticket};
-use crate::session::simulation::outcome;
-use crate::session::tape::{Answer, Entry, Mark, checksum};
+use crate::simulation::outcome;
+use crate::tape::{Answer, Entry, Mark, checksum};
+use cram::{Advance, Reply, Ticket};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
 
 /// What a request is told while its evaluation is being given up.
 const LOST: &str = "The tape of the earlier session does not fit.";
@@ -14,7 +14,7 @@ const LOST: &str = "The tape of the earlier session does not fit.";
 impl SimulationHost {
     /// The reply to the request with that name and arguments. `work` finds it out; it may do
     /// nothing else besides that but change the physical state, the output, and symbols.
-    pub(in crate::session) fn answered(
+    pub(crate) fn answered(
         &mut self,
         image: &mut Image,
         name: &str,

@@ -2,25 +2,25 @@
 
 mod snapshots;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::{Copied, Copier};
+use lisp::value::Value;
+use lisp::value::copy::{Copied, Copier};
 pub(crate) use snapshots::Snapshots;
 
 /// The state of the prompt.
 #[derive(Default)]
 pub(crate) struct Person {
     /// Snapshots of earlier states.
-    pub(crate) snapshots: Snapshots,
+    pub snapshots: Snapshots,
     /// The next step of the tour, counted from zero.
     pub(crate) tour_step: usize,
     /// A value that is to be inspected.
-    pub(crate) inspected: Option<Value>,
+    pub inspected: Option<Value>,
     /// Whether the session can be served to an editor from here.
     pub(crate) can_serve: bool,
     /// The port by which it is to be served.
-    pub(crate) port: Option<u16>,
+    pub port: Option<u16>,
     /// The exit status, once an exit has been requested.
-    pub(crate) quit: Option<u8>,
+    pub quit: Option<u8>,
 }
 
 impl Person {

@@ -8,13 +8,13 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::{Copied, Copier};
-use crate::lisp::value::raise::Raise;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::frames::Restored;
-use crate::session::tape::{Entry, Frame};
+use crate::simulation::Simulation;
+use crate::simulation::frames::Restored;
+use crate::tape::{Entry, Frame};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::copy::{Copied, Copier};
+use lisp::value::raise::Raise;
 
 /// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;

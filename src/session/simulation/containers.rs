@@ -3,15 +3,15 @@
 use super::Simulation;
 use super::names::name_text;
 use super::properties::property;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::location::{Container, Item, Target, UnknownFurniture, container_of, link_named};
-use crate::plan::designator::value::{as_designator, current};
-use crate::robot::Limits;
-use crate::spatial::pose;
+use cram::designator::value::{as_designator, current};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::location::{Container, Item, Target, UnknownFurniture, container_of, link_named};
+use robotics::robot::Limits;
+use spatial::pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -27,7 +27,7 @@ fn unknown_furniture(unknown: &UnknownFurniture) -> Box<Raise> {
 impl Simulation {
     /// The drawer or door that a value describes or names, as itself, as the furniture that it is
     /// in, or as one of its parts; an error if there is none.
-    pub(in crate::session) fn container(&self, image: &Image, value: &Value) -> Result<Container> {
+    pub(crate) fn container(&self, image: &Image, value: &Value) -> Result<Container> {
         let value = current(value);
         let shown = print::to_string(image, &value, false);
         let refused =
@@ -64,7 +64,7 @@ impl Simulation {
 
     /// Whether furniture that a value describes or names can be opened or closed; an error if there
     /// is no such furniture.
-    pub(in crate::session) fn is_container(&self, image: &Image, value: &Value) -> Result<bool> {
+    pub(crate) fn is_container(&self, image: &Image, value: &Value) -> Result<bool> {
         let value = current(value);
         let name = match as_designator(&value) {
             Some(_) => property(image, &value, "URDF-NAME"),
@@ -79,12 +79,12 @@ impl Simulation {
     }
 
     /// Whether a designator describes furniture rather than an object.
-    pub(in crate::session) fn describes_furniture(&self, image: &Image, object: &Value) -> bool {
+    pub(crate) fn describes_furniture(&self, image: &Image, object: &Value) -> bool {
         as_designator(object).is_some() && property(image, object, "URDF-NAME").is_some()
     }
 
     /// The limits (rad or m) of a container's joint.
-    pub(in crate::session) fn travel(&self, container: &Container) -> Limits {
+    pub(crate) fn travel(&self, container: &Container) -> Limits {
         let limits = self.models.kitchen.joint(container.joint).limits;
         limits.unwrap_or(Limits {
             lower: -std::f64::consts::PI,
@@ -93,14 +93,14 @@ impl Simulation {
     }
 
     /// Where a container's joint is (rad or m).
-    pub(in crate::session) fn opening_of(&self, container: &Container) -> f64 {
+    pub(crate) fn opening_of(&self, container: &Container) -> f64 {
         let kitchen = &self.models.kitchen;
         kitchen.position(self.world.kitchen_positions(), container.joint)
     }
 
     /// The position (rad or m) to which a container's joint is to be brought: the given one, within
     /// the limits, or else the end that is farther away.
-    pub(in crate::session) fn wanted_opening(
+    pub(crate) fn wanted_opening(
         &self,
         container: &Container,
         distance: Option<&Value>,
@@ -124,7 +124,7 @@ impl Simulation {
     }
 
     /// The handle of a container as something to be reached from all along its way.
-    pub(in crate::session) fn handle_target(&self, container: &Container, position: f64) -> Target {
+    pub(crate) fn handle_target(&self, container: &Container, position: f64) -> Target {
         let kitchen = &self.models.kitchen;
         let now = self.world.furniture_pose(container.handle);
         let (_, then) = self.world.kitchen_with(container.joint, position);

@@ -11,17 +11,17 @@ use nalgebra::{Point3, Vector3};
 
 use super::Simulation;
 use super::grasp_search::Wanted;
-use crate::lisp::image::Image;
-use crate::motion::base_path::BasePlace;
-use crate::motion::{
+use crate::tape::Frame;
+use lisp::image::Image;
+use robotics::motion::base_path::BasePlace;
+use robotics::motion::{
     CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
     pan_and_tilt, touching_at,
 };
-use crate::perception::{Sight, Visibility};
-use crate::robot::Side;
-use crate::session::tape::Frame;
-use crate::spatial::{Pose, pose};
-use crate::world::World;
+use robotics::perception::{Sight, Visibility};
+use robotics::robot::Side;
+use robotics::world::World;
+use spatial::{Pose, pose};
 
 /// A hand goal closer to an object than this (m) is taken to be meant for that object.
 const AT_THE_OBJECT: f64 = 0.4;
@@ -31,18 +31,18 @@ const HEADINGS: u32 = 8;
 const MOST_PAIRS: usize = 6;
 
 /// A failure with the world in which it occurred.
-pub(in crate::session) struct Remembered {
-    pub(crate) failure: MotionFailure,
+pub(crate) struct Remembered {
+    pub failure: MotionFailure,
     /// Simulated time (s).
-    pub(crate) time: f64,
-    pub(crate) world: World,
+    pub time: f64,
+    pub world: World,
     /// The same on the tape, if that has been written.
-    pub(crate) frame: Option<Rc<Frame>>,
+    pub frame: Option<Rc<Frame>>,
 }
 
 impl Simulation {
     /// Keeps a failure, to be explained on demand.
-    pub(in crate::session) fn remember(&mut self, failure: &MotionFailure) {
+    pub(crate) fn remember(&mut self, failure: &MotionFailure) {
         self.last_account = None;
         self.last_failure = Some(Box::new(Remembered {
             failure: failure.clone(),
@@ -54,7 +54,7 @@ impl Simulation {
 
     /// The long form of the last failure, if there was one: what an action has told of its
     /// attempts, or what is known of the failure of a motion.
-    pub(in crate::session) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
+    pub(crate) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
         if let Some(account) = &self.last_account {
             return Some(account.clone());
         }
@@ -162,7 +162,7 @@ impl Simulation {
                 goal, nearest_free, ..
             } => self.places(goal, nearest_free.as_ref()),
             MotionFailure::Enclosed { blockers, .. } => {
-                let name = |body: &crate::world::BodyName| format!("move {body} out of the way");
+                let name = |body: &robotics::world::BodyName| format!("move {body} out of the way");
                 blockers.iter().map(name).collect()
             }
             MotionFailure::TorsoGoalOutOfLimits { lower, upper, .. } => {
@@ -183,7 +183,7 @@ impl Simulation {
         let turned = (1..HEADINGS).map(|i| heading + step * f64::from(i));
         let free: Vec<String> = turned
             .filter(|yaw| can_stand(&self.world, &[x, y, *yaw]))
-            .map(|yaw| format!("{:.0}", crate::spatial::trig::wrap(yaw).to_degrees()))
+            .map(|yaw| format!("{:.0}", spatial::trig::wrap(yaw).to_degrees()))
             .collect();
         let mut lines = Vec::new();
         if let Some(place) = nearest {

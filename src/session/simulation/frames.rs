@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 use super::explain::Remembered;
 use super::held::Held;
 use super::{Axes, Simulation};
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::motion::{DetectQuery, MotionFailure};
-use crate::picture::LocationMap;
-use crate::session::tape::{Data, Entry, Frame};
-use crate::world::Snapshot;
+use crate::tape::{Data, Entry, Frame};
+use lisp::image::Image;
+use lisp::value::Value;
+use robotics::motion::{DetectQuery, MotionFailure};
+use robotics::world::Snapshot;
+use view::picture::LocationMap;
 
 /// The physical state while no motion is active.
 #[derive(Serialize, Deserialize)]
@@ -43,18 +43,18 @@ struct Failed {
 }
 
 /// What a snapshot restores.
-pub(in crate::session) struct Restored {
-    pub(crate) world: Snapshot,
-    pub(crate) names: IndexMap<String, Value>,
-    pub(crate) held: IndexMap<String, Held>,
-    pub(crate) axes: Option<Axes>,
+pub(crate) struct Restored {
+    pub world: Snapshot,
+    pub names: IndexMap<String, Value>,
+    pub held: IndexMap<String, Held>,
+    pub axes: Option<Axes>,
     /// How many searches for locations have begun.
     pub(crate) searches: u64,
 }
 
 impl Simulation {
     /// The hash of the world, also while it is stale.
-    pub(in crate::session) fn state_hash(&mut self) -> u64 {
+    pub(crate) fn state_hash(&mut self) -> u64 {
         if self.tape.is_playing() {
             return match self.tape.next() {
                 Some(Entry::Hash(hash)) => hash,
@@ -73,7 +73,7 @@ impl Simulation {
     }
 
     /// Whether no motion is active or waiting, also while the world is stale.
-    pub(in crate::session) fn is_idle(&mut self) -> bool {
+    pub(crate) fn is_idle(&mut self) -> bool {
         if self.tape.is_playing() {
             return match self.tape.next() {
                 Some(Entry::Rest(rests)) => rests,
@@ -89,7 +89,7 @@ impl Simulation {
     }
 
     /// A frame of the present state, if it is recorded and can be written.
-    pub(in crate::session) fn frame(&mut self, image: &Image) -> Option<Rc<Frame>> {
+    pub(crate) fn frame(&mut self, image: &Image) -> Option<Rc<Frame>> {
         if !self.tape.is_recording() {
             return None;
         }
@@ -142,17 +142,13 @@ impl Simulation {
     }
 
     /// The frame with the last failure, if it has one.
-    pub(in crate::session) fn last_failure_frame(&self) -> Option<u64> {
+    pub(crate) fn last_failure_frame(&self) -> Option<u64> {
         let last = self.physical.last_failure.as_ref()?;
         last.frame.as_ref().map(|frame| frame.number)
     }
 
     /// What a snapshot with that frame restores.
-    pub(in crate::session) fn restored(
-        &self,
-        image: &mut Image,
-        frame: &Frame,
-    ) -> Option<Restored> {
+    pub(crate) fn restored(&self, image: &mut Image, frame: &Frame) -> Option<Restored> {
         self.restored_of(image, frame.state()?)
     }
 
@@ -172,7 +168,7 @@ impl Simulation {
 
     /// Takes the world back to a snapshot; ongoing motions end. This is the same for the tape as a
     /// change that it answers for.
-    pub(in crate::session) fn restore(&mut self, restored: &Restored) {
+    pub(crate) fn restore(&mut self, restored: &Restored) {
         self.tape.note_change_apart();
         let physical = &mut self.physical;
         physical.world.restore(&restored.world);
@@ -185,7 +181,7 @@ impl Simulation {
 
     /// Puts the world into the state of a frame. Returns false if the frame is damaged; the state is
     /// of no use then.
-    pub(in crate::session) fn load(&mut self, image: &mut Image, frame: &Rc<Frame>) -> bool {
+    pub(crate) fn load(&mut self, image: &mut Image, frame: &Rc<Frame>) -> bool {
         self.try_load(image, frame).is_some()
     }
 

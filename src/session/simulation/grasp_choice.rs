@@ -3,13 +3,13 @@
 
 use super::Simulation;
 use super::imagined::Imagined;
-use crate::motion::{
+use robotics::motion::{
     Candidates, Effort, GraspChoice, GraspChooser, GraspObstacle, GraspPart, GraspQuestion,
     HeldGrip, MotionFailure, PutReach, needed, plan_grasp,
 };
-use crate::robot::Side;
-use crate::spatial::Pose;
-use crate::world::World;
+use robotics::robot::Side;
+use robotics::world::World;
+use spatial::Pose;
 
 /// Maximum number of grasps for which a path is searched.
 const MOST_PATHS: usize = 6;
@@ -20,18 +20,18 @@ const MOST_AGAIN: usize = 20;
 
 /// Where an object is to be put down.
 #[derive(Clone, Debug)]
-pub(in crate::session) struct PlacingTarget {
+pub(crate) struct PlacingTarget {
     /// Pose of the object in the map frame.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// The base pose in the map frame; if there is none, any around the target will do.
-    pub(crate) base: Option<Pose>,
+    pub base: Option<Pose>,
 }
 
 impl Simulation {
     /// The nearest grasp by which an object can be picked up from where the robot stands, by a
     /// path that the arm finds from its present posture; and put down at the target, if there is
     /// one.
-    pub(in crate::session) fn choose_grasp(
+    pub(crate) fn choose_grasp(
         &self,
         question: &GraspQuestion,
         target: Option<&PlacingTarget>,

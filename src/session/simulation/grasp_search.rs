@@ -2,24 +2,24 @@
 
 use std::f64::consts::TAU;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::drive_plan::plan_drive;
-use crate::motion::interruption::interruptible;
-use crate::motion::{
+use crate::simulation::Simulation;
+use crate::simulation::imagined::Imagined;
+use crate::simulation::motions::{side, side_keyword};
+use crate::simulation::names::{type_keyword, type_text};
+use crate::simulation::properties::property;
+use cram::pose::value::pose_stamped;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::drive_plan::plan_drive;
+use robotics::motion::interruption::interruptible;
+use robotics::motion::{
     Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, Overhead, can_reach,
 };
-use crate::plan::pose::value::pose_stamped;
-use crate::robot::Side;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::imagined::Imagined;
-use crate::session::simulation::motions::{side, side_keyword};
-use crate::session::simulation::names::{type_keyword, type_text};
-use crate::session::simulation::properties::property;
-use crate::spatial::{Pose, pose, trig};
-use crate::world::WorldError;
-use crate::world::grasp_library::GraspDefinition;
+use robotics::robot::Side;
+use robotics::world::WorldError;
+use robotics::world::grasp_library::GraspDefinition;
+use spatial::{Pose, pose, trig};
 
 /// Distances (m) of the base's axis from the object, the most comfortable ones first.
 const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
@@ -31,17 +31,17 @@ const MOST_WAYS: usize = 2;
 const MOST_GRASPS: usize = 4;
 
 /// An object to be grasped, with the requested arm and grasp.
-pub(in crate::session) struct Wanted {
+pub(crate) struct Wanted {
     /// Name of the object.
-    pub(crate) name: String,
+    pub name: String,
     /// Name of its type.
-    pub(crate) kind: String,
+    pub kind: String,
     /// Pose of the object in the map frame.
     pub(crate) in_map: Pose,
     /// The requested arm, if any.
-    pub(crate) arm: Option<Side>,
+    pub arm: Option<Side>,
     /// The requested grasp, if any.
-    pub(crate) grasp: Option<String>,
+    pub grasp: Option<String>,
 }
 
 impl Simulation {
@@ -101,7 +101,7 @@ impl Simulation {
 
     /// Whether the hand can approach a grasp of the object in the imagined world, and retreat,
     /// without touching anything else.
-    pub(in crate::session) fn lets_grasp(
+    pub(crate) fn lets_grasp(
         &self,
         imagined: &Imagined<'_>,
         grasp: &GraspDefinition,
@@ -134,7 +134,7 @@ impl Simulation {
 
     /// Arms and grasps by which the object of a picking-up action can be reached from the
     /// current base pose, without the action's own.
-    pub(in crate::session) fn reachable_grasps(
+    pub(crate) fn reachable_grasps(
         &self,
         image: &mut Image,
         action: &Value,
@@ -154,7 +154,7 @@ impl Simulation {
 
     /// Arms and grasps by which an object can be reached from the current base pose, those of
     /// the wanted arm first; `tried` is one of that arm's grasps, which is left out.
-    pub(in crate::session) fn grasps_from_here(
+    pub(crate) fn grasps_from_here(
         &self,
         image: &mut Image,
         wanted: &Wanted,
@@ -182,7 +182,7 @@ impl Simulation {
 
     /// A base pose, arm and grasp for picking up the object of an action: the pose is near,
     /// free and reachable by a path. The action's own arm and grasp are preferred.
-    pub(in crate::session) fn place_to_grasp_from(
+    pub(crate) fn place_to_grasp_from(
         &self,
         image: &mut Image,
         action: &Value,
@@ -195,7 +195,7 @@ impl Simulation {
 
     /// A base pose in the map frame, arm and grasp for an object: the pose is near, free and
     /// reachable by a path. The requested arm is used, and the requested grasp preferred.
-    pub(in crate::session) fn place_to_grasp(
+    pub(crate) fn place_to_grasp(
         &self,
         image: &mut Image,
         wanted: &Wanted,
@@ -251,7 +251,7 @@ impl Simulation {
 
     /// Collision-free base poses around a thing and facing it, those nearest to the current
     /// base pose first.
-    pub(in crate::session) fn places_around(&self, thing: &Pose) -> Vec<Pose> {
+    pub(crate) fn places_around(&self, thing: &Pose) -> Vec<Pose> {
         let here = self.base();
         let centre = thing.translation.vector;
         let mut checker = self.world.collision_checker();
@@ -279,7 +279,7 @@ impl Simulation {
                 }
                 let mut there = robot.clone();
                 there.base = *base;
-                checker.is_free(&there, &crate::world::AllowedPairs::none(), 0.01)
+                checker.is_free(&there, &robotics::world::AllowedPairs::none(), 0.01)
             })
             .collect()
     }

@@ -3,29 +3,29 @@
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::lisp::image::Image;
-use crate::motion::{HeldGrip, MotionFailure};
-use crate::robot::Side;
-use crate::session::LogLevel;
-use crate::spatial::Pose;
-use crate::world::WorldError;
+use crate::LogLevel;
+use lisp::image::Image;
+use robotics::motion::{HeldGrip, MotionFailure};
+use robotics::robot::Side;
+use robotics::world::WorldError;
+use spatial::Pose;
 
 /// How an object is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::session) struct Held {
+pub(crate) struct Held {
     /// The hand.
-    pub(crate) side: Side,
+    pub side: Side,
     /// The grasp by which it was picked up, if known.
-    pub(crate) grasp: Option<String>,
+    pub grasp: Option<String>,
     /// The angle (rad) by which that grasp was turned about the axis of a round object.
-    pub(crate) turn: f64,
+    pub turn: f64,
     /// Where it was detected before that, in the map.
     pub(crate) taken_from: Pose,
 }
 
 impl Simulation {
     /// Logs what has slipped out of a hand in the step.
-    pub(in crate::session) fn tell_of_slips(&self, image: &mut Image, step: u64) {
+    pub(crate) fn tell_of_slips(&self, image: &mut Image, step: u64) {
         if let Some(slip) = self.world.slip_since(step, |_| true) {
             let failure = MotionFailure::HeldObjectSlipped(Box::new(slip.clone()));
             self.log(
@@ -38,23 +38,19 @@ impl Simulation {
     }
 
     /// Names of the objects that a hand holds.
-    pub(in crate::session) fn held_by(&self, side: Side) -> Vec<String> {
-        crate::motion::held_objects(&self.world, side)
+    pub(crate) fn held_by(&self, side: Side) -> Vec<String> {
+        robotics::motion::held_objects(&self.world, side)
     }
 
     /// The hand that holds an object.
-    pub(in crate::session) fn hand_of(&self, object: &str) -> Option<Side> {
+    pub(crate) fn hand_of(&self, object: &str) -> Option<Side> {
         [Side::Left, Side::Right]
             .into_iter()
             .find(|side| self.held_by(*side).iter().any(|name| name == object))
     }
 
     /// How a hand holds an object.
-    pub(in crate::session) fn grip_on(
-        &self,
-        object: &str,
-        side: Side,
-    ) -> Result<HeldGrip, WorldError> {
+    pub(crate) fn grip_on(&self, object: &str, side: Side) -> Result<HeldGrip, WorldError> {
         let held = self.held.get(object);
         let kind = self.world.object(object)?.type_name();
         let grasp = held.and_then(|held| self.definition(kind, side, held.grasp.as_ref()?));

@@ -1,26 +1,26 @@
 //! A copy of the world with an object and the robot elsewhere, to find out what could be
 //! done there. The world itself is not changed.
 
-use crate::robot::Side;
-use crate::spatial::{Pose, pose};
-use crate::world::{World, WorldError};
+use robotics::robot::Side;
+use robotics::world::{World, WorldError};
+use spatial::{Pose, pose};
 
 /// How far (m) a surface may be above the requested height: users give heights roughly, and
 /// things end up standing on what is there.
 const HIGHEST_LIFT: f64 = 0.1;
 
 /// How the imagined world differs from the present one.
-pub(in crate::session) struct Imagined<'a> {
+pub(crate) struct Imagined<'a> {
     /// Name of the object, which no hand holds.
-    pub(crate) object: &'a str,
+    pub object: &'a str,
     /// Its pose in the map frame; it stands on what is just below.
-    pub(crate) object_pose: Option<Pose>,
+    pub object_pose: Option<Pose>,
     /// The pose of the base in the map frame.
     pub(crate) base_pose: Option<Pose>,
     /// The open hand.
-    pub(crate) side: Side,
+    pub side: Side,
     /// Its opening (m).
-    pub(crate) opening: f64,
+    pub opening: f64,
 }
 
 impl Imagined<'_> {

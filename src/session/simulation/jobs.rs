@@ -3,38 +3,38 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::interruption::interruptible;
-use crate::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
-use crate::plan::{TaskId, Ticket};
-use crate::watch::{self, About};
-use crate::world::World;
+use cram::{TaskId, Ticket};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::interruption::interruptible;
+use robotics::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
+use robotics::world::World;
+use view::watch::{self, About};
 
 /// A motion that a task waits for.
-pub(crate) struct Job {
+pub struct Job {
     pub(crate) ticket: Ticket,
-    pub(crate) module: ProcessModule,
+    pub module: ProcessModule,
     motion: Box<dyn Motion>,
     /// The designator named in failures.
     pub(crate) subject: Value,
     /// The task that waits.
-    pub(crate) task: TaskId,
+    pub task: TaskId,
     /// The kind of motion, for display.
-    pub(crate) name: String,
+    pub name: String,
     /// What followers are told of it.
-    pub(crate) told: Told,
+    pub told: Told,
     pub(crate) is_paused: bool,
 }
 
 /// What followers are told of a motion, if there are any when it begins.
 #[derive(Clone, Default)]
-pub(crate) struct Told {
+pub struct Told {
     /// The action or the task that performs it.
-    pub(crate) parent: Option<watch::TaskId>,
+    pub parent: Option<watch::TaskId>,
     /// What it is.
-    pub(crate) about: Option<Arc<About>>,
+    pub about: Option<Arc<About>>,
 }
 
 /// All motions.
@@ -49,7 +49,7 @@ pub(crate) struct Jobs {
     /// What has been done for the next step, if an interrupt came in between.
     pub(crate) partial_step: Option<PartialStep>,
     /// Number of motions begun so far.
-    pub(crate) begun: u64,
+    pub begun: u64,
 }
 
 /// An incomplete step of the world: what motions have done for it so far.
@@ -58,7 +58,7 @@ pub(crate) struct PartialStep {
     /// Motions that have set their joints.
     pub(crate) ticked: Vec<Ticket>,
     /// Motions that have ended in this step.
-    pub(crate) completions: Vec<Completion>,
+    pub completions: Vec<Completion>,
 }
 
 /// How a motion has ended.
@@ -79,7 +79,7 @@ impl Job {
 
     /// Lets the motion set joints; `None` if an interrupt came before or while it planned, in
     /// which case it is unchanged.
-    pub(crate) fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
+    pub fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
         let Some(before) = self.motion.before_planning() else {
             return Some(self.motion.tick(world));
         };

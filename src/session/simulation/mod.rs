@@ -9,7 +9,7 @@ pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
 pub(super) mod injection;
-pub(crate) mod jobs;
+pub mod jobs;
 pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;
@@ -33,16 +33,16 @@ use serde::{Deserialize, Serialize};
 
 use super::log_level::LogLevel;
 use super::tape::Tape;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::motion::DetectQuery;
-use crate::picture::{LocationMap, Looks};
-use crate::sexp::DataError;
-use crate::spatial::Pose;
-use crate::world::grasp_library::{GRASPS, GraspLibrary};
-use crate::world::noise::{Noise, NoiseLevels};
-use crate::world::object_library::ObjectLibrary;
-use crate::world::{Models, RobotConfiguration, World};
+use lisp::value::Value;
+use lisp::value::copy::Copier;
+use robotics::motion::DetectQuery;
+use robotics::sexp::DataError;
+use robotics::world::grasp_library::{GRASPS, GraspLibrary};
+use robotics::world::noise::{Noise, NoiseLevels};
+use robotics::world::object_library::ObjectLibrary;
+use robotics::world::{Models, RobotConfiguration, World};
+use spatial::Pose;
+use view::picture::{LocationMap, Looks};
 
 use injection::SharedInjection;
 use jobs::Jobs;
@@ -50,18 +50,18 @@ use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Axes {
+pub struct Axes {
     /// Their pose in the map frame.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
     /// Length of the bars (m).
-    pub(crate) size: f64,
+    pub size: f64,
 }
 
 /// The robot in its world.
 ///
 /// Access to the physical state, as to the fields of this structure, is noted on the tape: while
 /// answers are played from a tape, the state is an old one.
-pub(crate) struct Simulation {
+pub struct Simulation {
     pub(super) models: Arc<Models>,
     pub(super) grasps: Arc<GraspLibrary>,
     pub(super) log_level: LogLevel,
@@ -83,7 +83,7 @@ pub(crate) struct Simulation {
 }
 
 /// The state that time and edits change.
-pub(crate) struct Physical {
+pub struct Physical {
     pub(super) world: World,
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
@@ -240,12 +240,12 @@ impl Simulation {
     }
 
     /// Simulated time (s).
-    pub(crate) fn now(&self) -> f64 {
+    pub fn now(&self) -> f64 {
         self.now
     }
 
     /// The world.
-    pub(crate) fn world(&self) -> &World {
+    pub fn world(&self) -> &World {
         &self.world
     }
 
@@ -265,17 +265,17 @@ impl Simulation {
     }
 
     /// The types of objects that can be spawned.
-    pub(crate) fn object_types(&self) -> &ObjectLibrary {
+    pub fn object_types(&self) -> &ObjectLibrary {
         &self.models.objects
     }
 
     /// How objects are grasped.
-    pub(crate) fn grasp_library(&self) -> &GraspLibrary {
+    pub fn grasp_library(&self) -> &GraspLibrary {
         &self.grasps
     }
 
     /// The coordinate axes to show, if any.
-    pub(crate) fn axes(&self) -> Option<&Axes> {
+    pub fn axes(&self) -> Option<&Axes> {
         self.axes.as_ref()
     }
 

@@ -1,13 +1,13 @@
 //! The motions that the robot can make, as rows of the table of types that plans see.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::known;
-use crate::motion::command::{ArgumentKind, MotionKey, MotionType, TYPES};
-use crate::plan::designator::schema::{self, Key, Kind, Text, TypeRow};
-use crate::plan::designator::value::Class;
+use cram::designator::schema::{self, Key, Kind, Text, TypeRow};
+use cram::designator::value::Class;
+use lisp::image::Image;
+use lisp::value::known;
+use robotics::motion::command::{ArgumentKind, MotionKey, MotionType, TYPES};
 
 /// Makes all types of motions known.
-pub(in crate::session) fn install(image: &Image) {
+pub(crate) fn install(image: &Image) {
     for motion in TYPES {
         schema::define(image, row(motion));
     }

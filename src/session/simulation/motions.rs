@@ -5,22 +5,22 @@ use nalgebra::Vector3;
 use super::Simulation;
 use super::names::{name_text, type_text};
 use super::transforms::{BASE, is_map};
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::motion::command::{self, Argument, ArgumentKind, Arguments, MotionCommand};
-use crate::motion::{DetectQuery, Motion, PoseGoal};
-use crate::plan::designator::MotionRequest;
-use crate::plan::designator::failure::no_process_module;
-use crate::plan::designator::value::current;
-use crate::plan::pose::value::frame_of;
-use crate::robot::Side;
-use crate::session::LogLevel;
-use crate::session::simulation::properties::property;
-use crate::spatial::Pose;
+use crate::LogLevel;
+use crate::simulation::properties::property;
+use cram::designator::MotionRequest;
+use cram::designator::failure::no_process_module;
+use cram::designator::value::current;
+use cram::pose::value::frame_of;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::motion::command::{self, Argument, ArgumentKind, Arguments, MotionCommand};
+use robotics::motion::{DetectQuery, Motion, PoseGoal};
+use robotics::robot::Side;
+use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -30,7 +30,7 @@ const OFF_FLOOR: f64 = 0.01;
 const UPRIGHT: f64 = 0.99985;
 
 /// The sides that an arm or gripper argument names: `:LEFT`, `:RIGHT`, or a list of them.
-pub(in crate::session) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
+pub(crate) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
     match value {
         Value::Cons(_) => value.iter_list().map(|v| side(image, &v)).collect(),
         single => side(image, single).map(|s| vec![s]),
@@ -38,7 +38,7 @@ pub(in crate::session) fn sides(image: &Image, value: &Value) -> Result<Vec<Side
 }
 
 /// The side that an argument names.
-pub(in crate::session) fn side(image: &Image, value: &Value) -> Result<Side> {
+pub(crate) fn side(image: &Image, value: &Value) -> Result<Side> {
     let text = name_text(image, value);
     match text.as_deref() {
         Some("LEFT") => Ok(Side::Left),
@@ -51,7 +51,7 @@ pub(in crate::session) fn side(image: &Image, value: &Value) -> Result<Side> {
 }
 
 /// `:LEFT` or `:RIGHT`.
-pub(in crate::session) fn side_keyword(image: &mut Image, side: Side) -> Value {
+pub(crate) fn side_keyword(image: &mut Image, side: Side) -> Value {
     let name = match side {
         Side::Left => "LEFT",
         Side::Right => "RIGHT",
@@ -72,7 +72,7 @@ fn real(value: &Value) -> Result<f64> {
 
 impl Simulation {
     /// The motion that is requested, and what its failures are about.
-    pub(in crate::session) fn motion_for(
+    pub(crate) fn motion_for(
         &mut self,
         image: &mut Image,
         request: &MotionRequest,

@@ -1,15 +1,15 @@
 //! Names of objects and types: symbols for users, strings in the world.
 
 use super::Simulation;
-use crate::closest_name::closest_name;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use closest_name::closest_name;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 
 /// The text of a name given as symbol or string, in upper case, with `_` read as `-`.
-pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<String> {
+pub(crate) fn name_text(image: &Image, name: &Value) -> Option<String> {
     let text = match name {
         Value::Symbol(sym, ..) if name.is_true() => image.name(*sym).to_owned(),
         Value::Str(s) => s.text(),
@@ -19,22 +19,22 @@ pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<Strin
 }
 
 /// The name of a type in the object library: lower case, with `_` read as `-`.
-pub(in crate::session) fn type_text(image: &Image, name: &Value) -> Option<String> {
+pub(crate) fn type_text(image: &Image, name: &Value) -> Option<String> {
     name_text(image, name).map(|text| text.to_lowercase())
 }
 
 /// The same; an error if the value is no name.
-pub(in crate::session) fn type_text_of(image: &Image, name: &Value) -> Result<String, Box<Raise>> {
+pub(crate) fn type_text_of(image: &Image, name: &Value) -> Result<String, Box<Raise>> {
     type_text(image, name).ok_or_else(|| Raise::type_error(name, known::SYMBOL))
 }
 
 /// The keyword of a type of the object library.
-pub(in crate::session) fn type_keyword(image: &mut Image, name: &str) -> Value {
+pub(crate) fn type_keyword(image: &mut Image, name: &str) -> Value {
     image.keyword(&name.to_uppercase()).into()
 }
 
 /// "; did you mean X?" if a name is similar.
-pub(in crate::session) fn suggestion<'a>(
+pub(crate) fn suggestion<'a>(
     wanted: &str,
     names: impl IntoIterator<Item = &'a str>,
     show: impl Fn(&str) -> String,
@@ -47,11 +47,7 @@ pub(in crate::session) fn suggestion<'a>(
 
 impl Simulation {
     /// The name in the world of an existing object.
-    pub(in crate::session) fn object_named(
-        &self,
-        image: &Image,
-        name: &Value,
-    ) -> Result<String, Box<Raise>> {
+    pub(crate) fn object_named(&self, image: &Image, name: &Value) -> Result<String, Box<Raise>> {
         let Some(text) = name_text(image, name) else {
             return Err(Raise::type_error(name, known::SYMBOL));
         };
@@ -72,7 +68,7 @@ impl Simulation {
     }
 
     /// The symbol by which users know an object.
-    pub(in crate::session) fn symbol_of(&self, name: &str) -> Value {
+    pub(crate) fn symbol_of(&self, name: &str) -> Value {
         self.names.get(name).cloned().unwrap_or(Value::NIL)
     }
 }

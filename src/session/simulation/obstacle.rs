@@ -1,16 +1,16 @@
 //! Boxes on the floor that are in the robot's way.
 
-use crate::spatial::{PlacedShape, Pose, Shape};
-use crate::world::object_library::{FRICTION, ObjectType};
+use robotics::world::object_library::{FRICTION, ObjectType};
+use spatial::{PlacedShape, Pose, Shape};
 
 /// The name of their type.
-pub(in crate::session) const OBSTACLE: &str = "obstacle";
+pub(crate) const OBSTACLE: &str = "obstacle";
 /// Density (kg/m³): one that the robot does not push about by chance.
 const DENSITY: f64 = 300.0;
 const COLOR: [f32; 4] = [0.45, 0.35, 0.25, 1.0];
 
 /// A box with those edges (m), whose frame is in the middle of its base.
-pub(in crate::session) fn obstacle(size: [f64; 3]) -> ObjectType {
+pub(crate) fn obstacle(size: [f64; 3]) -> ObjectType {
     ObjectType {
         name: OBSTACLE.to_owned(),
         shapes: vec![PlacedShape {

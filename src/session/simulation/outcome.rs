@@ -2,17 +2,17 @@
 
 use super::Simulation;
 use super::names::type_keyword;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
-use crate::motion::{DetectedObject, MotionFailure, MotionOutcome};
-use crate::plan::designator::object;
-use crate::plan::designator::value::as_designator;
-use crate::session::tape::{Data, Done, Name};
+use crate::tape::{Data, Done, Name};
+use cram::designator::object;
+use cram::designator::value::as_designator;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::package::PackageTable;
+use lisp::value::raise::Raise;
+use robotics::motion::{DetectedObject, MotionFailure, MotionOutcome};
 
 /// The outcome of a motion that the tape tells; `None` if that does not fit what is known.
-pub(in crate::session) fn of_done(
+pub(crate) fn of_done(
     image: &mut Image,
     done: &Done,
     subject: &Value,
@@ -56,7 +56,7 @@ fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Val
 
 impl Simulation {
     /// The result of a motion as a value.
-    pub(in crate::session) fn outcome(
+    pub(crate) fn outcome(
         &mut self,
         image: &mut Image,
         outcome: &MotionOutcome,
@@ -78,7 +78,7 @@ impl Simulation {
     }
 
     /// The result of a motion for the tape; `value` is the same as a value.
-    pub(in crate::session) fn done(
+    pub(crate) fn done(
         &self,
         image: &Image,
         outcome: &MotionOutcome,
@@ -98,7 +98,7 @@ impl Simulation {
     }
 
     /// The failure condition for a motion's failure; `subject` is the designator it is about.
-    pub(in crate::session) fn failure(
+    pub(crate) fn failure(
         &mut self,
         image: &mut Image,
         failure: &MotionFailure,

@@ -1,23 +1,19 @@
 //! Poses as arguments: lists, poses, stamped poses, location designators.
 
 use super::Simulation;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::plan::pose::argument;
-use crate::plan::pose::value::{as_placement, frame_of};
-use crate::session::simulation::properties::property;
-use crate::spatial::Pose;
+use crate::simulation::properties::property;
+use cram::pose::argument;
+use cram::pose::value::{as_placement, frame_of};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use spatial::Pose;
 
 impl Simulation {
     /// The pose of a pose argument in the map frame. A stamped pose is transformed from its
     /// frame; a list or a plain pose is in the map frame.
-    pub(in crate::session) fn pose_in_map(
-        &self,
-        image: &Image,
-        pose: &Value,
-    ) -> Result<Pose, Box<Raise>> {
+    pub(crate) fn pose_in_map(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
         let local = self.pose_as_given(image, pose)?;
         match frame_of(pose) {
             Some(frame) => Ok(self.frame_in_map(image, &frame)? * local),
@@ -27,11 +23,7 @@ impl Simulation {
 
     /// Position and orientation of a pose argument as given, whatever the frame; an error if
     /// there is no such frame, or if the quaternion is no rotation.
-    pub(in crate::session) fn pose_as_given(
-        &self,
-        image: &Image,
-        pose: &Value,
-    ) -> Result<Pose, Box<Raise>> {
+    pub(crate) fn pose_as_given(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
         let placement = match as_placement(pose) {
             Some(placement) => placement,
             None => argument::placement(image, pose)?,
@@ -51,10 +43,7 @@ impl Simulation {
     }
 
     /// The pose of a resolved location designator, or of a pose itself.
-    pub(in crate::session) fn location_pose(
-        image: &mut Image,
-        location: &Value,
-    ) -> Result<Value, Box<Raise>> {
+    pub(crate) fn location_pose(image: &mut Image, location: &Value) -> Result<Value, Box<Raise>> {
         if as_placement(location).is_some() {
             return Ok(location.clone());
         }

@@ -1,11 +1,11 @@
 //! The scene, and the objects that the robot looked for.
 
 use super::Simulation;
-use crate::picture::{self, Obstruction, View, render};
+use view::picture::{self, Obstruction, View, render};
 
 impl Simulation {
     /// The present scene.
-    pub(crate) fn scene(&self) -> picture::Scene {
+    pub fn scene(&self) -> picture::Scene {
         let mut scene = self.looks().scene(&self.world);
         if let Some(axes) = self.axes() {
             scene.add_axes(&axes.pose, axes.size);
@@ -17,7 +17,7 @@ impl Simulation {
     }
 
     /// The present picture of a view.
-    pub(crate) fn picture(
+    pub fn picture(
         &self,
         view: View,
         width: usize,
@@ -29,7 +29,7 @@ impl Simulation {
 
     /// The same with another vertical field of view (rad), if one is given, and what keeps the
     /// picture from showing what it is meant to show.
-    pub(crate) fn judged_picture(
+    pub fn judged_picture(
         &self,
         view: View,
         vertical_fov: Option<f64>,
@@ -43,9 +43,9 @@ impl Simulation {
     }
 
     /// The objects that the robot looked for last, or all objects if it has not looked for any.
-    pub(in crate::session) fn sought(&self) -> Vec<String> {
+    pub(crate) fn sought(&self) -> Vec<String> {
         let library = &self.models.objects;
-        let is_sought = |object: &&crate::world::Object| match &self.sought {
+        let is_sought = |object: &&robotics::world::Object| match &self.sought {
             None => true,
             Some(query) => match &query.name {
                 Some(name) => name == object.name(),

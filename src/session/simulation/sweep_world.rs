@@ -4,13 +4,13 @@ use serde_json::Value as Json;
 
 use super::Simulation;
 use super::tally::Tally;
-use crate::motion::pushing::PushedObject;
-use crate::motion::{MotionFailure, UnreachableReason};
-use crate::sweep::Record;
+use robotics::motion::pushing::PushedObject;
+use robotics::motion::{MotionFailure, UnreachableReason};
+use sweep::Record;
 
 impl Simulation {
     /// Resets everything to the start of a session with that seed. Simulated time continues.
-    pub(in crate::session) fn restart_with(&mut self, seed: u64) {
+    pub(crate) fn restart_with(&mut self, seed: u64) {
         self.seed = seed;
         self.noises = 0;
         self.restart();
@@ -20,12 +20,12 @@ impl Simulation {
     }
 
     /// A plan begins.
-    pub(in crate::session) fn begin_tally(&mut self) {
+    pub(crate) fn begin_tally(&mut self) {
         self.tally = Tally::beginning(self.now);
     }
 
     /// The plan has ended, if it had not before.
-    pub(in crate::session) fn end_tally(&mut self) {
+    pub(crate) fn end_tally(&mut self) {
         let now = self.now;
         let began = self.tally.began;
         self.tally.took.get_or_insert(now - began);
@@ -33,7 +33,7 @@ impl Simulation {
     }
 
     /// Fills in what the world shows at the end.
-    pub(in crate::session) fn complete(&self, record: &mut Record) {
+    pub(crate) fn complete(&self, record: &mut Record) {
         record.time = self.tally.took.unwrap_or(0.0);
         record.steps = self.world.steps();
         record.distance = self.tally.distance;
@@ -49,7 +49,7 @@ impl Simulation {
     }
 
     /// The kind of the last failure of a motion, and of its reason if it has kinds of reasons.
-    pub(in crate::session) fn failed_by(&self) -> Option<String> {
+    pub(crate) fn failed_by(&self) -> Option<String> {
         let json = serde_json::to_value(self.last_motion_failure()?).ok()?;
         let (kind, data) = variant(&json)?;
         let reason = data.and_then(|data| variant(data.get("reason")?));
@@ -60,7 +60,7 @@ impl Simulation {
     }
 
     /// The bodies that the last failure of a motion is about.
-    pub(in crate::session) fn bodies_of_failure(&self) -> Vec<String> {
+    pub(crate) fn bodies_of_failure(&self) -> Vec<String> {
         let Some(failure) = self.last_motion_failure() else {
             return Vec::new();
         };

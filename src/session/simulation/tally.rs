@@ -4,22 +4,22 @@ use indexmap::IndexMap;
 
 /// What has happened since a plan was begun.
 #[derive(Clone, Debug, Default)]
-pub(in crate::session) struct Tally {
+pub(crate) struct Tally {
     /// Simulated time (s) at which it was begun.
-    pub(crate) began: f64,
+    pub began: f64,
     /// How long (s) it took, once it has ended.
-    pub(crate) took: Option<f64>,
+    pub took: Option<f64>,
     /// How far (m) the base has moved.
-    pub(crate) distance: f64,
+    pub distance: f64,
     /// How many motions have failed, by class.
-    pub(crate) failures: IndexMap<&'static str, u64>,
+    pub failures: IndexMap<&'static str, u64>,
     /// The base's last position (m) in the map.
     at: Option<[f64; 2]>,
 }
 
 impl Tally {
     /// A plan begins at that time (s).
-    pub(in crate::session) fn beginning(now: f64) -> Self {
+    pub(crate) fn beginning(now: f64) -> Self {
         Self {
             began: now,
             ..Self::default()
@@ -27,7 +27,7 @@ impl Tally {
     }
 
     /// The base is at a place (m).
-    pub(in crate::session) fn base_at(&mut self, [x, y]: [f64; 2]) {
+    pub(crate) fn base_at(&mut self, [x, y]: [f64; 2]) {
         if let Some([x0, y0]) = self.at.replace([x, y])
             && self.took.is_none()
         {
@@ -36,7 +36,7 @@ impl Tally {
     }
 
     /// A motion has failed with a failure of that class.
-    pub(in crate::session) fn failed(&mut self, class: &'static str) {
+    pub(crate) fn failed(&mut self, class: &'static str) {
         if self.took.is_none() {
             *self.failures.entry(class).or_default() += 1;
         }

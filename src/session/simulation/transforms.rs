@@ -2,17 +2,17 @@
 
 use super::Simulation;
 use super::names::suggestion;
-use crate::lisp::image::Image;
-use crate::lisp::value::raise::Raise;
-use crate::spatial::Pose;
+use lisp::image::Image;
+use lisp::value::raise::Raise;
+use spatial::Pose;
 
 /// The frame to which everything refers.
-pub(in crate::session) const MAP: &str = "map";
+pub(crate) const MAP: &str = "map";
 /// The frame of the robot's base on the floor.
-pub(in crate::session) const BASE: &str = "base_footprint";
+pub(crate) const BASE: &str = "base_footprint";
 
 /// Whether the frame is that of the map, under one of its names.
-pub(in crate::session) fn is_map(frame: &str) -> bool {
+pub(crate) fn is_map(frame: &str) -> bool {
     matches!(
         frame.trim_start_matches('/'),
         "map" | "world" | "odom_combined"
@@ -21,11 +21,7 @@ pub(in crate::session) fn is_map(frame: &str) -> bool {
 
 impl Simulation {
     /// The pose of a frame in the map frame.
-    pub(in crate::session) fn frame_in_map(
-        &self,
-        _: &Image,
-        frame: &str,
-    ) -> Result<Pose, Box<Raise>> {
+    pub(crate) fn frame_in_map(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
         if is_map(name) {
             return Ok(Pose::identity());

@@ -9,26 +9,26 @@ use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::lisp::image::Image;
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::package::PackageId;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::plan::pose::value::{
+use cram::pose::value::{
     Placement, PoseStamped, Quaternion, TransformStamped, Vector3, as_quaternion, as_vector,
 };
+use lisp::image::Image;
+use lisp::source::Place;
+use lisp::value::Value;
+use lisp::value::package::PackageId;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::Sym;
 
 /// Longest list that is written.
 const LONGEST_LIST: usize = 10_000;
 
 /// A symbol by its home package and its name.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) struct Name(u16, String);
+pub struct Name(u16, String);
 
 /// A value.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) enum Data {
+pub enum Data {
     /// What was given, by its number.
     Given(usize),
     Symbol(Name),
@@ -51,12 +51,12 @@ pub(crate) enum Data {
 
 impl Name {
     /// `None` if the symbol is not interned.
-    pub(crate) fn of(image: &Image, sym: Sym) -> Option<Name> {
+    pub fn of(image: &Image, sym: Sym) -> Option<Name> {
         let data = image.symbol(sym);
         Some(Name(data.package?.0, data.name.to_string()))
     }
 
-    pub(crate) fn symbol(&self, image: &mut Image) -> Sym {
+    pub fn symbol(&self, image: &mut Image) -> Sym {
         image.intern(PackageId(self.0), &self.1)
     }
 }
@@ -74,7 +74,7 @@ fn placement(position: [f64; 3], orientation: [f64; 4]) -> Placement {
 
 impl Data {
     /// The value, which nothing else refers to, or which is among those given.
-    pub(crate) fn of(image: &Image, value: &Value, given: &[Value]) -> Option<Data> {
+    pub fn of(image: &Image, value: &Value, given: &[Value]) -> Option<Data> {
         Data::held(image, value, given, 1)
     }
 
@@ -159,7 +159,7 @@ impl Data {
     }
 
     /// The value again; `None` if something that it refers to was not given.
-    pub(crate) fn value(&self, image: &mut Image, given: &[Value]) -> Option<Value> {
+    pub fn value(&self, image: &mut Image, given: &[Value]) -> Option<Value> {
         let all = |image: &mut Image, items: &[Data]| -> Option<Vec<Value>> {
             items.iter().map(|item| item.value(image, given)).collect()
         };
@@ -198,14 +198,14 @@ fn is_own_of(references: usize, count: usize) -> Option<()> {
 
 /// A condition that is to be signalled.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) struct RaiseData {
+pub struct RaiseData {
     class: Name,
     report: Option<String>,
     initargs: Vec<(Name, Data)>,
 }
 
 impl RaiseData {
-    pub(crate) fn of(image: &Image, raise: &Raise, given: &[Value]) -> Option<RaiseData> {
+    pub fn of(image: &Image, raise: &Raise, given: &[Value]) -> Option<RaiseData> {
         let Raise::Make {
             class,
             report,
@@ -228,7 +228,7 @@ impl RaiseData {
         })
     }
 
-    pub(crate) fn raise(&self, image: &mut Image, given: &[Value]) -> Option<Box<Raise>> {
+    pub fn raise(&self, image: &mut Image, given: &[Value]) -> Option<Box<Raise>> {
         let mut initargs = Vec::with_capacity(self.initargs.len());
         for (name, data) in &self.initargs {
             initargs.push((name.symbol(image), data.value(image, given)?));

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::lisp::image::Image;
-use crate::lisp::value::package::PackageId;
+use lisp::image::Image;
+use lisp::value::package::PackageId;
 
 /// The state of the image before a call.
 #[derive(Clone, Copy)]
@@ -16,7 +16,7 @@ pub(crate) struct Mark {
 
 /// What a call has changed.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) struct Effects {
+pub struct Effects {
     /// What it wrote.
     text: String,
     /// The symbols that it made, with their packages.
@@ -57,7 +57,7 @@ impl Mark {
 
 impl Effects {
     /// Changes the same things.
-    pub(crate) fn repeat(&self, image: &mut Image) {
+    pub fn repeat(&self, image: &mut Image) {
         for (package, name) in &self.symbols {
             image.intern(PackageId(*package), name);
         }
@@ -68,7 +68,7 @@ impl Effects {
     }
 
     /// The number of motions begun so far.
-    pub(crate) fn begun(&self) -> u64 {
+    pub fn begun(&self) -> u64 {
         self.begun
     }
 }

@@ -4,15 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use super::data::{Data, Name, RaiseData};
 use super::effects::Effects;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::motion::DetectedObject;
-use crate::plan::Reply;
+use cram::Reply;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::motion::DetectedObject;
 
 /// An answer of the world.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) enum Entry {
+pub enum Entry {
     /// A call that had nothing to do with the world: it is made again.
     Apart,
     /// The reply to a request.
@@ -41,7 +41,7 @@ pub(crate) enum Entry {
 
 /// The reply to a request.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) enum Answer {
+pub enum Answer {
     Value(Data),
     Raise(RaiseData),
     /// A motion was started.
@@ -54,7 +54,7 @@ pub(crate) enum Answer {
 
 /// How a motion ended.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
-pub(crate) enum Done {
+pub enum Done {
     Value(Data),
     /// Objects were seen: what they are, and by which names users know them.
     Detected(Vec<(Name, DetectedObject)>),
@@ -63,7 +63,7 @@ pub(crate) enum Done {
 
 impl Answer {
     /// The reply as data; `subject` is what a started motion is about.
-    pub(crate) fn of(
+    pub fn of(
         image: &Image,
         reply: &Result<Reply, Box<Raise>>,
         subject: Option<&Value>,

@@ -11,17 +11,17 @@ const MOST_BYTES: usize = 1 << 28;
 
 /// A state.
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize, Debug)]
-pub(crate) struct Frame {
+pub struct Frame {
     /// Identifies it within the tape.
-    pub(crate) number: u64,
+    pub number: u64,
     /// The world's hash.
-    pub(crate) hash: u64,
+    pub hash: u64,
     bytes: Rc<[u8]>,
 }
 
 impl Frame {
     /// `None` if the state cannot be written.
-    pub(crate) fn of(number: u64, hash: u64, state: &impl Serialize) -> Option<Frame> {
+    pub fn of(number: u64, hash: u64, state: &impl Serialize) -> Option<Frame> {
         let bytes = postcard::to_allocvec(state).ok()?;
         (bytes.len() <= MOST_BYTES).then(|| Frame {
             number,
@@ -31,12 +31,12 @@ impl Frame {
     }
 
     /// Its size (bytes).
-    pub(crate) fn size(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.bytes.len()
     }
 
     /// The state; `None` if the bytes are something else.
-    pub(crate) fn state<T: DeserializeOwned>(&self) -> Option<T> {
+    pub fn state<T: DeserializeOwned>(&self) -> Option<T> {
         let size = u32::from_le_bytes(*self.bytes.first_chunk()?);
         if usize::try_from(size).ok()? > MOST_BYTES {
             return None;

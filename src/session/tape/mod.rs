@@ -31,14 +31,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::lisp::value::Value;
+use lisp::value::Value;
 
-pub(crate) use data::{Data, Name, RaiseData};
+pub use data::{Data, Name, RaiseData};
 pub(crate) use effects::Mark;
-pub(crate) use entry::{Answer, Done, Entry};
-pub(crate) use frame::Frame;
-pub(crate) use part::Part;
-pub(crate) use request::checksum;
+pub use entry::{Answer, Done, Entry};
+pub use frame::Frame;
+pub use part::Part;
+pub use request::checksum;
 
 /// Most bytes of answers during one input; an input with more is spoilt.
 const MOST_BYTES: usize = 1 << 26;
@@ -62,7 +62,7 @@ enum Mode {
 
 /// The tape of a session, and how the world stands to it.
 #[derive(Default)]
-pub(crate) struct Tape {
+pub struct Tape {
     mode: Mode,
     /// Whether anything has looked at the physical state, or changed it, since the last mark.
     is_touched: Cell<bool>,
@@ -128,7 +128,7 @@ impl Tape {
     }
 
     /// Begins to watch accesses.
-    pub(crate) fn watch(&self) {
+    pub fn watch(&self) {
         self.is_touched.set(false);
     }
 
@@ -153,7 +153,7 @@ impl Tape {
     }
 
     /// The playing has failed: the evaluation stops, and its result counts for nothing.
-    pub(crate) fn fail(&self) {
+    pub fn fail(&self) {
         if let Mode::Playing { stop, .. } = &self.mode {
             self.is_broken.set(true);
             stop.store(true, Ordering::Relaxed);
@@ -169,7 +169,7 @@ impl Tape {
     }
 
     /// Writes an answer down. One that is part of another answer cannot be told from that one.
-    pub(crate) fn put(&mut self, entry: &Entry) {
+    pub fn put(&mut self, entry: &Entry) {
         if self.is_open {
             self.spoil();
         }
@@ -187,7 +187,7 @@ impl Tape {
 
     /// The call that is being recorded has ended with that answer; without one, the input is
     /// spoilt.
-    pub(crate) fn close(&mut self, entry: Option<Entry>) {
+    pub fn close(&mut self, entry: Option<Entry>) {
         self.is_open = false;
         match entry {
             Some(entry) => self.put(&entry),
@@ -196,7 +196,7 @@ impl Tape {
     }
 
     /// A call begins to be recorded. One that was left before its end has left no answer.
-    pub(crate) fn open(&mut self) {
+    pub fn open(&mut self) {
         if std::mem::replace(&mut self.is_open, true) {
             self.spoil();
         }
@@ -204,7 +204,7 @@ impl Tape {
     }
 
     /// The next answer; `None` if there is none, which ends the playing.
-    pub(crate) fn next(&mut self) -> Option<Entry> {
+    pub fn next(&mut self) -> Option<Entry> {
         if self.is_broken.get() {
             self.fail();
             return None;
@@ -241,12 +241,12 @@ impl Tape {
     }
 
     /// The frame of the present state, if it has one.
-    pub(crate) fn present(&self) -> Option<Rc<Frame>> {
+    pub fn present(&self) -> Option<Rc<Frame>> {
         self.last.clone().filter(|_| !self.is_changed)
     }
 
     /// Takes a frame of a state with that hash.
-    pub(crate) fn take(&mut self, hash: u64, state: &impl Serialize) -> Option<Rc<Frame>> {
+    pub fn take(&mut self, hash: u64, state: &impl Serialize) -> Option<Rc<Frame>> {
         let frame = Rc::new(Frame::of(self.next, hash, state)?);
         self.next += 1;
         self.taken.push(Rc::clone(&frame));
@@ -260,7 +260,7 @@ impl Tape {
     }
 
     /// A frame of the earlier session.
-    pub(crate) fn frame(&self, number: u64) -> Option<Rc<Frame>> {
+    pub fn frame(&self, number: u64) -> Option<Rc<Frame>> {
         self.known.get(&number).cloned()
     }
 
@@ -273,7 +273,7 @@ impl Tape {
     }
 
     /// The number of motions begun so far, as far as answers have told it.
-    pub(crate) fn begun(&self) -> u64 {
+    pub fn begun(&self) -> u64 {
         self.begun
     }
 
@@ -310,13 +310,13 @@ impl Tape {
     }
 
     /// Records the next input.
-    pub(crate) fn record(&mut self) {
+    pub fn record(&mut self) {
         self.begin(Mode::Recording(Vec::new()));
     }
 
     /// Plays the next input; `stop` ends its evaluation if that fails. Returns false if the part is
     /// damaged.
-    pub(crate) fn play(&mut self, part: &Part, stop: Arc<AtomicBool>) -> bool {
+    pub fn play(&mut self, part: &Part, stop: Arc<AtomicBool>) -> bool {
         let Some(entries) = part.entries() else {
             return false;
         };
@@ -326,7 +326,7 @@ impl Tape {
     }
 
     /// Neither records nor plays.
-    pub(crate) fn stop(&mut self) {
+    pub fn stop(&mut self) {
         self.begin(Mode::Off);
     }
 
@@ -342,7 +342,7 @@ impl Tape {
     }
 
     /// Whether the input was played from the first to the last answer.
-    pub(crate) fn was_played(&self) -> bool {
+    pub fn was_played(&self) -> bool {
         match &self.mode {
             Mode::Playing { entries, at, .. } => !self.is_broken.get() && *at == entries.len(),
             _ => false,
@@ -359,12 +359,12 @@ impl Tape {
     }
 
     /// Whether the world would have moved during this input.
-    pub(crate) fn has_moved(&self) -> bool {
+    pub fn has_moved(&self) -> bool {
         self.has_moved
     }
 
     /// Whether the playing has failed.
-    pub(crate) fn has_failed(&self) -> bool {
+    pub fn has_failed(&self) -> bool {
         match &self.mode {
             Mode::Playing { .. } => self.is_broken.get(),
             _ => false,
@@ -373,7 +373,7 @@ impl Tape {
 
     /// The part of the tape for the input that has just ended; `end` is the frame of the state in
     /// which it left the world at rest, and `needed` are those that snapshots refer to.
-    pub(crate) fn finish(&mut self, end: Option<u64>, needed: Vec<u64>) -> Option<Part> {
+    pub fn finish(&mut self, end: Option<u64>, needed: Vec<u64>) -> Option<Part> {
         let Mode::Recording(entries) = &mut self.mode else {
             return None;
         };

@@ -9,20 +9,20 @@ const MOST_BYTES: usize = 1 << 28;
 
 /// What is recorded of one input.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Part {
+pub struct Part {
     /// The answers, compressed; `None` if the input cannot be played.
-    pub(crate) answers: Option<Vec<u8>>,
+    pub answers: Option<Vec<u8>>,
     /// The states that were recorded meanwhile.
-    pub(crate) frames: Vec<Rc<Frame>>,
+    pub frames: Vec<Rc<Frame>>,
     /// The number of the frame of the state in which it left the world at rest; `None` if a motion
     /// or an evaluation is suspended, or if the state cannot be written.
-    pub(crate) end: Option<u64>,
+    pub end: Option<u64>,
     /// The numbers of all frames that snapshots refer to.
-    pub(crate) needed: Vec<u64>,
+    pub needed: Vec<u64>,
 }
 
 impl Part {
-    pub(crate) fn new(
+    pub fn new(
         entries: Option<&[u8]>,
         frames: Vec<Rc<Frame>>,
         end: Option<u64>,

@@ -1,8 +1,8 @@
 //! Checksums of requests, by which an answer is assigned to its request.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::plan::pose::value::{as_placement, frame_of};
+use cram::pose::value::{as_placement, frame_of};
+use lisp::image::Image;
+use lisp::value::Value;
 
 /// Number of elements of a list that count.
 const MOST_ELEMENTS: usize = 32;
@@ -11,7 +11,7 @@ const DEEPEST: usize = 4;
 
 /// A checksum of the request with that name and these arguments. Of values without a content of
 /// their own, only the kind counts.
-pub(crate) fn checksum(image: &Image, name: &str, args: &[Value]) -> u32 {
+pub fn checksum(image: &Image, name: &str, args: &[Value]) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     sum.update(name.as_bytes());
     for arg in args {

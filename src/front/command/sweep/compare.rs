@@ -6,9 +6,9 @@ use super::interrupt;
 use super::pool;
 use super::progress::Progress;
 use super::worlds::Worlds;
-use crate::sweep::Record;
-use crate::sweep::paired::{Comparison, Decision, error_at_look, is_decided};
-use crate::sweep::summary::{CONFIDENCE, Summary, Title};
+use sweep::Record;
+use sweep::paired::{Comparison, Decision, error_at_look, is_decided};
+use sweep::summary::{CONFIDENCE, Summary, Title};
 
 /// What a plan did, and what its sweep is called and wants.
 pub(super) struct Side {

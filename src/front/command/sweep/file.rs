@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::front::command::failure::{CommandError, read};
-use crate::session::Session;
-use crate::session::dialogue::{Abort, Evaluate, Event, Outcome};
+use crate::command::failure::{CommandError, read};
+use session::Session;
+use session::dialogue::{Abort, Evaluate, Event, Outcome};
 
 /// A file that defines a sweep.
 #[derive(Clone, Debug)]

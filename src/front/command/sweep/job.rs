@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::file::SweepFile;
-use crate::front::command::failure::CommandError;
-use crate::sweep::Record;
-use crate::sweep::draw::fnv1a;
-use crate::sweep::summary::Title;
+use crate::command::failure::CommandError;
+use sweep::Record;
+use sweep::draw::fnv1a;
+use sweep::summary::Title;
 
 /// What is to be done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

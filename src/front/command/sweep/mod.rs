@@ -20,18 +20,18 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
-use crate::front::sweep_report;
-use crate::session::sweeping::Known;
-use crate::sweep::Record;
-use crate::sweep::influence::Influence;
-use crate::sweep::paired::{error_at_look, is_narrow};
-use crate::sweep::summary::{CONFIDENCE, Summary, Title};
+use crate::sweep_report;
 use compare::compare;
 use file::SweepFile;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
 pub(crate) use options::SweepOptions;
 use progress::Progress;
+use session::sweeping::Known;
+use sweep::Record;
+use sweep::influence::Influence;
+use sweep::paired::{error_at_look, is_narrow};
+use sweep::summary::{CONFIDENCE, Summary, Title};
 use worlds::Worlds;
 
 /// Runs the sweep, one of its worlds or one of its shards, or tells how far it has got.

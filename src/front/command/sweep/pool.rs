@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use crate::front::command::STACK_BYTES;
+use crate::command::STACK_BYTES;
 
 /// Does the work on several threads, each with a function of its own that `worker` makes. `tell` gets
 /// every result, in the order of the work, as soon as it and all before it are known; if it returns

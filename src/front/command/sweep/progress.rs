@@ -3,8 +3,8 @@
 use std::io::{self, IsTerminal, Write};
 use std::time::Instant;
 
-use crate::sweep::Record;
-use crate::sweep::summary::Title;
+use sweep::Record;
+use sweep::summary::Title;
 
 /// Width of the bar.
 const WIDTH: u64 = 30;

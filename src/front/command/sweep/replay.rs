@@ -4,14 +4,14 @@ use std::io;
 use std::path::PathBuf;
 
 use super::{SweepFile, SweepOptions};
-use crate::front::command::arguments::{Options, WatchArguments};
-use crate::front::command::failure::{CommandError, Status};
-use crate::front::command::open::open_session;
-use crate::front::command::paint::Paint;
-use crate::front::command::run::run;
-use crate::front::prompt;
-use crate::front::prompt::{Opened, ReplOptions};
-use crate::session::dialogue::{Evaluate, Outcome, Screen, evaluate_keeping_abort};
+use crate::command::arguments::{Options, WatchArguments};
+use crate::command::failure::{CommandError, Status};
+use crate::command::open::open_session;
+use crate::command::paint::Paint;
+use crate::command::run::run;
+use crate::prompt;
+use crate::prompt::{Opened, ReplOptions};
+use session::dialogue::{Evaluate, Outcome, Screen, evaluate_keeping_abort};
 
 /// A journal could not be resumed to the same state, which depends on the file.
 const UNKEPT: &str = "; Nothing typed here is kept; (save-transcript \"FILE\") saves all of it.";

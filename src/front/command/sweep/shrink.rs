@@ -5,9 +5,9 @@ use std::io::{self, Write};
 
 use super::pool;
 use super::worlds::{Sessions, Worlds};
-use crate::front::command::failure::CommandError;
-use crate::sweep::pairs::Pairs;
-use crate::sweep::{Drawn, Record};
+use crate::command::failure::CommandError;
+use sweep::pairs::Pairs;
+use sweep::{Drawn, Record};
 
 /// Most worlds that are tried.
 const MOST_RUNS: usize = 300;

@@ -9,9 +9,9 @@ use super::job::Job;
 use super::pool;
 use super::progress::Progress;
 use super::worlds::Worlds;
-use crate::front::command::arguments::Options;
-use crate::front::command::failure::{CommandError, Status};
-use crate::sweep::{Ending, Record};
+use crate::command::arguments::Options;
+use crate::command::failure::{CommandError, Status};
+use sweep::{Ending, Record};
 
 /// Variables in which engines tell a worker its index.
 const INDEXES: [&str; 3] = ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"];

@@ -4,16 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::file::SweepFile;
-use crate::defect;
-use crate::front::command::arguments::{LogLevel, Options};
-use crate::front::command::failure::CommandError;
-use crate::front::command::open::{COMPILER_STACK, open_session};
-use crate::lisp::guard::set_stack_budget;
-use crate::session::sweeping::{Known, MOST_POLLS};
-use crate::session::{Session, SessionOptions};
-use crate::sweep::pairs::Pairs;
-use crate::sweep::{Drawn, Ending, Record};
-use crate::world::Models;
+use crate::command::arguments::{LogLevel, Options};
+use crate::command::failure::CommandError;
+use crate::command::open::{COMPILER_STACK, open_session};
+use lisp::guard::set_stack_budget;
+use robotics::world::Models;
+use session::defect;
+use session::sweeping::{Known, MOST_POLLS};
+use session::{Session, SessionOptions};
+use sweep::pairs::Pairs;
+use sweep::{Drawn, Ending, Record};
 
 /// The worlds of a sweep.
 pub(super) struct Worlds {
@@ -159,7 +159,7 @@ fn missing(file: &str, name: Option<&str>, sweeps: &[Known]) -> String {
     let names: Vec<&str> = sweeps.iter().map(|known| known.name.as_str()).collect();
     match (name, names.as_slice()) {
         (_, []) => format!("{file} defines no sweep: (defsweep NAME …) does"),
-        (Some(name), _) => match crate::closest_name::closest_name(name, names.iter().copied()) {
+        (Some(name), _) => match closest_name::closest_name(name, names.iter().copied()) {
             Some(near) => format!("{file} defines no sweep {name}; did you mean {near}?"),
             None => format!(
                 "{file} defines no sweep {name}; there are {}",

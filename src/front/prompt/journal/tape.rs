@@ -20,7 +20,7 @@ use std::time::UNIX_EPOCH;
 use serde::{Deserialize, Serialize};
 
 use super::Recorded;
-use crate::session::tape::{Frame, Part};
+use session::tape::{Frame, Part};
 
 const FIRST_LINE: &[u8] = b"planwright tape 1\n";
 

@@ -3,12 +3,12 @@
 
 use super::calls::small_int;
 use super::{Emitter, Want};
-use crate::lisp::compile::analyze::Compiled;
-use crate::lisp::compile::node::{Node, Target};
-use crate::lisp::source::Place;
-use crate::lisp::value::known;
-use crate::lisp::value::operation::{Comparison, Op, Test};
-use crate::lisp::value::symbol::Sym;
+use crate::compile::analyze::Compiled;
+use crate::compile::node::{Node, Target};
+use crate::source::Place;
+use crate::value::known;
+use crate::value::operation::{Comparison, Op, Test};
+use crate::value::symbol::Sym;
 
 /// The comparison that a function of two numbers makes, if it is one.
 pub(super) fn comparison_of(name: Sym) -> Option<Comparison> {

@@ -2,13 +2,13 @@
 
 use super::branches::comparison_of;
 use super::{Emitter, Want, arg_count};
-use crate::lisp::compile::analyze::Compiled;
-use crate::lisp::compile::node::{Node, Target};
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::symbol::Sym;
+use crate::compile::analyze::Compiled;
+use crate::compile::node::{Node, Target};
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::operation::Op;
+use crate::value::symbol::Sym;
 
 /// The operations that replace a call of the function with `count` arguments, if there are any.
 fn inline_operations(name: Sym, count: usize) -> Option<&'static [Op]> {
@@ -40,7 +40,7 @@ fn inline_operations(name: Sym, count: usize) -> Option<&'static [Op]> {
 }
 
 /// Whether calls of the function may be operations instead, so that code does not name it.
-pub(crate) fn is_inlined(name: Sym) -> bool {
+pub fn is_inlined(name: Sym) -> bool {
     let is_operation = comparison_of(name).is_some()
         || (1..=2).any(|count| inline_operations(name, count).is_some());
     is_operation || name == known::FUNCALL

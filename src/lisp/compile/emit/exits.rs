@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::{Emitter, OpenBlock, OpenTagbody, Want, at_least_one, index};
-use crate::lisp::compile::analyze::Compiled;
-use crate::lisp::compile::node::Node;
-use crate::lisp::compile::scope::{Block, Tagbody};
-use crate::lisp::value::Value;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::raise::Raise;
+use crate::compile::analyze::Compiled;
+use crate::compile::node::Node;
+use crate::compile::scope::{Block, Tagbody};
+use crate::value::Value;
+use crate::value::operation::Op;
+use crate::value::raise::Raise;
 
 impl Emitter<'_> {
     pub(super) fn emit_block(

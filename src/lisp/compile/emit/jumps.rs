@@ -1,6 +1,6 @@
 //! Jumps to jumps, and to returns.
 
-use crate::lisp::value::operation::Op;
+use crate::value::operation::Op;
 
 /// Lets whatever jumps forwards to a jump go where that leads to, and makes a return of a jump to one.
 /// Jumps backwards stay: the machine looks for interrupts in them.

@@ -10,19 +10,19 @@ mod jumps;
 mod tail_calls;
 mod variables;
 
-pub(crate) use calls::is_inlined;
+pub use calls::is_inlined;
 
 use std::rc::Rc;
 
 use super::analyze::Compiled;
 use super::node::{LambdaNode, Node};
 use super::scope::{Block, Tagbody, Var};
-use crate::lisp::source::Place;
-use crate::lisp::value::Value;
-use crate::lisp::value::code::{Capture, Code, Local, Signature};
-use crate::lisp::value::known;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::raise::Raise;
+use crate::source::Place;
+use crate::value::Value;
+use crate::value::code::{Capture, Code, Local, Signature};
+use crate::value::known;
+use crate::value::operation::Op;
+use crate::value::raise::Raise;
 
 /// Which values of a form its context uses.
 #[derive(Clone, Copy, PartialEq, Eq)]

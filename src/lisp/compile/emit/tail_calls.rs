@@ -1,8 +1,8 @@
 //! Calls of a function by itself whose values it returns.
 
-use crate::lisp::value::code::Parameters;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::symbol::Sym;
+use crate::value::code::Parameters;
+use crate::value::operation::Op;
+use crate::value::symbol::Sym;
 
 /// Marks the calls of the named function whose values are returned at once. Whether they call the
 /// function that runs, and not a later one of that name, is found out when they are made.

@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::{Emitter, Want, index, short};
-use crate::lisp::compile::analyze::Compiled;
-use crate::lisp::compile::node::{Binding, LambdaNode, Node, Prologue};
-use crate::lisp::compile::scope::Var;
-use crate::lisp::value::code::Local;
-use crate::lisp::value::operation::Op;
-use crate::lisp::value::symbol::Sym;
+use crate::compile::analyze::Compiled;
+use crate::compile::node::{Binding, LambdaNode, Node, Prologue};
+use crate::compile::scope::Var;
+use crate::value::code::Local;
+use crate::value::operation::Op;
+use crate::value::symbol::Sym;
 
 impl Emitter<'_> {
     pub(super) fn emit_prologue(&mut self, lambda: &LambdaNode) -> Compiled<()> {

@@ -1,12 +1,12 @@
 //! Values that are given in place of operations that failed.
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::known;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::image::Image;
+use crate::print;
+use crate::reader;
+use crate::value::Value;
+use crate::value::symbol::known;
+use crate::vm::fiber::Fiber;
+use crate::vm::machine::{Event, Machine};
 
 /// Evaluates a form whose first error is answered by a value in place of the call that failed.
 fn evaluate_with_answer(text: &str, answer: Value) -> String {

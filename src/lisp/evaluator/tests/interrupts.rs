@@ -1,13 +1,13 @@
 //! Code that is interrupted at any of its polls.
 
-use crate::lisp::compile::compile_lambda;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::reader;
-use crate::lisp::value::Value;
-use crate::lisp::value::symbol::known;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::compile::compile_lambda;
+use crate::image::Image;
+use crate::print;
+use crate::reader;
+use crate::value::Value;
+use crate::value::symbol::known;
+use crate::vm::fiber::Fiber;
+use crate::vm::machine::{Event, Machine};
 
 /// Evaluates a form, interrupted at one of its polls and continued; and the number of its polls. There
 /// is no value if it was interrupted within a builtin, such as the compiler.

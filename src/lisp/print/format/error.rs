@@ -2,24 +2,24 @@
 
 use thiserror::Error;
 
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// A wrong control string, or too few arguments for one.
 #[derive(Clone, PartialEq, Debug, Error)]
 #[error("error in FORMAT: {problem}\n  {control}\n  {}^", " ".repeat(*position))]
-pub(crate) struct FormatError {
+pub struct FormatError {
     /// What is wrong.
-    pub(crate) problem: Problem,
+    pub problem: Problem,
     /// The control string.
-    pub(crate) control: String,
+    pub control: String,
     /// The index of the character in question.
-    pub(crate) position: usize,
+    pub position: usize,
 }
 
 /// What is wrong.
 #[derive(Clone, PartialEq, Debug, Error)]
-pub(crate) enum Problem {
+pub enum Problem {
     /// The string ends after a tilde.
     #[error("String ended before directive was found.")]
     Unfinished,

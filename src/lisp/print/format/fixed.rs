@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, Zero};
 
 use super::super::float::{Decimal, of_double, of_single};
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// Digits of a float's magnitude: `0.DIGITS` times ten to the power of `point`. The
 /// digits are empty for zero.

@@ -1,9 +1,9 @@
 //! `~F`, `~E`, `~G` and `~$`.
 
 use super::fixed::{Digits, rounded, shortest, significant};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// The parameters of a float directive.
 #[derive(Clone, Default)]

@@ -3,7 +3,7 @@
 use num_bigint::BigInt;
 use num_traits::Signed;
 
-use crate::lisp::value::number::large::to_text;
+use crate::value::number::large::to_text;
 
 /// How an integer is written.
 pub(super) struct IntegerStyle {

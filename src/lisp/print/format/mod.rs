@@ -16,27 +16,27 @@ mod output;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use error::FormatError;
-pub(crate) use output::Output;
+pub use error::FormatError;
+pub use output::Output;
 
 use std::rc::Rc;
 
 use super::calls::Calls;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Document;
-use crate::lisp::value::raise::Raise;
+use crate::image::Image;
+use crate::value::Value;
+use crate::value::document::Document;
+use crate::value::raise::Raise;
 
 /// A parsed control string.
 #[derive(Clone)]
-pub(crate) struct Control {
+pub struct Control {
     text: Rc<str>,
     pieces: Rc<[directive::Piece]>,
 }
 
 impl Control {
     /// Parses a control string.
-    pub(crate) fn parse(text: &str) -> Result<Control, FormatError> {
+    pub fn parse(text: &str) -> Result<Control, FormatError> {
         let pieces = directive::parse(text)?;
         Ok(Control {
             text: text.into(),
@@ -46,7 +46,7 @@ impl Control {
 
     /// The text that the control string makes of the arguments, where the line already has `column`
     /// characters.
-    pub(crate) fn run(
+    pub fn run(
         &self,
         image: &Image,
         args: &[Value],

@@ -3,11 +3,11 @@
 
 use super::super::layout::lay_out;
 use super::super::settings::Settings;
-use crate::lisp::guard::reserve;
-use crate::lisp::value::document::Document;
+use crate::guard::reserve;
+use crate::value::document::Document;
 
 /// Text under construction.
-pub(crate) struct Output {
+pub struct Output {
     text: String,
     /// Column where the text begins.
     start: usize,

@@ -2,7 +2,7 @@
 
 use super::super::test_image;
 use super::*;
-use crate::lisp::reader::Reader;
+use crate::reader::Reader;
 
 fn format(control: &str, args: &str) -> String {
     let mut image = test_image::image();

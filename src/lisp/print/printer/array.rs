@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::{Printer, Task};
-use crate::lisp::image::identity::identity;
-use crate::lisp::print::shape::Style;
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::document::Newline;
-use crate::lisp::value::element_type::ElementType;
+use crate::image::identity::identity;
+use crate::print::shape::Style;
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::document::Newline;
+use crate::value::element_type::ElementType;
 
 impl Printer<'_> {
     pub(super) fn vector(&mut self, value: &Value, vector: &Rc<Vector>, depth: usize) {

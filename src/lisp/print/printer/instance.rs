@@ -4,14 +4,14 @@
 use std::rc::Rc;
 
 use super::{Printer, Task};
-use crate::lisp::print::dispatch;
-use crate::lisp::print::report;
-use crate::lisp::print::shape::Style;
-use crate::lisp::print::symbol;
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{ClassKind, Instance};
-use crate::lisp::value::document::{Document, Newline};
-use crate::lisp::value::known;
+use crate::print::dispatch;
+use crate::print::report;
+use crate::print::shape::Style;
+use crate::print::symbol;
+use crate::value::Value;
+use crate::value::class::{ClassKind, Instance};
+use crate::value::document::{Document, Newline};
+use crate::value::known;
 
 impl Printer<'_> {
     pub(super) fn instance(&mut self, value: &Value, instance: &Rc<Instance>, depth: usize) {

@@ -1,10 +1,10 @@
 //! Printing lists: prefixes such as quotes, layouts of forms, dotted and shared tails.
 
 use super::{Printer, Task};
-use crate::lisp::print::shape::{self, Form, Layout, Shape, Style};
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Newline;
-use crate::lisp::value::known;
+use crate::print::shape::{self, Form, Layout, Shape, Style};
+use crate::value::Value;
+use crate::value::document::Newline;
+use crate::value::known;
 
 pub(super) struct Rest {
     list: Value,

@@ -2,16 +2,16 @@
 
 use super::frame::{Dot, Frame, Kind};
 use super::{Outcome, Reader};
-use crate::lisp::image::Image;
-use crate::lisp::reader::error::ReadErrorKind;
-use crate::lisp::reader::feature;
-use crate::lisp::reader::label::Labels;
-use crate::lisp::reader::literal;
-use crate::lisp::reader::typed_array;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::pathname::Pathname;
-use crate::lisp::value::symbol::{Sym, VariableKind};
+use crate::image::Image;
+use crate::reader::error::ReadErrorKind;
+use crate::reader::feature;
+use crate::reader::label::Labels;
+use crate::reader::literal;
+use crate::reader::typed_array;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::pathname::Pathname;
+use crate::value::symbol::{Sym, VariableKind};
 
 impl Reader {
     pub(super) fn close(

@@ -1,7 +1,7 @@
 //! Forms that are not finished.
 
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// A form that is not finished.
 pub(super) struct Frame {

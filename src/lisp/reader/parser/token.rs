@@ -2,16 +2,16 @@
 
 use super::frame::{Dot, Frame, Kind};
 use super::{Outcome, Reader};
-use crate::lisp::image::Image;
-use crate::lisp::reader::error::ReadErrorKind;
-use crate::lisp::reader::lexer::{Token, TokenKind};
-use crate::lisp::reader::literal;
-use crate::lisp::reader::numeric::parse_number;
-use crate::lisp::reader::readtable::{LetterCase, escaped};
-use crate::lisp::reader::symbol;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::image::Image;
+use crate::reader::error::ReadErrorKind;
+use crate::reader::lexer::{Token, TokenKind};
+use crate::reader::literal;
+use crate::reader::numeric::parse_number;
+use crate::reader::readtable::{LetterCase, escaped};
+use crate::reader::symbol;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 impl Reader {
     /// Processes a token; returns an outcome if there is one for the caller.
@@ -145,7 +145,7 @@ impl Reader {
                 Kind::Label(label)
             }
             '<' | ')' => return Err(ReadErrorKind::IllegalDispatch(letter)),
-            c if crate::lisp::reader::lexer::is_blank(c) => {
+            c if crate::reader::lexer::is_blank(c) => {
                 return Err(ReadErrorKind::IllegalDispatch(c));
             }
             c => return Err(ReadErrorKind::UnknownDispatch(c)),

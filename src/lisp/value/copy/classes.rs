@@ -4,17 +4,17 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::{Copier, address};
-use crate::lisp::value::Value;
-use crate::lisp::value::class::{
+use crate::value::Value;
+use crate::value::class::{
     Class, Initform, OldSlot, SlotDefinition, StructureLayout, StructureSlot,
 };
-use crate::lisp::value::dispatch::Dispatch;
-use crate::lisp::value::generic::{GenericFunction, Method, Specializer};
-use crate::lisp::value::symbol::Sym;
+use crate::value::dispatch::Dispatch;
+use crate::value::generic::{GenericFunction, Method, Specializer};
+use crate::value::symbol::Sym;
 
 impl Copier {
     /// The copy of a class.
-    pub(crate) fn class(&mut self, class: &Rc<Class>) -> Rc<Class> {
+    pub fn class(&mut self, class: &Rc<Class>) -> Rc<Class> {
         let copy = self.object(&Value::Class(class.clone()), class, |_, class| {
             Value::Class(Rc::new(Class::new(class.name, class.kind)))
         });

@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use super::{Copied, Copier, address, is_fixed, is_shared};
-use crate::lisp::value::Value;
-use crate::lisp::value::code::Code;
-use crate::lisp::value::function::{Body, Function, Native, NativeBody};
-use crate::lisp::value::generic::GenericFunction;
+use crate::value::Value;
+use crate::value::code::Code;
+use crate::value::function::{Body, Function, Native, NativeBody};
+use crate::value::generic::GenericFunction;
 
 /// How deep functions may hold each other: they cannot be filled later.
 const MOST_NESTED: usize = 500;
 
 impl Copier {
     /// The copy of a function.
-    pub(crate) fn function(&mut self, function: &Rc<Function>) -> Rc<Function> {
+    pub fn function(&mut self, function: &Rc<Function>) -> Rc<Function> {
         let is_shared = is_shared(function);
         if is_shared && let Some(Value::Function(copy)) = self.copies.get(&address(function)) {
             return copy.clone();

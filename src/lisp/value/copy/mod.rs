@@ -19,29 +19,29 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
 
-use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::class::{Class, Instance};
-use crate::lisp::value::code::Code;
-use crate::lisp::value::cons::Cons;
-use crate::lisp::value::cycles;
-use crate::lisp::value::elements::{Displacement, Elements};
-use crate::lisp::value::foreign::{ForeignBox, ForeignCopy};
-use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::generic::Method;
-use crate::lisp::value::hash_table::{Entries, HashTable};
-use crate::lisp::value::slot::Slot;
-use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::{Holds, SymbolTable};
+use crate::value::Value;
+use crate::value::array::{Array, Vector};
+use crate::value::class::{Class, Instance};
+use crate::value::code::Code;
+use crate::value::cons::Cons;
+use crate::value::cycles;
+use crate::value::elements::{Displacement, Elements};
+use crate::value::foreign::{ForeignBox, ForeignCopy};
+use crate::value::function::{Body, Function};
+use crate::value::generic::Method;
+use crate::value::hash_table::{Entries, HashTable};
+use crate::value::slot::Slot;
+use crate::value::string::LispString;
+use crate::value::symbol::{Holds, SymbolTable};
 
 /// Something that a copy of the image has a copy of.
-pub(crate) trait Copied: 'static {
+pub trait Copied: 'static {
     /// The copy. What it refers to may be filled later.
     fn copied(&self, copier: &mut Copier) -> Self;
 }
 
 /// Makes the copies of one image's values.
-pub(crate) struct Copier {
+pub struct Copier {
     /// Copies of objects to which there is more than one reference, by the address of the original.
     copies: HashMap<usize, Value, BuildHasherDefault<AddressHasher>>,
     codes: HashMap<usize, Rc<Code>, BuildHasherDefault<AddressHasher>>,
@@ -104,7 +104,7 @@ pub(crate) fn is_fixed(value: &Value) -> bool {
 
 impl Copier {
     /// For the values of an image with these symbols, and for the one with the symbols' copies.
-    pub(crate) fn new(symbols: &SymbolTable) -> Copier {
+    pub fn new(symbols: &SymbolTable) -> Copier {
         Copier {
             copies: HashMap::default(),
             codes: HashMap::default(),
@@ -118,12 +118,12 @@ impl Copier {
     }
 
     /// There can be no copy, because of this.
-    pub(crate) fn refuse(&mut self, cause: &'static str) {
+    pub fn refuse(&mut self, cause: &'static str) {
         self.refused.get_or_insert(cause);
     }
 
     /// What holds the passing symbols of the copy.
-    pub(crate) fn holds(&mut self) -> &mut Holds {
+    pub fn holds(&mut self) -> &mut Holds {
         &mut self.holds
     }
 
@@ -134,7 +134,7 @@ impl Copier {
     }
 
     /// Fills all copies. Fails if something was refused.
-    pub(crate) fn finish(&mut self) -> Result<(), &'static str> {
+    pub fn finish(&mut self) -> Result<(), &'static str> {
         while let Some((original, copy)) = self.pending.pop() {
             self.fill(&original, &copy);
             cycles::note_copy(&original, &copy);
@@ -148,7 +148,7 @@ impl Copier {
     }
 
     /// The copy of a value.
-    pub(crate) fn value(&mut self, value: &Value) -> Value {
+    pub fn value(&mut self, value: &Value) -> Value {
         match value {
             Value::Symbol(sym, hold) => match hold.is_none() {
                 true => Value::symbol(*sym),
@@ -199,7 +199,7 @@ impl Copier {
     }
 
     /// Copies of values.
-    pub(crate) fn all(&mut self, values: &[Value]) -> Vec<Value> {
+    pub fn all(&mut self, values: &[Value]) -> Vec<Value> {
         values.iter().map(|value| self.value(value)).collect()
     }
 

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::Copier;
-use crate::lisp::value::Value;
-use crate::lisp::value::stream::{Stream, StreamKind};
+use crate::value::Value;
+use crate::value::stream::{Stream, StreamKind};
 
 impl Copier {
     pub(super) fn stream(&mut self, stream: &Rc<Stream>) -> Rc<Stream> {

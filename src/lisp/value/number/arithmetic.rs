@@ -7,9 +7,9 @@ use super::complex;
 use super::convert::{fraction_of, from_big, is_rational, is_real, ratio, to_big, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_a_number, overflow};
 use super::large::multiply;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 /// Two operands brought to one type.
 enum Pair {
@@ -20,11 +20,7 @@ enum Pair {
 }
 
 /// Applies the contagion rules.
-fn pair(
-    operation: Sym,
-    a: &Value,
-    b: &Value,
-) -> Result<Pair, Box<crate::lisp::value::raise::Raise>> {
+fn pair(operation: Sym, a: &Value, b: &Value) -> Result<Pair, Box<crate::value::raise::Raise>> {
     for operand in [a, b] {
         if !is_real(operand) {
             return Err(not_a_number(operand));
@@ -97,7 +93,7 @@ fn fraction(numerator: BigInt, denominator: BigInt) -> Value {
 
 /// `(+ a b)`.
 #[inline]
-pub(crate) fn add(a: &Value, b: &Value) -> NumberResult {
+pub fn add(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_add(*y) {
             Some(sum) => Ok(Value::Int(sum)),
@@ -125,7 +121,7 @@ fn add_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(- a b)`.
 #[inline]
-pub(crate) fn sub(a: &Value, b: &Value) -> NumberResult {
+pub fn sub(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_sub(*y) {
             Some(difference) => Ok(Value::Int(difference)),
@@ -178,7 +174,7 @@ fn mul_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(/ a b)`.
 #[inline]
-pub(crate) fn div(a: &Value, b: &Value) -> NumberResult {
+pub fn div(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Double(x), Value::Double(y)) if *y != 0.0 => double(x / y, known::DIVIDE, a, b),
         (Value::Int(x), Value::Int(y)) if *y > 0 && x % y == 0 => Ok(Value::Int(x / y)),
@@ -225,13 +221,13 @@ pub(crate) fn decrement(a: &Value) -> NumberResult {
 }
 
 /// `(abs a)`.
-pub(crate) fn abs(a: &Value) -> NumberResult {
+pub fn abs(a: &Value) -> NumberResult {
     match a {
         Value::Double(x) => Ok(Value::Double(x.abs())),
         Value::Single(x) => Ok(Value::Single(x.abs())),
         z if complex::is_complex(z) => complex::magnitude(z),
         other
-            if crate::lisp::value::number::compare::is_minus(other)
+            if crate::value::number::compare::is_minus(other)
                 .map_err(|_| not_a_number(other))? =>
         {
             negate(other)
@@ -251,7 +247,7 @@ pub(crate) fn signum(a: &Value) -> NumberResult {
         z if complex::is_complex(z) => div(z, &complex::magnitude(z)?),
         other => {
             let zero = Value::Int(0);
-            let ordering = crate::lisp::value::number::compare::compare(other, &zero)
+            let ordering = crate::value::number::compare::compare(other, &zero)
                 .map_err(|_| not_a_number(other))?;
             Ok(Value::Int(ordering.map_or(0, |o| o as i64)))
         }

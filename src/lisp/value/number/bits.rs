@@ -6,17 +6,17 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::convert::{from_big, to_big};
 use super::error::{NumberResult, not_an_integer};
 use super::power::{MAX_BITS, too_large};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// `(byte size position)`: a run of bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ByteSpecifier {
     /// Number of bits.
-    pub(crate) size: u32,
+    pub size: u32,
     /// Number of bits below.
-    pub(crate) position: u32,
+    pub position: u32,
 }
 
 fn big(value: &Value) -> Result<BigInt, Box<Raise>> {
@@ -45,7 +45,7 @@ bitwise! {
 }
 
 /// `(lognot a)`.
-pub(crate) fn not(a: &Value) -> NumberResult {
+pub fn not(a: &Value) -> NumberResult {
     match a {
         Value::Int(x) => Ok(Value::Int(!x)),
         other => Ok(from_big(!big(other)?)),

@@ -8,15 +8,15 @@ use super::complex;
 use super::complex::is_complex;
 use super::convert::{exact, fraction_of, is_number, is_rational, is_real};
 use super::error::{NumberResult, not_a_number, not_an_integer, not_real};
-use crate::lisp::value::Value;
-use crate::lisp::value::operation::Comparison;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::operation::Comparison;
+use crate::value::raise::Raise;
 
 /// Integers up to this magnitude are exact as double floats.
 const EXACT_IN_DOUBLE: u64 = 1 << 53;
 
 /// The order of two real numbers; `None` if one is not a number (NaN).
-pub(crate) fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
+pub fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(Some(x.cmp(y))),
         (Value::Double(x), Value::Double(y)) => Ok(x.partial_cmp(y)),
@@ -79,7 +79,7 @@ pub(crate) fn equal_by_value(a: &Value, b: &Value) -> bool {
 
 /// `(= a b)`.
 #[inline]
-pub(crate) fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x == y),
         (Value::Double(x), Value::Double(y)) => Ok(x == y),
@@ -99,7 +99,7 @@ pub(crate) fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(< a b)`.
 #[inline]
-pub(crate) fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x < y),
         (Value::Double(x), Value::Double(y)) => Ok(x < y),
@@ -109,7 +109,7 @@ pub(crate) fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(> a b)`.
 #[inline]
-pub(crate) fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x > y),
         (Value::Double(x), Value::Double(y)) => Ok(x > y),
@@ -119,7 +119,7 @@ pub(crate) fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(<= a b)`.
 #[inline]
-pub(crate) fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x <= y),
         (Value::Double(x), Value::Double(y)) => Ok(x <= y),
@@ -129,7 +129,7 @@ pub(crate) fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(>= a b)`.
 #[inline]
-pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x >= y),
         (Value::Double(x), Value::Double(y)) => Ok(x >= y),
@@ -162,7 +162,7 @@ fn compare_any(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box
 }
 
 /// The larger of two numbers, unconverted; the first if they are equal.
-pub(crate) fn maximum(a: &Value, b: &Value) -> NumberResult {
+pub fn maximum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(a, b)? { b.clone() } else { a.clone() })
 }
 
@@ -172,7 +172,7 @@ pub(crate) fn minimum(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(zerop a)`.
-pub(crate) fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
+pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(*n == 0),
         Value::Double(x) => Ok(*x == 0.0),

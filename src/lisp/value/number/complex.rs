@@ -12,12 +12,12 @@ use super::convert::{is_integer, is_rational, is_real, to_double, to_f64, to_sin
 use super::error::{NumberResult, division_by_zero, not_a_number, not_real};
 use super::power::finite;
 use super::transcendental::{atan2, cos, exp, sin};
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A complex number.
 pub(crate) struct Complex {
@@ -232,8 +232,7 @@ pub(crate) fn power(base: &Value, exponent: &Value) -> NumberResult {
         let (sine, cosine) = libm::sincos(PI * y.0);
         return float(radius * cosine, radius * sine, x.2 || y.2);
     }
-    let logarithm =
-        crate::lisp::value::number::transcendental::log(&as_contagious(base, exponent)?)?;
+    let logarithm = crate::value::number::transcendental::log(&as_contagious(base, exponent)?)?;
     exponential(&mul(exponent, &logarithm)?)
 }
 
@@ -256,14 +255,14 @@ fn as_contagious(base: &Value, exponent: &Value) -> NumberResult {
 
 fn exact_power(base: &Value, exponent: &Value) -> NumberResult {
     let Value::Int(n) = exponent else {
-        return Err(crate::lisp::value::number::power::too_large("EXPT"));
+        return Err(crate::value::number::power::too_large("EXPT"));
     };
     // Squares of squares: as many steps as the exponent has bits.
     let mut result = Value::Int(1);
     let mut square = base.clone();
     let mut rest = n.unsigned_abs();
     if rest > 1 << 16 {
-        return Err(crate::lisp::value::number::power::too_large("EXPT"));
+        return Err(crate::value::number::power::too_large("EXPT"));
     }
     while rest > 0 {
         if rest % 2 == 1 {

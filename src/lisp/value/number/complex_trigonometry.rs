@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use super::complex::{as_doubles, float};
 use super::error::NumberResult;
-use crate::lisp::value::Value;
+use crate::value::Value;
 
 /// Real and imaginary part.
 type Pair = (f64, f64);

@@ -9,8 +9,8 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::error::{NumberResult, not_real, overflow};
 use super::large;
 use super::ratio::Ratio;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::value::Value;
+use crate::value::known;
 
 /// An integer as a value: immediate if it fits 64 bits.
 pub(crate) fn from_big(n: BigInt) -> Value {
@@ -21,7 +21,7 @@ pub(crate) fn from_big(n: BigInt) -> Value {
 }
 
 /// A fraction as a value, in lowest terms; `None` if the denominator is zero.
-pub(crate) fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
+pub fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
     if denominator.is_zero() {
         return None;
     }
@@ -50,12 +50,12 @@ pub(crate) fn to_big(value: &Value) -> Option<BigInt> {
 }
 
 /// Is this a number?
-pub(crate) fn is_number(value: &Value) -> bool {
-    is_real(value) || crate::lisp::value::number::complex::is_complex(value)
+pub fn is_number(value: &Value) -> bool {
+    is_real(value) || crate::value::number::complex::is_complex(value)
 }
 
 /// Is this a real number?
-pub(crate) fn is_real(value: &Value) -> bool {
+pub fn is_real(value: &Value) -> bool {
     is_rational(value) || matches!(value, Value::Single(_) | Value::Double(_))
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn is_integer(value: &Value) -> bool {
 
 /// The number as the nearest double float; infinite beyond the largest one; `None` if it is not a
 /// real number.
-pub(crate) fn to_f64(value: &Value) -> Option<f64> {
+pub fn to_f64(value: &Value) -> Option<f64> {
     match value {
         Value::Int(n) => Some(*n as f64),
         Value::Big(n) => n.to_f64(),
@@ -228,7 +228,7 @@ pub(crate) fn numerator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.numerator.clone())),
         n if is_integer(n) => Ok(n.clone()),
-        other => Err(crate::lisp::value::raise::Raise::type_error(
+        other => Err(crate::value::raise::Raise::type_error(
             other,
             known::RATIONAL,
         )),
@@ -240,7 +240,7 @@ pub(crate) fn denominator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.denominator.clone())),
         n if is_integer(n) => Ok(Value::Int(1)),
-        other => Err(crate::lisp::value::raise::Raise::type_error(
+        other => Err(crate::value::raise::Raise::type_error(
             other,
             known::RATIONAL,
         )),

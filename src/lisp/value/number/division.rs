@@ -10,10 +10,10 @@ use super::arithmetic::{mul, sub};
 use super::convert::{exact_fraction, fraction_of, from_big, is_rational, is_real, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_real, overflow};
 use super::large;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// Which integer a quotient becomes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -210,34 +210,34 @@ pub(crate) fn divide_to_float(
     let (quotient, rest) = divide(a, b, rounding)?;
     let is_double = matches!(a, Value::Double(_)) || matches!(b, Value::Double(_));
     let quotient = if is_double {
-        crate::lisp::value::number::convert::to_double(&quotient)?
+        crate::value::number::convert::to_double(&quotient)?
     } else {
-        crate::lisp::value::number::convert::to_single(&quotient)?
+        crate::value::number::convert::to_single(&quotient)?
     };
     Ok((quotient, rest))
 }
 
 /// `(floor a b)`.
 #[cfg(test)]
-pub(crate) fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Floor)
 }
 
 /// `(ceiling a b)`.
 #[cfg(test)]
-pub(crate) fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Ceiling)
 }
 
 /// `(truncate a b)`.
 #[cfg(test)]
-pub(crate) fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Truncate)
 }
 
 /// `(round a b)`.
 #[cfg(test)]
-pub(crate) fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Round)
 }
 

@@ -1,9 +1,9 @@
 //! Conditions of arithmetic.
 
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// The result of an operation on numbers.
 pub(crate) type NumberResult = Result<Value, Box<Raise>>;
@@ -34,7 +34,7 @@ pub(crate) fn not_a_float(datum: &Value) -> Box<Raise> {
 
 fn arithmetic(class: Sym, operation: Sym, operands: &[&Value]) -> Box<Raise> {
     Box::new(Raise::Make {
-        place: crate::lisp::source::Place::NONE,
+        place: crate::source::Place::NONE,
         class,
         report: None,
         initargs: vec![
@@ -61,6 +61,6 @@ pub(crate) fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
 
 /// A float operation without a meaningful result.
 #[cold]
-pub(crate) fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
 }

@@ -1,9 +1,9 @@
 //! Mantissa, exponent and sign of floats.
 
 use super::error::{NumberResult, not_a_float, overflow};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 fn like(value: &Value, x: f64) -> Value {
     match value {
@@ -25,7 +25,7 @@ fn sign(value: &Value, x: f64) -> Value {
 }
 
 /// `decode-float`: a mantissa in 1/2 .. 1, an exponent, and the sign as a float.
-pub(crate) fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
+pub fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
     let x = as_double(value)?;
     let (mantissa, exponent) = libm::frexp(x.abs());
     Ok([
@@ -56,11 +56,11 @@ pub(crate) fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
 }
 
 /// `(scale-float x n)`: x times two to the power of n.
-pub(crate) fn scale(value: &Value, power: &Value) -> NumberResult {
+pub fn scale(value: &Value, power: &Value) -> NumberResult {
     let x = as_double(value)?;
     let n = match power {
         Value::Int(n) => i32::try_from((*n).clamp(-10_000, 10_000)).unwrap_or(0),
-        other => return Err(crate::lisp::value::number::error::not_an_integer(other)),
+        other => return Err(crate::value::number::error::not_an_integer(other)),
     };
     let result = like(value, libm::ldexp(x, n));
     match as_double(&result)? {
@@ -70,7 +70,7 @@ pub(crate) fn scale(value: &Value, power: &Value) -> NumberResult {
 }
 
 /// `float-digits`: bits of the mantissa.
-pub(crate) fn digits(value: &Value) -> NumberResult {
+pub fn digits(value: &Value) -> NumberResult {
     match value {
         Value::Single(_) => Ok(Value::Int(24)),
         Value::Double(_) => Ok(Value::Int(53)),

@@ -10,7 +10,7 @@ use num_bigint::{BigInt, BigUint, Sign};
 use num_integer::Integer;
 use num_traits::{One, Zero};
 
-use crate::lisp::guard;
+use crate::guard;
 
 /// Integers of so many bits are multiplied at once: it takes a millisecond.
 const MULTIPLIED_AT_ONCE: u64 = 1 << 17;

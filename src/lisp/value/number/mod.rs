@@ -13,41 +13,46 @@ mod complex;
 mod complex_trigonometry;
 mod convert;
 mod division;
-pub(crate) mod error;
+pub mod error;
 mod exponential;
 mod float_parts;
-pub(crate) mod large;
+pub mod large;
 mod power;
 mod random;
 mod ratio;
 mod transcendental;
 
-pub(crate) use arithmetic::{abs, add, decrement, div, increment, mul, negate, signum, sub};
+pub use arithmetic::{abs, add, div, sub};
+pub(crate) use arithmetic::{decrement, increment, mul, negate, signum};
+pub use bits::not;
 pub(crate) use bits::{
-    ByteSpecifier, and, ash, bit_count, bit_length, deposit, extract, is_bit_set, not, or, xor,
+    ByteSpecifier, ash, bit_count, bit_length, deposit, extract, is_bit_set, xor,
 };
-pub(crate) use compare::{
-    compare, compare_like, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus,
-    is_zero, less, less_equal, maximum, minimum, number_equal,
+pub(crate) use bits::{and, or};
+pub use compare::{
+    compare, greater, greater_equal, is_zero, less, less_equal, maximum, number_equal,
 };
+pub(crate) use compare::{compare_like, equal_by_value, is_even, is_minus, is_plus, minimum};
 pub(crate) use complex::{cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
 pub(crate) use convert::{
-    denominator, from_big, is_integer, is_number, is_rational, is_real, numerator, ratio, rational,
-    rationalize, to_big, to_double, to_f64, to_float_like, to_single,
+    denominator, from_big, is_integer, is_rational, numerator, rational, rationalize, to_big,
+    to_double, to_float_like, to_single,
 };
+pub use convert::{is_number, is_real, ratio, to_f64};
 pub(crate) use division::{Rounding, divide, divide_to_float, modulo, remainder};
 #[cfg(test)]
-pub(crate) use division::{ceiling, floor, round, truncate};
-pub(crate) use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
-pub(crate) use power::{expt, gcd, isqrt, lcm, sqrt};
+pub use division::{ceiling, floor, round, truncate};
+pub use float_parts::{decode, digits, scale};
+pub(crate) use float_parts::{integer_decode, precision, sign_of};
+pub(crate) use power::lcm;
+pub use power::{expt, gcd, isqrt, sqrt};
 #[cfg(test)]
 pub(crate) use random::random;
 pub(crate) use random::{RandomState, make_random_state, random_from};
-pub(crate) use ratio::Ratio;
-pub(crate) use transcendental::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
-    tanh,
-};
+pub use ratio::Ratio;
+pub use transcendental::{acos, asin, atan2, log};
+pub(crate) use transcendental::{acosh, asinh, atan, atanh, cosh, exp, log_base, sinh, tan, tanh};
+pub(crate) use transcendental::{cos, sin};
 
 /// The largest fixnum: `most-positive-fixnum`.
 pub(crate) const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;

@@ -15,9 +15,9 @@ use super::error::{
     NumberResult, division_by_zero, invalid, not_a_number, not_an_integer, overflow,
 };
 use super::large;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// Integers of more bits than this (8 MB) are not computed.
 pub(crate) const MAX_BITS: u64 = 1 << 26;
@@ -32,7 +32,7 @@ pub(crate) fn too_large(operation: &str) -> Box<Raise> {
 }
 
 /// `(expt base power)`.
-pub(crate) fn expt(base: &Value, power: &Value) -> NumberResult {
+pub fn expt(base: &Value, power: &Value) -> NumberResult {
     for operand in [base, power] {
         if !is_number(operand) {
             return Err(not_a_number(operand));
@@ -72,7 +72,7 @@ fn float(x: f64, is_double: bool) -> Value {
 pub(crate) fn finite(
     x: f64,
     is_double: bool,
-    operation: crate::lisp::value::symbol::Sym,
+    operation: crate::value::symbol::Sym,
     operands: &[&Value],
 ) -> NumberResult {
     let result = float(x, is_double);
@@ -136,7 +136,7 @@ fn exact_power(base: &Value, power: &Value) -> NumberResult {
 }
 
 /// `(sqrt x)`; complex for a negative number.
-pub(crate) fn sqrt(value: &Value) -> NumberResult {
+pub fn sqrt(value: &Value) -> NumberResult {
     if is_complex(value) || is_real(value) && is_minus(value)? {
         return complex::square_root(value);
     }
@@ -150,7 +150,7 @@ pub(crate) fn sqrt(value: &Value) -> NumberResult {
 }
 
 /// `(isqrt n)`: the largest integer whose square is not above `n`.
-pub(crate) fn isqrt(value: &Value) -> NumberResult {
+pub fn isqrt(value: &Value) -> NumberResult {
     let expected = || Raise::type_error(value, known::UNSIGNED_BYTE);
     let n = to_big(value).ok_or_else(expected)?;
     if n.is_negative() {
@@ -160,7 +160,7 @@ pub(crate) fn isqrt(value: &Value) -> NumberResult {
 }
 
 /// `(gcd a b)`.
-pub(crate) fn gcd(a: &Value, b: &Value) -> NumberResult {
+pub fn gcd(a: &Value, b: &Value) -> NumberResult {
     let x = to_big(a).ok_or_else(|| not_an_integer(a))?;
     let y = to_big(b).ok_or_else(|| not_an_integer(b))?;
     Ok(from_big(large::common_divisor(&x, &y)))
@@ -174,5 +174,5 @@ pub(crate) fn lcm(a: &Value, b: &Value) -> NumberResult {
     let x = to_big(a).ok_or_else(|| not_an_integer(a))?;
     let y = to_big(b).ok_or_else(|| not_an_integer(b))?;
     let divisor = gcd(a, b)?;
-    crate::lisp::value::number::arithmetic::abs(&div(&from_big(large::multiply(&x, &y)), &divisor)?)
+    crate::value::number::arithmetic::abs(&div(&from_big(large::multiply(&x, &y)), &divisor)?)
 }

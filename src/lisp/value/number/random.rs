@@ -10,17 +10,17 @@ use rand_pcg::rand_core::Rng;
 use super::convert::from_big;
 use super::error::NumberResult;
 use super::large;
-use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
-use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::copy::Copier;
+use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
+use crate::value::known;
+use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 
 /// A generator of its own, or the image's: the value of `*random-state*`.
 pub(crate) struct RandomState {
     /// None for the image's generator.
-    pub(crate) generator: Option<RefCell<Pcg64>>,
+    pub generator: Option<RefCell<Pcg64>>,
 }
 
 impl Foreign for RandomState {

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 
 /// A fraction in lowest terms; the denominator is greater than one.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Ratio {
+pub struct Ratio {
     /// Numerator, with the sign.
     pub(crate) numerator: BigInt,
     /// Denominator, greater than one.

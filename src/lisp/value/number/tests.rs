@@ -1,10 +1,10 @@
 //! Values as the reader writes them, results as `type value`.
 
 use super::*;
-use crate::lisp::reader::numeric::parse_number;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::reader::numeric::parse_number;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 fn n(text: &str) -> Value {
     parse_number(text, 10, known::SINGLE_FLOAT)

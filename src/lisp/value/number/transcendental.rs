@@ -15,9 +15,9 @@ use super::convert::to_f64;
 use super::error::{NumberResult, division_by_zero, not_a_number};
 use super::exponential;
 use super::power::finite;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::symbol::Sym;
 
 fn is_double(value: &Value) -> bool {
     matches!(value, Value::Double(_))
@@ -108,7 +108,7 @@ impl Bounded {
 }
 
 /// `(asin x)`, in rad.
-pub(crate) fn asin(value: &Value) -> NumberResult {
+pub fn asin(value: &Value) -> NumberResult {
     let bounded = Bounded {
         operation: known::ASIN,
         function: libm::asin,
@@ -122,7 +122,7 @@ pub(crate) fn asin(value: &Value) -> NumberResult {
 }
 
 /// `(acos x)`, in rad.
-pub(crate) fn acos(value: &Value) -> NumberResult {
+pub fn acos(value: &Value) -> NumberResult {
     let bounded = Bounded {
         operation: known::ACOS,
         function: libm::acos,
@@ -164,8 +164,8 @@ pub(crate) fn atanh(value: &Value) -> NumberResult {
 }
 
 /// `(atan y x)`: the angle (rad) of the vector (x, y).
-pub(crate) fn atan2(y: &Value, x: &Value) -> NumberResult {
-    let to = |v: &Value| to_f64(v).ok_or_else(|| crate::lisp::value::number::error::not_real(v));
+pub fn atan2(y: &Value, x: &Value) -> NumberResult {
+    let to = |v: &Value| to_f64(v).ok_or_else(|| crate::value::number::error::not_real(v));
     let angle = libm::atan2(to(y)?, to(x)?);
     finite(angle, is_double(y) || is_double(x), known::ATAN, &[y, x])
 }
@@ -185,7 +185,7 @@ fn natural(value: &Value) -> Option<f64> {
                 return Some(libm::log(as_double));
             }
             let of = |n: &num_bigint::BigInt| {
-                natural(&crate::lisp::value::number::convert::from_big(n.clone()))
+                natural(&crate::value::number::convert::from_big(n.clone()))
             };
             Some(of(&r.numerator)? - of(&r.denominator)?)
         }
@@ -194,7 +194,7 @@ fn natural(value: &Value) -> Option<f64> {
 }
 
 /// `(log x)`; complex for a negative number; zero has none.
-pub(crate) fn log(value: &Value) -> NumberResult {
+pub fn log(value: &Value) -> NumberResult {
     if is_zero(value)? {
         return Err(division_by_zero(known::LOG, &[value]));
     }
@@ -222,7 +222,7 @@ pub(crate) fn log_base(value: &Value, base: &Value) -> NumberResult {
     div(&log(value)?, &log(base)?)
 }
 
-fn natural_checked(value: &Value) -> Result<f64, Box<crate::lisp::value::raise::Raise>> {
+fn natural_checked(value: &Value) -> Result<f64, Box<crate::value::raise::Raise>> {
     log(value)?;
     natural(value).ok_or_else(|| not_a_number(value))
 }

@@ -1,11 +1,11 @@
 //! One kind of fault, and when it strikes.
 
 use super::is_named;
-use crate::world::World;
+use robotics::world::World;
 
 /// What goes wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::session) enum FaultKind {
+pub(crate) enum FaultKind {
     /// A hand loses what it holds in the middle of a motion: the object falls.
     GripperSlip,
     /// The fingers close beside the object.
@@ -28,7 +28,7 @@ pub(in crate::session) enum FaultKind {
 
 impl FaultKind {
     /// All of them.
-    pub(in crate::session) const ALL: [FaultKind; 9] = [
+    pub(crate) const ALL: [FaultKind; 9] = [
         Self::GripperSlip,
         Self::GripperMisses,
         Self::PerceptionMiss,
@@ -41,7 +41,7 @@ impl FaultKind {
     ];
 
     /// Its name in sweeps.
-    pub(in crate::session) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::GripperSlip => "gripper-slip",
             Self::GripperMisses => "gripper-misses",
@@ -58,30 +58,30 @@ impl FaultKind {
 
 /// A fault that may strike.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::session) struct Fault {
+pub(crate) struct Fault {
     /// What goes wrong.
-    pub(in crate::session) kind: FaultKind,
+    pub(crate) kind: FaultKind,
     /// The probability with which it strikes a motion that it could strike.
-    pub(in crate::session) probability: f64,
+    pub(crate) probability: f64,
     /// When (s) after the plan has begun it may strike first; at any time if absent.
-    pub(in crate::session) after: Option<f64>,
+    pub(crate) after: Option<f64>,
     /// The meetings with an object that it strikes, counted from 1, whatever the probability; drawn if
     /// there are none.
-    pub(in crate::session) at: Vec<u64>,
+    pub(crate) at: Vec<u64>,
     /// How long (s): from then on, or else from when it has struck.
-    pub(in crate::session) duration: Option<f64>,
+    pub(crate) duration: Option<f64>,
     /// The object, or the type of objects, that it concerns; any if absent.
-    pub(in crate::session) of: Option<String>,
+    pub(crate) of: Option<String>,
     /// Standard deviation of perceived positions (m).
-    pub(in crate::session) position: f64,
+    pub(crate) position: f64,
     /// Standard deviation of perceived yaw angles (rad).
-    pub(in crate::session) yaw: f64,
+    pub(crate) yaw: f64,
 }
 
 impl Fault {
     /// The fault that records name with that path: `inject.KIND.OBJECT.COUNT`, where it was about an
     /// object, or `inject.KIND.COUNT`. `None` if it is none, or its errors are not in its path.
-    pub(in crate::session) fn of_path(path: &str) -> Option<Self> {
+    pub(crate) fn of_path(path: &str) -> Option<Self> {
         let (kind, rest) = path.strip_prefix("inject.")?.split_once('.')?;
         let kind = FaultKind::ALL.into_iter().find(|k| k.name() == kind)?;
         let (of, count) = match rest.rsplit_once('.') {

@@ -5,13 +5,13 @@ use std::rc::Rc;
 use nalgebra::Vector3;
 
 use super::{Blow, SharedInjection};
-use crate::motion::job::Progress;
-use crate::motion::{Motion, MotionFailure, MotionStatus, PlannedTrajectory, ProcessModule};
-use crate::robot::Side;
-use crate::session::simulation::obstacle::obstacle;
-use crate::spatial::Pose;
-use crate::spatial::pose::from_xy_yaw;
-use crate::world::World;
+use crate::simulation::obstacle::obstacle;
+use robotics::motion::job::Progress;
+use robotics::motion::{Motion, MotionFailure, MotionStatus, PlannedTrajectory, ProcessModule};
+use robotics::robot::Side;
+use robotics::world::World;
+use spatial::Pose;
+use spatial::pose::from_xy_yaw;
 
 /// How far ahead (m) of the base's centre the centre of an obstacle appears.
 const AHEAD: f64 = 0.9;

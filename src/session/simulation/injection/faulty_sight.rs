@@ -3,14 +3,14 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::{Fault, FaultKind, SharedInjection};
-use crate::motion::job::Progress;
-use crate::motion::{
+use robotics::motion::job::Progress;
+use robotics::motion::{
     DetectQuery, DetectedObject, Motion, MotionFailure, MotionOutcome, MotionStatus,
     PlannedTrajectory, ProcessModule,
 };
-use crate::spatial::Pose;
-use crate::sweep::normal_quantile;
-use crate::world::World;
+use robotics::world::World;
+use spatial::Pose;
+use sweep::normal_quantile;
 
 /// A look whose result faults spoil.
 pub(super) struct FaultySight {

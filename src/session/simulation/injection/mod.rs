@@ -15,23 +15,23 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-pub(in crate::session) use fault::{Fault, FaultKind};
+pub(crate) use fault::{Fault, FaultKind};
 use faulty::{Faulty, Strike};
 use faulty_sight::FaultySight;
 
 use super::Simulation;
 use super::motions::sides;
 use super::names::name_text;
-use crate::lisp::image::Image;
-use crate::motion::{Motion, ProcessModule, held_objects};
-use crate::plan::designator::MotionRequest;
-use crate::robot::Side;
-use crate::sweep::Draws;
-use crate::world::World;
+use cram::designator::MotionRequest;
+use lisp::image::Image;
+use robotics::motion::{Motion, ProcessModule, held_objects};
+use robotics::robot::Side;
+use robotics::world::World;
+use sweep::Draws;
 
 /// All faults that may strike, and those that have.
 #[derive(Clone, Default)]
-pub(in crate::session) struct Injection {
+pub(crate) struct Injection {
     faults: Vec<Fault>,
     seed: u64,
     world: u64,
@@ -48,7 +48,7 @@ pub(in crate::session) struct Injection {
 }
 
 /// The faults of a session, shared with the motions that they may strike.
-pub(in crate::session) type SharedInjection = Rc<RefCell<Injection>>;
+pub(crate) type SharedInjection = Rc<RefCell<Injection>>;
 
 /// The numbers with which a fault strikes.
 pub(super) struct Blow {
@@ -59,7 +59,7 @@ pub(super) struct Blow {
 
 impl Injection {
     /// Forgets everything; draws are those of a world.
-    pub(in crate::session) fn begin(&mut self, seed: u64, world: u64, off: BTreeSet<String>) {
+    pub(crate) fn begin(&mut self, seed: u64, world: u64, off: BTreeSet<String>) {
         *self = Self {
             seed,
             world,
@@ -69,17 +69,17 @@ impl Injection {
     }
 
     /// No fault strikes any more.
-    pub(in crate::session) fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         self.faults.clear();
     }
 
     /// A fault may strike from now on.
-    pub(in crate::session) fn add(&mut self, fault: Fault) {
+    pub(crate) fn add(&mut self, fault: Fault) {
         self.faults.push(fault);
     }
 
     /// The paths of faults that have struck, in order.
-    pub(in crate::session) fn struck(&self) -> Vec<String> {
+    pub(crate) fn struck(&self) -> Vec<String> {
         self.struck.clone()
     }
 
@@ -126,7 +126,7 @@ impl Injection {
 
 impl Simulation {
     /// The motion with the faults that strike it.
-    pub(in crate::session) fn with_faults(
+    pub(crate) fn with_faults(
         &mut self,
         image: &Image,
         motion: Box<dyn Motion>,

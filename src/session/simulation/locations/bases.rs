@@ -2,16 +2,16 @@
 
 use super::properties::{raised, values};
 use super::references::References;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::location::{BaseQuery, Distances, Item, Target, What};
-use crate::plan::designator::value::{Designator, as_designator, current};
-use crate::robot::Side;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::motions::sides;
-use crate::session::simulation::names::type_text;
-use crate::spatial::Pose;
+use crate::simulation::Simulation;
+use crate::simulation::motions::sides;
+use crate::simulation::names::type_text;
+use cram::designator::value::{Designator, as_designator, current};
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::location::{BaseQuery, Distances, Item, Target, What};
+use robotics::robot::Side;
+use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

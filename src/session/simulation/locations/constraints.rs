@@ -3,14 +3,14 @@
 use super::bases::distances_of;
 use super::properties::{metres, one_of, raised, values, written};
 use super::references::References;
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::location::{Beside, Constraint, Direction, Relation, Support};
-use crate::plan::designator::value::{Designator, as_designator, current};
-use crate::plan::pose::value::as_placement;
-use crate::session::simulation::Simulation;
-use crate::spatial::Pose;
+use crate::simulation::Simulation;
+use cram::designator::value::{Designator, as_designator, current};
+use cram::pose::value::as_placement;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::location::{Beside, Constraint, Direction, Relation, Support};
+use spatial::Pose;
 
 /// Cosine of the angle to the wanted direction, at least, unless the location says another.
 const THRESHOLD: f64 = 0.2;

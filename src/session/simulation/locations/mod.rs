@@ -11,28 +11,28 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
 use super::Simulation;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
-use crate::location::{
-    Beside, Level, Orientation, PlaceQuery, Position, Query, Scene, Stream, Support,
-};
-use crate::motion::interruption::interruptible;
-use crate::picture::LocationMap;
-use crate::plan::designator::value::{Class, Designator, as_class, current, first};
-use crate::session::LogLevel;
-use crate::world::{BodyName, WorldError};
+use crate::LogLevel;
+use cram::designator::value::{Class, Designator, as_class, current, first};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::foreign::{Foreign, PrintContext};
+use lisp::value::raise::Raise;
+use lisp::value::symbol::Sym;
 use properties::{metres, one_of, raised};
 use references::References;
+use robotics::location::{
+    Beside, Level, Orientation, PlaceQuery, Position, Query, Scene, Stream, Support,
+};
+use robotics::motion::interruption::interruptible;
+use robotics::world::{BodyName, WorldError};
+use view::picture::LocationMap;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The poses of a location, as its designator keeps them.
-pub(in crate::session) struct LocationStream {
-    pub(crate) stream: Rc<RefCell<Stream>>,
+pub(crate) struct LocationStream {
+    pub stream: Rc<RefCell<Stream>>,
     class_symbol: Sym,
 }
 
@@ -80,7 +80,7 @@ impl Foreign for LocationStream {
 
 impl Simulation {
     /// What searches look at.
-    pub(in crate::session) fn location_scene(&self) -> Scene<'_> {
+    pub(crate) fn location_scene(&self) -> Scene<'_> {
         Scene {
             world: &self.world,
             grasps: &self.grasps,
@@ -90,7 +90,7 @@ impl Simulation {
     /// The poses of a location as its chain of designators keeps them, begun if necessary; `None`
     /// if its properties do not describe a place. `references` are what Lisp has worked out: a list
     /// of `(key pose number…)`.
-    pub(in crate::session) fn location_stream(
+    pub(crate) fn location_stream(
         &mut self,
         image: &mut Image,
         location: &Value,
@@ -128,7 +128,7 @@ impl Simulation {
     }
 
     /// Works on the poses of a location; `None` if the user has interrupted it.
-    pub(in crate::session) fn with_stream<T>(
+    pub(crate) fn with_stream<T>(
         &self,
         image: &mut Image,
         memory: &Value,
@@ -150,7 +150,7 @@ impl Simulation {
     }
 
     /// What can be shown of the search for a location, if there is anything.
-    pub(in crate::session) fn location_map_of(
+    pub(crate) fn location_map_of(
         &self,
         image: &mut Image,
         memory: &Value,

@@ -1,14 +1,14 @@
 //! Values of a location's properties, and errors that show them as users write them.
 
-use crate::closest_name::closest_name;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::designator::value::Designator;
-use crate::session::simulation::names::name_text;
-use crate::world::WorldError;
+use crate::simulation::names::name_text;
+use closest_name::closest_name;
+use cram::designator::value::Designator;
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::world::WorldError;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

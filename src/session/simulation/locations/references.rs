@@ -1,13 +1,13 @@
 //! What the Lisp part of a location's description has worked out: the poses of locations that it
 //! refers to, and numbers.
 
-use crate::lisp::image::Image;
-use crate::lisp::value::Value;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
-use crate::plan::pose::value::as_placement;
-use crate::session::simulation::Simulation;
-use crate::spatial::Pose;
+use crate::simulation::Simulation;
+use cram::pose::value::as_placement;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use spatial::Pose;
 
 /// One entry: `(key pose-or-nil number…)`.
 struct Reference {

@@ -1,19 +1,19 @@
 //! Objects and furniture that the properties of a location describe or name.
 
 use super::properties::raised;
-use crate::closest_name::closest_name;
-use crate::lisp::image::Image;
-use crate::lisp::print;
-use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
-use crate::location::{Support, What, link_named};
-use crate::plan::designator::value::{Designator, as_designator, current};
-use crate::robot::LinkId;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, type_text};
-use crate::session::simulation::properties::property;
-use crate::spatial::Pose;
-use crate::world::{Load, WorldError};
+use crate::simulation::Simulation;
+use crate::simulation::names::{name_text, type_text};
+use crate::simulation::properties::property;
+use closest_name::closest_name;
+use cram::designator::value::{Designator, as_designator, current};
+use lisp::image::Image;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::location::{Support, What, link_named};
+use robotics::robot::LinkId;
+use robotics::world::{Load, WorldError};
+use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -29,7 +29,7 @@ impl Simulation {
     }
 
     /// The link of the kitchen that a value describes or names.
-    pub(in crate::session) fn furniture_of(&self, image: &Image, value: &Value) -> Option<LinkId> {
+    pub(crate) fn furniture_of(&self, image: &Image, value: &Value) -> Option<LinkId> {
         let value = current(value);
         let name = match as_designator(&value) {
             Some(_) => {
@@ -41,7 +41,7 @@ impl Simulation {
     }
 
     /// The horizontal edges (m) of an object, a type of objects or furniture.
-    pub(in crate::session) fn size_of(&self, image: &mut Image, value: &Value) -> Option<[f64; 2]> {
+    pub(crate) fn size_of(&self, image: &mut Image, value: &Value) -> Option<[f64; 2]> {
         let value = current(value);
         if let Some(name) = self.named_object(image, &value) {
             let size = self.world.object_extent(&name).ok()?.size();

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::{Context, Interpreter, Result};
-use crate::lisp::print::format::directive::{Directive, Parameter};
-use crate::lisp::print::format::error::Problem;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::print::format::directive::{Directive, Parameter};
+use crate::print::format::error::Problem;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// The widest padding, and the most repetitions of a character.
 pub(super) const MAX_WIDTH: i64 = 1_000_000;

@@ -2,12 +2,12 @@
 
 use super::arguments::Arguments;
 use super::{Context, Flow, Interpreter, Result};
-use crate::lisp::guard::Pace;
-use crate::lisp::print::circle::SharedLabels;
-use crate::lisp::print::format::directive::{Clause, Directive, Piece};
-use crate::lisp::print::format::error::Problem;
-use crate::lisp::value::Value;
-use crate::lisp::value::document::Newline;
+use crate::guard::Pace;
+use crate::print::circle::SharedLabels;
+use crate::print::format::directive::{Clause, Directive, Piece};
+use crate::print::format::error::Problem;
+use crate::value::Value;
+use crate::value::document::Newline;
 
 impl Arguments {
     /// The elements of a list that a logical block prints, which may be dotted or circular.

@@ -2,9 +2,9 @@
 
 use super::arguments::{Arguments, char_of, width_of};
 use super::{Context, Flow, Interpreter, Result};
-use crate::lisp::print::format::directive::{Directive, Piece};
-use crate::lisp::print::format::justify::Justification;
-use crate::lisp::print::format::output::Output;
+use crate::print::format::directive::{Directive, Piece};
+use crate::print::format::justify::Justification;
+use crate::print::format::output::Output;
 
 impl Interpreter<'_> {
     /// Runs pieces into a text of their own.

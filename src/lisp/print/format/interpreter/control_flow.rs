@@ -3,12 +3,12 @@
 
 use super::arguments::{Arguments, Given, list_items, number_of};
 use super::{Context, Flow, Interpreter, Result};
-use crate::lisp::print::format::Control;
-use crate::lisp::print::format::directive::{Clause, Directive, Piece};
-use crate::lisp::print::format::error::Problem;
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::print::format::Control;
+use crate::print::format::directive::{Clause, Directive, Piece};
+use crate::print::format::error::Problem;
+use crate::value::Value;
+use crate::value::known;
+use crate::value::raise::Raise;
 
 /// The deepest nesting of controls that `~?` and `~{~}` run.
 const MAX_NESTED_CONTROLS: usize = 50;

@@ -4,15 +4,15 @@ use num_bigint::BigInt;
 
 use super::arguments::{Arguments, Given, MAX_WIDTH, char_of, number_of, width_of};
 use super::{Context, Interpreter, Result};
-use crate::lisp::print::format::directive::Directive;
-use crate::lisp::print::format::english;
-use crate::lisp::print::format::error::Problem;
-use crate::lisp::print::format::float::{self, FloatStyle};
-use crate::lisp::print::format::integer::{IntegerStyle, integer};
-use crate::lisp::value::Value;
-use crate::lisp::value::known;
-use crate::lisp::value::number;
-use crate::lisp::value::raise::Raise;
+use crate::print::format::directive::Directive;
+use crate::print::format::english;
+use crate::print::format::error::Problem;
+use crate::print::format::float::{self, FloatStyle};
+use crate::print::format::integer::{IntegerStyle, integer};
+use crate::value::Value;
+use crate::value::known;
+use crate::value::number;
+use crate::value::raise::Raise;
 
 impl Interpreter<'_> {
     pub(super) fn integer(

@@ -1,0 +1,139 @@
+//! Checks designators as written: unknown types, keys that a type does not take. Mistakes become
+//! compiler notes; nothing is refused here, because a program may define types of its own.
+
+use super::schema;
+use super::schema::TypeRow;
+use super::value::Class;
+use closest_name::closest_name;
+use lisp::image::Image;
+use lisp::image::notes::NoteKind;
+use lisp::source::Place;
+use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+
+/// Notes the mistakes in the properties of a designator of a class.
+pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value], place: Place) {
+    let written: Vec<(String, Value)> = properties
+        .iter()
+        .filter_map(|property| named(image, property))
+        .collect();
+    // What a template splices in is unknown.
+    let is_whole = written.len() == properties.len();
+    let mut mistakes = match class {
+        Class::Action | Class::Motion if is_whole => of_type(image, class, &written),
+        Class::Location => misspelt_keys(&written),
+        _ => Vec::new(),
+    };
+    mistakes.extend(written.iter().filter_map(|(key, value)| {
+        let text = not_evaluated(image, key, value)?;
+        Some((key.clone(), text))
+    }));
+    for (name, text) in mistakes {
+        image.note(place, || NoteKind::Mistake { name, text });
+    }
+}
+
+/// Key and value of a property, also inside `(when condition (key value))`.
+fn named(image: &Image, property: &Value) -> Option<(String, Value)> {
+    let head = property.car_or_nil();
+    if head.as_symbol() == Some(known::WHEN) {
+        let inner = property.cdr_or_nil().cdr_or_nil().car_or_nil();
+        let key = inner.car_or_nil().as_symbol()?;
+        return Some((name(image, key), inner.cdr_or_nil().car_or_nil()));
+    }
+    let key = head.as_symbol()?;
+    Some((name(image, key), property.cdr_or_nil().car_or_nil()))
+}
+
+fn name(image: &Image, sym: Sym) -> String {
+    image.name(sym).to_uppercase()
+}
+
+fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
+    let kind = class.name().to_lowercase();
+    let given = written.iter().find(|(key, _)| key == "TYPE");
+    let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
+        return Vec::new();
+    };
+    let rows = schema::rows(image, class, &given);
+    if rows.is_empty() {
+        let near = schema::nearest_type(image, class, &given);
+        let text = asking(
+            format!("There is no {kind} of type {given}"),
+            near.as_deref(),
+        );
+        return vec![(given, text)];
+    }
+    let is_known = |key: &str| {
+        schema::COMMON_KEYS.contains(&key) || rows.iter().any(|row| row.key(key).is_some())
+    };
+    let mut mistakes: Vec<(String, String)> = written
+        .iter()
+        .filter(|(key, _)| !is_known(key))
+        .map(|(key, _)| {
+            let near = closest_name(key, rows.iter().flat_map(|row| row.key_names()));
+            let text = format!("The {kind} {given} has no key {key}");
+            (key.clone(), asking(text, near))
+        })
+        .collect();
+    let lacking = |row: &TypeRow| row.lacking(|name| written.iter().any(|(key, _)| key == name));
+    if mistakes.is_empty()
+        && rows.iter().all(|row| lacking(row).is_some())
+        && let Some(needed) = rows.first().and_then(|row| lacking(row))
+    {
+        let text = format!("The {kind} {given} needs {needed}.");
+        mistakes.push((class.name().to_owned(), text));
+    }
+    mistakes
+}
+
+/// Keys of a location that nearly are known ones. Others may be those of a user's generators.
+fn misspelt_keys(written: &[(String, Value)]) -> Vec<(String, String)> {
+    let names = || schema::LOCATION_KEYS.iter().map(|key| &*key.name);
+    let unknown = written.iter().filter(|(key, _)| {
+        !schema::COMMON_KEYS.contains(&key.as_str()) && !names().any(|name| name == key)
+    });
+    unknown
+        .filter_map(|(key, _)| {
+            let near = closest_name(key, names())?;
+            let text = asking(format!("A location has no key {key}"), Some(near));
+            Some((key.clone(), text))
+        })
+        .collect()
+}
+
+/// The name that a plain symbol stands for, unless it is a `?variable` or a global.
+fn literal_name(image: &Image, value: &Value) -> Option<String> {
+    let sym = value.as_symbol()?;
+    if image.is_keyword(sym) {
+        return Some(image.name(sym).to_owned());
+    }
+    let data = image.symbol(sym);
+    let is_global = !data.value.is_unbound() || data.kind != VariableKind::Lexical;
+    (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
+}
+
+/// Why a value is not evaluated as it may seem: it is quoted, or looks like a call.
+fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<String> {
+    let head = value.as_cons()?.car().as_symbol()?;
+    let key = key.to_lowercase();
+    let remedy = format!("bind a variable such as ?{key} and write ({key} ?{key}).");
+    if matches!(head, known::QUOTE | known::FUNCTION) {
+        return Some(format!("Nothing is quoted inside a designator: {remedy}"));
+    }
+    let is_function = matches!(image.symbol(head).function, FunctionCell::Function(_));
+    let is_nested = matches!(image.name(head), "A" | "AN" | "ALL" | "SOME" | "THE");
+    (is_function && !is_nested).then(|| {
+        let name = image.name(head).to_lowercase();
+        format!("({name} …) is not called inside a designator: {remedy}")
+    })
+}
+
+/// A finding, with the name that was probably meant.
+fn asking(text: String, near: Option<&str>) -> String {
+    match near {
+        Some(near) => format!("{text}; did you mean {near}?"),
+        None => format!("{text}."),
+    }
+}

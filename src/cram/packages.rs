@@ -1,0 +1,318 @@
+//! The packages used in plans, with their nicknames and exported symbols.
+//!
+//! The table exports symbols that are not functions, variables or classes: functors, hooks for
+//! rules, what the built-in plans define. Tables of builtins export their own names. A package that
+//! exists already gets the missing nicknames, uses and exports.
+
+use lisp::image::Image;
+use lisp::value::package::{PackageId, PackageTable};
+use lisp::value::symbol::Sym;
+
+/// One package.
+pub struct PackageRow {
+    /// The name.
+    pub name: &'static str,
+    /// Other names.
+    pub nicknames: &'static [&'static str],
+    /// Packages whose exported symbols are inherited.
+    pub uses: &'static [&'static str],
+    /// Symbols made and exported, separated by blanks.
+    pub exports: &'static str,
+}
+
+const fn row(
+    name: &'static str,
+    nicknames: &'static [&'static str],
+    exports: &'static str,
+) -> PackageRow {
+    PackageRow {
+        name,
+        nicknames,
+        uses: &["COMMON-LISP"],
+        exports,
+    }
+}
+
+/// All packages for plans, except those of the plan language itself and of its failures.
+pub static PACKAGES: &[PackageRow] = &[
+    row("CRAM-UTILITIES", &["CUT"], "?_ !?_"),
+    // Functors are recognised by name in any package; these are those that CRAM exports.
+    row(
+        "CRAM-PROLOG",
+        &["PROLOG"],
+        "LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL \
+         FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND CUT CALL GENERATE-VALUES INSTANCE-OF \
+         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <-",
+    ),
+    row(
+        "CRAM-DESIGNATORS",
+        &["DESIG"],
+        "ACTION-GROUNDING MOTION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR DESIGNATOR-ERROR",
+    ),
+    row(
+        "CRAM-DESIGNATOR-SPECIFICATION",
+        &["SPEC"],
+        "PROPERTY PROPERTY-MEMBER",
+    ),
+    row(
+        "CRAM-EXECUTIVE",
+        &["EXE"],
+        "DESIGNATOR-REFERENCE-FAILURE DESIGNATOR-GOAL-PARSING-FAILURE",
+    ),
+    row("CL-TRANSFORMS", &[], ""),
+    row("CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"], ""),
+    row(
+        "CRAM-TF",
+        &[],
+        "*FIXED-FRAME* *ODOM-FRAME* *ROBOT-BASE-FRAME* *ROBOT-TORSO-FRAME* \
+         *ROBOT-LEFT-TOOL-FRAME* *ROBOT-RIGHT-TOOL-FRAME*",
+    ),
+    row(
+        "CRAM-PICK-PLACE-TUTORIAL",
+        &["PP-TUT"],
+        "PARK-ARMS PARK-ARM HANDLE-FAILURE",
+    ),
+    row("CRAM-PR2-PROJECTION", &["PR2-PROJ"], ""),
+    row("CRAM-URDF-PROJECTION", &["URDF-PROJ"], ""),
+    row("CRAM-PR2-PROCESS-MODULES", &["PR2-PMS"], ""),
+    row(
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        &["PP-PLANS"],
+        "PERCEIVE PICK-UP PLACE GO-TO-TARGET LOOK-AT PARK-ARMS",
+    ),
+    row(
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
+        &["PR2-FD-PLANS", "FD-PLANS"],
+        "",
+    ),
+    row(
+        "CRAM-PR2-ENVIRONMENT-MANIPULATION",
+        &["PR2-EM", "ENV-MAN"],
+        "",
+    ),
+    row("CRAM-BULLET-REASONING", &["BTR"], ""),
+    row(
+        "CRAM-BULLET-REASONING-UTILITIES",
+        &["BTR-UTILS"],
+        "VISUALIZE-DESIGNATOR-COSTMAPS",
+    ),
+    row("CRAM-BULLET-REASONING-BELIEF-STATE", &["BTR-BELIEF"], ""),
+    row("CRAM-OBJECT-INTERFACES", &["OBJ-INT"], ""),
+    row(
+        "CRAM-MANIPULATION-INTERFACES",
+        &["MAN-INT"],
+        "ROBOT-FREE-HAND",
+    ),
+    row("CRAM-KNOWROB-PICK-PLACE", &["KR-PP"], ""),
+    row("CRAM-OBJECT-KNOWLEDGE", &["OBJECTS"], ""),
+    row(
+        "CRAM-ROBOT-INTERFACES",
+        &["ROB-INT"],
+        "ROBOT ARM ARMS ROBOT-BASE-FRAME ROBOT-ODOM-FRAME ROBOT-TORSO-LINK-JOINT \
+         ROBOT-TOOL-FRAME END-EFFECTOR-LINK CAMERA-FRAME JOINT-LOWER-LIMIT JOINT-UPPER-LIMIT \
+         ROBOT-JOINT-STATES ENVIRONMENT-NAME",
+    ),
+    // Test the goal of an action, and tell how it stands.
+    row(
+        "CRAM-OCCASIONS-EVENTS",
+        &["COE", "CET"],
+        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF",
+    ),
+    row(
+        "CRAM-PLAN-OCCASIONS-EVENTS",
+        &["CPOE"],
+        "OBJECT-IN-HAND OBJECT-AT-LOCATION OBJECT-PLACED ROBOT-AT-LOCATION TORSO-AT \
+         GRIPPER-JOINT-AT GRIPPER-OPENED GRIPPER-CLOSED ARMS-POSITIONED-AT TOOL-FRAMES-AT \
+         LOOKING-AT \
+         OBJECT-PERCEIVED-EVENT OBJECT-ATTACHED-ROBOT OBJECT-ATTACHED OBJECT-DETACHED-ROBOT \
+         OBJECT-DETACHED OBJECT-LOCATION-CHANGED ROBOT-STATE-CHANGED CONTAINER-STATE \
+         CONTAINER-OPENING-EVENT CONTAINER-CLOSING-EVENT",
+    ),
+    row(
+        "CRAM-PROCESS-MODULES",
+        &["CPM"],
+        "DEF-PROCESS-MODULE PM-EXECUTE PM-EXECUTE-MATCHING WITH-PROCESS-MODULES-RUNNING \
+         MATCHING-PROCESS-MODULE AVAILABLE-PROCESS-MODULE PROJECTION-RUNNING",
+    ),
+    row("CRAM-PROJECTION", &["PROJ"], ""),
+    row("SWANK", &[], ""),
+    row(
+        "CRAM-LOCATION-COSTMAP",
+        &["COSTMAP", "LOCATION-COSTMAP"],
+        "COSTMAP-IN-REACH-DISTANCE COSTMAP-REACH-MINIMAL-DISTANCE VISIBILITY-COSTMAP-SIZE",
+    ),
+    row("ROSLISP", &[], "ROS-INFO ROS-WARN ROS-ERROR ROS-DEBUG"),
+    row("ROSLISP-UTILITIES", &[], ""),
+    row("ROS-LOAD", &["ROS-LOAD-MANIFEST"], ""),
+    row("ASDF", &[], "*CENTRAL-REGISTRY*"),
+    // What the symbols in descriptions of systems belong to.
+    row("ASDF-USER", &[], ""),
+    row("NET.DIDIERVERNA.ASDF-FLV", &["ASDF-FLV"], ""),
+    row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], ""),
+    row("SWANK", &[], ""),
+    row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
+    row("CRAM-BEGINNER-TUTORIAL", &[], ""),
+    row(
+        "PLANWRIGHT",
+        &["PW"],
+        "VISUALIZE-COSTMAP WITH-NOISE DEFSWEEP SWEEP SWEEP-WORLD RUN-SWEEP-WORLD INJECTED-FAULTS ON-SURFACE-P UPRIGHT-P \
+         ARMS-PARKED-P NOTHING-ON-FLOOR-P NO-PENETRATION-P \
+         WITH-INJECTED-FAILURES",
+    ),
+];
+
+/// Packages that inherit from packages other than `COMMON-LISP`.
+const USES: &[(&str, &[&str])] = &[
+    (
+        "CRAM-PICK-PLACE-TUTORIAL",
+        &["CRAM-PROLOG", "CRAM-COMMON-FAILURES", "PLANWRIGHT"],
+    ),
+    ("COMMON-LISP-USER", &["PLANWRIGHT"]),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
+    ("CRAM-PR2-FETCH-DELIVER-PLANS", &["CRAM-COMMON-FAILURES"]),
+    ("CRAM-OCCASIONS-EVENTS", &["CRAM-PROLOG"]),
+    ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
+];
+
+/// Symbols of one package that another one imports, and exports if the flag is true.
+const IMPORTS: &[(&str, &str, &str, bool)] = &[
+    (
+        "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-DESIGNATORS",
+        "A AN ALL EQUATE DESIG-PROP-VALUE REFERENCE CURRENT-DESIG MAKE-DESIGNATOR NEXT-SOLUTION",
+        false,
+    ),
+    ("PLANWRIGHT", "CRAM-DESIGNATORS", "DEF-ACTION", true),
+    // What sweeps, which are written in Lisp, ask of the session.
+    (
+        "PLANWRIGHT",
+        "PLAN-SYSTEM",
+        "%SWEEP-BEGIN %SWEEP-RUN-BEGINS %SWEEP-RUN-ENDS %INJECT %INJECT-SCHEDULE %END-FAULTS %INJECTED-FAULTS \
+         %BEGIN-FAULTS %SWEEP-RECORD %RESTORE-QUIETLY %MUTE-OUTPUT \
+         %SWEEP-UNIT %SWEEP-OVERRIDE %SWEEP-SET %SWEEP-NOTE %SWEEP-FORGET %NORMAL-DEVIATE \
+         %SWEEP-KNOWN %TYPE-OF-OBJECT \
+         %SWEEP-SUMMARY %SURFACE-POINT %PLACE-ON-SURFACE %PLACE-ON-FLOOR %SETTLE-WORLD \
+         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P",
+        false,
+    ),
+    (
+        "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        "CRAM-DESIGNATORS",
+        "A AN ALL DEF-ACTION DESIG-PROP-VALUE CURRENT-DESIG",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
+        "CRAM-DESIGNATORS",
+        "A AN ALL DEF-ACTION DESIG-PROP-VALUE CURRENT-DESIG",
+        false,
+    ),
+    (
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-PR2-PROJECTION",
+        "WITH-SIMULATED-ROBOT WITH-PROJECTED-ROBOT",
+        false,
+    ),
+    (
+        "CRAM-URDF-PROJECTION",
+        "CRAM-PR2-PROJECTION",
+        "WITH-SIMULATED-ROBOT WITH-PROJECTED-ROBOT",
+        true,
+    ),
+    ("CRAM-DESIGNATORS", "COMMON-LISP", "WHEN THE SOME", true),
+    (
+        "CRAM-DESIGNATORS",
+        "CRAM-DESIGNATOR-SPECIFICATION",
+        "PROPERTY",
+        false,
+    ),
+    ("CRAM-PROLOG", "COMMON-LISP", "AND OR NOT", false),
+    (
+        "CRAM-MANIPULATION-INTERFACES",
+        "CRAM-OBJECT-INTERFACES",
+        "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
+        true,
+    ),
+];
+
+/// The package with that name, made if necessary, with the nicknames.
+pub(crate) fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
+    let id = match image.packages.find(name) {
+        Some(id) => id,
+        // The name is free, so `make` fails only if there are 65536 packages.
+        None => image.packages.make(name, &[]).unwrap_or(PackageTable::USER),
+    };
+    for nickname in nicknames {
+        image.packages.add_nickname(id, nickname);
+    }
+    id
+}
+
+/// The exported symbol of a package; package and symbol are made if necessary.
+pub fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
+    let id = ensure(image, package, &[]);
+    image.export_symbol(id, name)
+}
+
+/// Gives a symbol without a name a name and a home package, from which it is exported.
+pub(crate) fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name: &str) {
+    let data = image.symbols.get_mut(sym);
+    data.name = name.into();
+    data.package = Some(package);
+    image.packages.export(&mut image.symbols, package, sym);
+}
+
+/// Makes all packages of the table, with their symbols.
+pub fn install(image: &mut Image) {
+    for row in PACKAGES {
+        let id = ensure(image, row.name, row.nicknames);
+        use_packages(image, id, row.uses);
+    }
+    for (package, from, names, exported) in IMPORTS {
+        let (id, from) = (ensure(image, package, &[]), ensure(image, from, &[]));
+        for name in names.split_whitespace() {
+            let sym = image.export_symbol(from, name);
+            image.packages.import(&mut image.symbols, id, sym);
+            if *exported {
+                image.packages.export(&mut image.symbols, id, sym);
+            }
+        }
+    }
+    for row in PACKAGES {
+        let id = ensure(image, row.name, &[]);
+        for name in row.exports.split_whitespace() {
+            image.export_symbol(id, name);
+        }
+    }
+    for (package, used) in USES {
+        let id = ensure(image, package, &[]);
+        use_packages(image, id, used);
+    }
+}
+
+/// Makes a package inherit from those of the named packages that exist.
+fn use_packages(image: &mut Image, id: PackageId, names: &[&str]) {
+    for name in names {
+        if let Some(used) = image.packages.find(name) {
+            image.packages.use_package(id, used);
+        }
+    }
+}

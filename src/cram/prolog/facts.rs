@@ -1,0 +1,270 @@
+//! Fact groups: rules by the symbol that begins their heads.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use indexmap::IndexMap;
+
+use super::functor::Functor;
+use crate::packages;
+use closest_name::closest_name;
+use lisp::builtin::{Builtin, Operator};
+use lisp::image::Image;
+use lisp::image::extension::Extension;
+use lisp::print;
+use lisp::value::Value;
+use lisp::value::copy::{Copied, Copier};
+use lisp::value::known;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::Sym;
+use lisp::{builtin, builtins};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// `(<- head goal…)`: the head holds if the goals do.
+#[derive(Clone)]
+pub(crate) struct Clause {
+    /// The head: a list, or just a symbol.
+    pub head: Value,
+    /// The list of goals.
+    pub body: Value,
+}
+
+/// All fact groups of an image, and the functors that need none.
+#[derive(Default)]
+pub struct Facts {
+    groups: RefCell<IndexMap<Sym, Vec<(Sym, Clause)>>>,
+    handlers: RefCell<IndexMap<Sym, Value>>,
+    functors: RefCell<IndexMap<&'static str, &'static Functor>>,
+}
+
+impl Facts {
+    /// The clauses of a functor, in order of definition.
+    pub(crate) fn clauses(&self, functor: Sym) -> Vec<Clause> {
+        self.groups
+            .borrow()
+            .values()
+            .flatten()
+            .filter(|(name, _)| *name == functor)
+            .map(|(_, clause)| clause.clone())
+            .collect()
+    }
+
+    /// The function of `def-prolog-handler` for a functor.
+    pub fn handler(&self, functor: Sym) -> Option<Value> {
+        self.handlers.borrow().get(&functor).cloned()
+    }
+
+    /// The functor with that name that is implemented in Rust.
+    pub fn functor(&self, name: &str) -> Option<&'static Functor> {
+        self.functors.borrow().get(name).copied()
+    }
+
+    /// All functors that are implemented in Rust.
+    pub fn functors(&self) -> Vec<&'static Functor> {
+        self.functors.borrow().values().copied().collect()
+    }
+
+    /// The functor whose name is nearest to a mistyped one.
+    pub fn closest(&self, image: &Image, wanted: &str) -> Option<String> {
+        let groups = self.groups.borrow();
+        let handlers = self.handlers.borrow();
+        let functors = self.functors.borrow();
+        let defined = groups.values().flatten().map(|(name, _)| *name);
+        let defined = defined.chain(handlers.keys().copied());
+        let names = defined
+            .map(|name| image.name(name))
+            .chain(functors.keys().copied());
+        closest_name(wanted, names).map(str::to_owned)
+    }
+
+    /// Whether any fact group has a clause for the functor.
+    pub fn knows(&self, functor: Sym) -> bool {
+        let groups = self.groups.borrow();
+        groups.values().flatten().any(|(name, _)| *name == functor)
+    }
+}
+
+impl Copied for Clause {
+    fn copied(&self, copier: &mut Copier) -> Clause {
+        Clause {
+            head: copier.value(&self.head),
+            body: copier.value(&self.body),
+        }
+    }
+}
+
+impl Extension for Facts {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        let groups = self.groups.borrow();
+        let groups = groups.iter().map(|(name, clauses)| {
+            let clauses = clauses.iter();
+            let clauses = clauses.map(|(functor, clause)| (*functor, clause.copied(copier)));
+            (*name, clauses.collect())
+        });
+        let groups = groups.collect();
+        let handlers = self.handlers.borrow();
+        let handlers = handlers.iter();
+        let handlers = handlers.map(|(name, handler)| (*name, copier.value(handler)));
+        Rc::new(Facts {
+            groups: RefCell::new(groups),
+            handlers: RefCell::new(handlers.collect()),
+            functors: self.functors.clone(),
+        })
+    }
+}
+
+/// Installs an empty collection of facts in an image.
+pub fn install(image: &mut Image) {
+    image.extend(Facts::default());
+}
+
+/// The facts of an image; empty if it has no Prolog.
+pub fn of(image: &Image) -> Rc<Facts> {
+    image.extension().unwrap_or_default()
+}
+
+/// Adds functors.
+pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
+    let facts = of(image);
+    let mut functors = facts.functors.borrow_mut();
+    functors.extend(table.iter().map(|functor| (functor.name, functor)));
+}
+
+/// Has any fact group a rule about the functor, or is there a handler for it?
+///
+/// `(prolog::functor-defined-p 'no-such-functor)` => `NIL`
+#[builtin]
+fn functor_defined_p(image: &mut Image, functor: &Value) -> bool {
+    let facts = of(image);
+    let is_defined = |s: Sym| facts.knows(s) || facts.handler(s).is_some();
+    functor.as_symbol().is_some_and(is_defined)
+}
+
+/// What DEF-PROLOG-HANDLER expands into.
+#[builtin(_, "name function")]
+fn define_handler(image: &mut Image, name_value: &Value, function: Value) -> Result<Value> {
+    let Some(name) = name_value.as_symbol() else {
+        return Err(Raise::type_error(name_value, known::SYMBOL));
+    };
+    let facts = of(image);
+    facts.handlers.borrow_mut().insert(name, function);
+    Ok(name_value.clone())
+}
+
+/// Macros of package `CRAM-PROLOG`.
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "DEF-FACT-GROUP",
+        lambda_list: "name predicates &body rules",
+        doc: "Defines facts and rules (<- (head …) goal…); a group of the same name is replaced.",
+        examples: &[
+            "(progn (prolog:def-fact-group likings () (prolog:<- (likes robot tea))) (cut:force-ll (prolog:prolog '(likes robot ?what)))) => (((?WHAT . TEA)))",
+        ],
+        expand: Some(def_fact_group),
+    },
+    Operator {
+        name: "DEF-PROLOG-HANDLER",
+        lambda_list: "name lambda-list &body body",
+        doc: "Defines a functor by a function of the bindings and the goal's arguments; it returns a list of lists of bindings.",
+        examples: &[],
+        expand: Some(def_handler),
+    },
+    Operator {
+        name: "<-",
+        lambda_list: "head &rest goals",
+        doc: "A rule of a fact group: the head holds if all goals do.",
+        examples: &[],
+        expand: Some(|_, _| {
+            Err(Raise::program(
+                "<- is a rule of a fact group: write it inside (def-fact-group name () …).",
+            ))
+        }),
+    },
+];
+
+fn def_fact_group(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let name = rest.car_or_nil();
+    let predicates = rest.cdr_or_nil().car_or_nil();
+    if name.as_symbol().is_none() || name.is_nil() || !predicates.is_list() {
+        return Err(Raise::program(
+            "DEF-FACT-GROUP takes a name, a list of exported predicates, and rules: (def-fact-group name (predicate…) (<- (head …) goal…)…).",
+        ));
+    }
+    let rules = rest.cdr_or_nil().cdr_or_nil();
+    for rule in rules.iter_list() {
+        check_rule(image, &rule).map_err(|raise| match &rule {
+            Value::Cons(cons) => raise.at(cons.place()),
+            _ => raise,
+        })?;
+    }
+    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    let function = image.intern(package, "DEFINE-FACT-GROUP");
+    let quote = |value: Value| Value::list([known::QUOTE.into(), value]);
+    Ok(Value::list([function.into(), quote(name), quote(rules)]))
+}
+
+fn def_handler(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let name = rest.car_or_nil();
+    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    let function = image.intern(package, "DEFINE-HANDLER");
+    let quoted = Value::list([known::QUOTE.into(), name.clone()]);
+    let lambda = Value::list_with_tail([known::NAMED_LAMBDA.into(), name], rest.cdr_or_nil());
+    Ok(Value::list([function.into(), quoted, lambda]))
+}
+
+fn is_arrow(image: &Image, head: &Value) -> bool {
+    head.as_symbol().is_some_and(|s| image.name(s) == "<-")
+}
+
+fn check_rule(image: &Image, rule: &Value) -> Result<()> {
+    // A documentation string may be among the rules.
+    if matches!(rule, Value::Str(_)) {
+        return Ok(());
+    }
+    let head = rule.cdr_or_nil().car_or_nil();
+    let functor = match &head {
+        Value::Cons(cons) => cons.car(),
+        other => other.clone(),
+    };
+    let is_rule = is_arrow(image, &rule.car_or_nil())
+        && rule.list_to_vec().is_some()
+        && functor.as_symbol().is_some()
+        && functor.is_true();
+    if is_rule {
+        return Ok(());
+    }
+    Err(Raise::program(format!(
+        "{} is not a rule: (<- (head …) goal…) was expected.",
+        print::to_string(image, rule, true)
+    )))
+}
+
+/// What DEF-FACT-GROUP expands into.
+#[builtin("DEFINE-FACT-GROUP", "name rules")]
+fn define_group(image: &mut Image, name_value: &Value, rules: &Value) -> Result<Value> {
+    let Some(name) = name_value.as_symbol() else {
+        return Err(Raise::type_error(name_value, known::SYMBOL));
+    };
+    let mut clauses = Vec::new();
+    for rule in rules.iter_list() {
+        check_rule(image, &rule)?;
+        let parts = rule.cdr_or_nil();
+        let head = parts.car_or_nil();
+        let functor = match &head {
+            Value::Cons(cons) => cons.car(),
+            other => other.clone(),
+        };
+        if let Some(functor) = functor.as_symbol().filter(|_| functor.is_true()) {
+            let body = parts.cdr_or_nil();
+            clauses.push((functor, Clause { head, body }));
+        }
+    }
+    of(image).groups.borrow_mut().insert(name, clauses);
+    Ok(name_value.clone())
+}
+
+/// Functions of package `CRAM-PROLOG`: those into which its macros expand, and a question.
+pub(crate) static TABLE: &[Builtin] = builtins![functor_defined_p, define_group, define_handler,];

@@ -1,0 +1,9 @@
+//! The plan language without a world.
+
+mod failures;
+mod language;
+mod prompt;
+mod properties;
+mod task_outcomes;
+mod tasks;
+mod waiting_for_fluents;

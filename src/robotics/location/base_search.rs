@@ -1,0 +1,339 @@
+//! The search for base poses from which a target is within reach or in sight.
+
+use std::collections::VecDeque;
+
+use super::base_query::BaseQuery;
+use super::base_walk::Walk;
+use super::costmap::{Costmap, Factor};
+use super::draw::Draw;
+use super::offered::Offered;
+use super::reach::{Goal, NoReach, Reach, imagined};
+use super::sight::hidden;
+use super::stream::Scene;
+use super::tally::Tally;
+use crate::motion::{BaseChecker, Effort, LEAST_MARGIN, interruption};
+use crate::world::{World, WorldError};
+use spatial::{Pose, pose};
+
+/// Edge length (m) of a cell.
+const RESOLUTION: f64 = 0.05;
+/// The most comfortable distance (m) of the base's axis from a target within reach, and its spread.
+const COMFORT: [f64; 2] = [0.65, 0.15];
+/// Variance (m²) of the distance to what is to be seen.
+const SIGHT_VARIANCE: f64 = 0.5;
+/// Distance (m) from where the robot is over which the preference for a place falls to 37 %.
+const NEAR: f64 = 0.8;
+/// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
+const MOST_CHECKS: u32 = 5000;
+/// How many base poses at which something is in the way of a few postures are examined again when all
+/// others have been tried.
+const MOST_AGAIN: usize = 1000;
+/// The search between the base poses of the first lattice ends when so many postures of the arms have
+/// been checked for collisions: most of the time goes there.
+const MOST_POSTURES: u32 = 100_000;
+/// A base pose is no higher (m) than this.
+const FLOOR: f64 = 0.05;
+
+/// The search in one state of the world.
+pub(super) struct BaseSearch {
+    map: Costmap,
+    /// The world as it would be.
+    imagined: World,
+    /// The same, with the robot where it was tested last.
+    looking: World,
+    /// What is to be reached there.
+    goal: Goal,
+    /// Number of base poses for which it was checked in vain whether the target can be reached.
+    checks: u32,
+    /// Number of postures that have been checked between those of the first lattice.
+    postures: u32,
+    walk: Walk,
+    /// Base poses that are to be examined again.
+    again: VecDeque<Pose>,
+    /// Whether all others of the walk have been tried.
+    is_second_look: bool,
+}
+
+/// Why a base pose is no solution.
+struct Rejection {
+    cause: String,
+    /// Whether other postures might do.
+    may_pass: bool,
+}
+
+impl Rejection {
+    fn of(cause: String) -> Self {
+        let may_pass = false;
+        Self { cause, may_pass }
+    }
+}
+
+impl BaseSearch {
+    /// Begins a search, or tells why there is no such place.
+    pub(super) fn new(
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+    ) -> Result<Result<Self, String>, WorldError> {
+        let factors = factors(query, scene.world);
+        let map = match Costmap::product(RESOLUTION, limits(query), &factors) {
+            Ok(map) => map,
+            Err(emptied) => {
+                return Ok(Err(format!(
+                    "{} leave nothing of the floor: 0.00 m².",
+                    emptied.keys.join(" and ")
+                )));
+            }
+        };
+        let imagined = imagined(query, scene)?;
+        Ok(Ok(Self {
+            goal: Goal::new(query, scene, &imagined),
+            looking: imagined.clone(),
+            imagined,
+            checks: 0,
+            postures: 0,
+            walk: Walk::first(query, map.cells.clone(), draw),
+            map,
+            again: VecDeque::new(),
+            is_second_look: false,
+        }))
+    }
+
+    /// The map of where to look.
+    pub(super) fn map(&self) -> &Costmap {
+        &self.map
+    }
+
+    /// The next base pose that has not been offered.
+    pub(super) fn next(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+        offered: &Offered,
+        tally: &mut Tally,
+    ) -> Result<Option<Pose>, WorldError> {
+        let Self {
+            imagined,
+            looking,
+            goal,
+            checks,
+            postures,
+            walk,
+            again,
+            is_second_look,
+            ..
+        } = self;
+        let mut test = Test::new(query, scene, goal, imagined, looking)?;
+        let mut counted = 0;
+        loop {
+            interruption::look();
+            let count = test.reach.postures();
+            if !walk.is_first() {
+                *postures += count - counted;
+            }
+            counted = count;
+            if *postures >= MOST_POSTURES {
+                tally.give_up();
+                return Ok(None);
+            }
+            if *is_second_look {
+                let Some(base) = again.pop_front() else {
+                    let Some(between) = between(query, scene.world, walk, draw) else {
+                        return Ok(None);
+                    };
+                    (*walk, *is_second_look, *checks) = (between, false, 0);
+                    continue;
+                };
+                let is_new = !offered.has(&base);
+                if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
+                    return Ok(Some(base));
+                }
+                continue;
+            }
+            let Some(base) = walk.next(draw) else {
+                *is_second_look = true;
+                continue;
+            };
+            if offered.has(&base) {
+                continue;
+            }
+            match test.run(&base, Effort::QUICK, checks)? {
+                Ok(()) => {
+                    *checks = 0;
+                    return Ok(Some(base));
+                }
+                Err(rejection) => {
+                    if rejection.may_pass && again.len() < MOST_AGAIN {
+                        again.push_back(base);
+                    }
+                    tally.add(rejection.cause);
+                }
+            }
+            if *checks >= MOST_CHECKS {
+                *is_second_look = true;
+                tally.give_up();
+            }
+        }
+    }
+
+    /// Why the pose is no such place, if it is none.
+    pub(super) fn check(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        base: &Pose,
+    ) -> Result<Result<(), String>, WorldError> {
+        let t = base.translation;
+        if t.z.abs() >= FLOOR {
+            return Ok(Err("not on the floor".to_owned()));
+        }
+        let factors = factors(query, scene.world);
+        let missed = factors.iter().find(|f| (f.value)([t.x, t.y]) <= 0.0);
+        if let Some(factor) = missed {
+            return Ok(Err(format!("not {}", factor.key)));
+        }
+        let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
+        let (imagined, looking) = (&self.imagined, &mut self.looking);
+        let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
+        let mut found = test.run(&on_floor, Effort::QUICK, &mut 0)?;
+        if found.as_ref().is_err_and(|rejection| rejection.may_pass) {
+            found = test.run(&on_floor, Effort::PATIENT, &mut 0)?;
+        }
+        Ok(found.map_err(|rejection| rejection.cause))
+    }
+}
+
+/// The exact tests of a base pose, the cheap ones first.
+struct Test<'a> {
+    query: &'a BaseQuery,
+    checker: BaseChecker<'a>,
+    reach: Reach<'a>,
+    looking: &'a mut World,
+}
+
+impl<'a> Test<'a> {
+    fn new(
+        query: &'a BaseQuery,
+        scene: Scene<'a>,
+        goal: &'a Goal,
+        imagined: &'a World,
+        looking: &'a mut World,
+    ) -> Result<Self, WorldError> {
+        Ok(Self {
+            query,
+            checker: BaseChecker::new(scene.world),
+            reach: Reach::new(goal, imagined)?,
+            looking,
+        })
+    }
+
+    /// Why the base pose is no solution, if it is none; counts the checks that take long.
+    fn run(
+        &mut self,
+        base: &Pose,
+        effort: Effort,
+        checks: &mut u32,
+    ) -> Result<Result<(), Rejection>, WorldError> {
+        if let Err(cause) = self.reach.is_near(base) {
+            return Ok(Err(Rejection::of(self.cause(&cause))));
+        }
+        let t = base.translation;
+        let place = [t.x, t.y, pose::yaw(base)];
+        if let Some(hit) = self.checker.blocked(&place, LEAST_MARGIN) {
+            let cause = format!("in collision with {}", hit.other);
+            return Ok(Err(Rejection::of(cause)));
+        }
+        *checks += 1;
+        if let Err(cause) = self.reach.test(base, effort) {
+            return Ok(Err(Rejection {
+                cause: self.cause(&cause),
+                may_pass: cause == NoReach::InTheWay,
+            }));
+        }
+        if self.query.sees {
+            let mut robot = self.looking.robot_configuration().clone();
+            robot.base = *base;
+            self.looking.teleport_robot(&robot);
+            if let Some(cause) = hidden(self.looking, self.query)? {
+                return Ok(Err(Rejection::of(cause)));
+            }
+        }
+        Ok(Ok(()))
+    }
+
+    fn cause(&self, cause: &NoReach) -> String {
+        let name = &self.query.target.name;
+        match cause {
+            NoReach::NoGrasp => format!("without a known grasp of {name}"),
+            NoReach::TooFar => format!("out of reach of {name}"),
+            NoReach::InTheWay => format!("with something in the way to {name}"),
+        }
+    }
+}
+
+/// The part of the floor (m) that is searched.
+fn limits(query: &BaseQuery) -> [[f64; 2]; 2] {
+    let t = query.target.pose.translation;
+    let far = match &query.arms {
+        Some(_) => query.distances.reach[1],
+        None => query.distances.sight,
+    };
+    [[t.x - far, t.y - far], [t.x + far, t.y + far]]
+}
+
+/// The walk between the base poses of the one before, if there is one. There are places where the robot
+/// fits only there; what is to be seen only is seen from much of the floor.
+fn between(query: &BaseQuery, world: &World, before: &Walk, draw: &mut Draw) -> Option<Walk> {
+    query.arms.as_ref()?;
+    let factors = factors(query, world);
+    before.between(draw, |shift| {
+        let map = Costmap::shifted_product(RESOLUTION, shift, limits(query), &factors);
+        map.map_or_else(|_| Vec::new(), |map| map.cells)
+    })
+}
+
+/// The factors of the map.
+fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
+    let t = query.target.pose.translation;
+    let target = [t.x, t.y];
+    let distance = move |[x, y]: [f64; 2]| libm::hypot(x - target[0], y - target[1]);
+    let name = &query.target.name;
+    let mut factors = Vec::new();
+    if query.arms.is_some() {
+        factors.push(Factor {
+            key: format!("within {} m of {name}", query.distances.reach[1]),
+            value: Box::new(move |p| {
+                let [best, spread] = COMFORT;
+                let d = distance(p);
+                let [least, most] = query.distances.reach;
+                let is_in_reach = (least..=most).contains(&d);
+                f64::from(u8::from(is_in_reach)) * gauss(d - best, spread * spread)
+            }),
+        });
+    }
+    if query.sees {
+        factors.push(Factor {
+            key: format!("within {} m of {name}", query.distances.sight),
+            value: Box::new(move |p| {
+                let d = distance(p);
+                f64::from(u8::from(d <= query.distances.sight)) * gauss(d, SIGHT_VARIANCE)
+            }),
+        });
+    }
+    factors.push(Factor {
+        key: "on the map".to_owned(),
+        value: Box::new(move |p| {
+            let [x, y] = query.from;
+            let way = libm::hypot(p[0] - x, p[1] - y);
+            let nearness = libm::exp(-way / NEAR).max(1e-3);
+            f64::from(u8::from(world.models().map.contains(p))) * nearness
+        }),
+    });
+    factors
+}
+
+/// A bell curve with the value 1 at 0 and never quite 0.
+fn gauss(x: f64, variance: f64) -> f64 {
+    libm::exp(-x * x / (2.0 * variance)).max(1e-6)
+}

@@ -1,0 +1,404 @@
+//! Reading a robot description from s-expressions.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+
+use super::description::{Arm, Base, Camera, Gripper, Neck, RobotDescription, Speed, Torso};
+use super::{ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits, LinkId, Side};
+use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
+use closest_name::closest_name;
+
+/// The records of a description, each with its keys.
+const RECORDS: &[(&str, &[&str])] = &[
+    ("robot", &[]),
+    (
+        "base",
+        &[
+            "frame",
+            "body",
+            "drive-velocity",
+            "drive-acceleration",
+            "turn-velocity",
+            "turn-acceleration",
+        ],
+    ),
+    ("torso", &["link", "joint", "start"]),
+    (
+        "neck",
+        &["pan-joint", "pan-link", "tilt-joint", "tilt-link"],
+    ),
+    (
+        "camera",
+        &[
+            "frame",
+            "width",
+            "height",
+            "vertical-view",
+            "near",
+            "far",
+            "visible-share",
+        ],
+    ),
+    (
+        "arm",
+        &[
+            "base",
+            "wrist",
+            "tool",
+            "tool-offset",
+            "tool-axes",
+            "start",
+            "payload",
+            "postures",
+        ],
+    ),
+    (
+        "gripper",
+        &[
+            "palm",
+            "joint",
+            "tip-joint",
+            "pad-face",
+            "joint-per-metre",
+            "effort",
+            "left-finger",
+            "right-finger",
+        ],
+    ),
+    ("default-speed", &["velocity", "acceleration"]),
+    ("speed", &["velocity", "acceleration"]),
+    ("touching", &[]),
+    ("wheels", &[]),
+    ("idle-joints", &[]),
+];
+
+/// Greatest force (N) of fingers whose description does not give it: little, so that nothing is
+/// held here that a robot would drop.
+const UNKNOWN_EFFORT: f64 = 20.0;
+
+impl RobotDescription {
+    /// Reads a description of the robot with that tree; `file_name` is used only in errors.
+    pub fn from_sexp(text: &str, file_name: &str, tree: &KinematicTree) -> Result<Self, DataError> {
+        let file = DataFile::read(text, file_name)?;
+        let mut records = Vec::new();
+        for node in file.nodes() {
+            records.push(node.record("record", RECORDS)?);
+        }
+        let reader = Reader {
+            tree,
+            file: &file,
+            records,
+        };
+        reader.description()
+    }
+}
+
+/// The records of a file, and the tree that they refer to.
+struct Reader<'a> {
+    tree: &'a KinematicTree,
+    file: &'a DataFile,
+    records: Vec<Record<'a>>,
+}
+
+impl<'a> Reader<'a> {
+    fn description(&self) -> Result<RobotDescription, DataError> {
+        let robot = self.single("robot")?;
+        let cameras: Vec<Camera> = self
+            .all("camera")
+            .map(|record| self.camera(record))
+            .collect::<Result<_, _>>()?;
+        if cameras.is_empty() {
+            return Err(self.missing("camera"));
+        }
+        let base = self.base()?;
+        Ok(RobotDescription {
+            name: robot.thing("name")?.symbol()?.to_owned(),
+            torso: self.torso()?,
+            neck: self.neck()?,
+            cameras,
+            arms: [self.arm(Side::Left, &base)?, self.arm(Side::Right, &base)?],
+            base,
+            touching: self.groups("touching")?,
+            wheels: self.groups("wheels")?.concat(),
+            idle_joints: self.idle_joints()?,
+            speeds: self.speeds()?,
+        })
+    }
+
+    fn all(&self, head: &'static str) -> impl Iterator<Item = &Record<'a>> {
+        self.records.iter().filter(move |r| r.head() == head)
+    }
+
+    fn missing(&self, head: &str) -> DataError {
+        self.file.error(DataProblem::MissingRecord(head.to_owned()))
+    }
+
+    fn single(&self, head: &'static str) -> Result<&Record<'a>, DataError> {
+        let mut all = self.all(head);
+        let first = all.next().ok_or_else(|| self.missing(head))?;
+        match all.next() {
+            None => Ok(first),
+            Some(second) => Err(second
+                .node()
+                .error(DataProblem::Repeated(format!("({head} …)")))),
+        }
+    }
+
+    /// The record with that head for one side.
+    fn sided(&self, head: &'static str, side: Side) -> Result<&Record<'a>, DataError> {
+        let mut found = None;
+        for record in self.all(head) {
+            let thing = record.thing("side, left or right")?;
+            let name = thing.symbol()?;
+            let this = Side::named(name).ok_or_else(|| thing.expected("left or right"))?;
+            if this == side && found.replace(record).is_some() {
+                return Err(thing.error(DataProblem::Repeated(format!("({head} {side} …)"))));
+            }
+        }
+        found.ok_or_else(|| self.missing(&format!("{head} {side}")))
+    }
+
+    fn link(&self, node: Node<'_>) -> Result<LinkId, DataError> {
+        let name = node.symbol()?;
+        self.tree.link_named(name).ok_or_else(|| {
+            let names = self.tree.links().map(|(_, l)| l.name.as_str());
+            node.unknown("link", name, closest_name(name, names))
+        })
+    }
+
+    fn links(&self, nodes: &[Node<'_>]) -> Result<Vec<LinkId>, DataError> {
+        nodes.iter().map(|node| self.link(*node)).collect()
+    }
+
+    fn joint(&self, node: Node<'_>) -> Result<JointId, DataError> {
+        let name = node.symbol()?;
+        self.tree.joint_named(name).ok_or_else(|| {
+            let names = self.tree.joints().map(|(_, j)| j.name.as_str());
+            node.unknown("joint", name, closest_name(name, names))
+        })
+    }
+
+    /// A joint with limits, and the limits.
+    fn limited_joint(&self, node: Node<'_>) -> Result<(JointId, Limits), DataError> {
+        let id = self.joint(node)?;
+        let joint = self.tree.joint(id);
+        match joint.limits {
+            Some(limits) if joint.is_actuated() => Ok((id, limits)),
+            _ => Err(node.expected("a joint with limits that follows no other one")),
+        }
+    }
+
+    fn groups(&self, head: &'static str) -> Result<Vec<Vec<LinkId>>, DataError> {
+        self.all(head).map(|r| self.links(r.things())).collect()
+    }
+
+    fn idle_joints(&self) -> Result<Vec<JointId>, DataError> {
+        let nodes = self.all("idle-joints").flat_map(Record::things);
+        nodes.map(|node| self.joint(*node)).collect()
+    }
+
+    fn base(&self) -> Result<Base, DataError> {
+        let record = self.single("base")?;
+        let frame = record.required("frame")?;
+        let base = Base {
+            frame: self.link(frame)?,
+            body: self.link(record.required("body")?)?,
+            drive: speed(record, "drive-velocity", "drive-acceleration")?,
+            turn: speed(record, "turn-velocity", "turn-acceleration")?,
+        };
+        if base.frame != self.tree.root() {
+            let root = &self.tree.link(self.tree.root()).name;
+            return Err(frame.expected(&format!("{root}, the root of the robot")));
+        }
+        Ok(base)
+    }
+
+    fn torso(&self) -> Result<Torso, DataError> {
+        let record = self.single("torso")?;
+        let (joint, limits) = self.limited_joint(record.required("joint")?)?;
+        let start = record.required("start")?;
+        let height = start.number()?;
+        if !limits.contains(height) {
+            let Limits { lower, upper } = limits;
+            return Err(start.expected(&format!("a height from {lower} to {upper}")));
+        }
+        Ok(Torso {
+            link: self.link(record.required("link")?)?,
+            joint,
+            limits,
+            start: height,
+        })
+    }
+
+    fn neck(&self) -> Result<Neck, DataError> {
+        let record = self.single("neck")?;
+        Ok(Neck {
+            pan_joint: self.limited_joint(record.required("pan-joint")?)?.0,
+            pan_link: self.link(record.required("pan-link")?)?,
+            tilt_joint: self.limited_joint(record.required("tilt-joint")?)?.0,
+            tilt_link: self.link(record.required("tilt-link")?)?,
+        })
+    }
+
+    fn camera(&self, record: &Record<'_>) -> Result<Camera, DataError> {
+        let view = record.required("vertical-view")?;
+        let vertical_view = view.positive()?;
+        if vertical_view >= std::f64::consts::PI {
+            return Err(view.expected("an angle below pi"));
+        }
+        let far = record.required("far")?;
+        let camera = Camera {
+            name: record.thing("name")?.symbol()?.to_owned(),
+            frame: self.link(record.required("frame")?)?,
+            width: record.required("width")?.count()?,
+            height: record.required("height")?.count()?,
+            vertical_view,
+            near: record.required("near")?.positive()?,
+            far: far.positive()?,
+            visible_share: record.required("visible-share")?.positive()?,
+        };
+        if camera.far <= camera.near {
+            return Err(far.expected("a distance above :near"));
+        }
+        Ok(camera)
+    }
+
+    fn arm(&self, side: Side, base: &Base) -> Result<Arm, DataError> {
+        let record = self.sided("arm", side)?;
+        let arm_base = record.required("base")?;
+        let wrist = record.required("wrist")?;
+        let (base_link, wrist_link) = (self.link(arm_base)?, self.link(wrist)?);
+        if !self.tree.carries(base.frame, base_link) {
+            return Err(arm_base.expected("a link that hangs on the base"));
+        }
+        let kinematics = ArmKinematics::new(self.tree, base_link, wrist_link)
+            .map_err(|e| wrist.error(DataProblem::Invalid(e.to_string())))?;
+        let postures = self.postures(record.required("postures")?, kinematics.joints())?;
+        let start = record.required("start")?;
+        let start_name = start.symbol()?;
+        let start = postures.iter().find(|(name, _)| name == start_name);
+        let (_, start) = start.ok_or_else(|| {
+            let names = postures.iter().map(|(name, _)| name.as_str());
+            let closest = closest_name(start_name, names);
+            record.node().unknown("posture", start_name, closest)
+        })?;
+        Ok(Arm {
+            side,
+            base: base_link,
+            wrist: wrist_link,
+            tool: self.link(record.required("tool")?)?,
+            tool_offset: record.required("tool-offset")?.number()?,
+            tool_axes: rotation(record.required("tool-axes")?)?,
+            start: *start,
+            payload: optional_positive(record, "payload")?,
+            kinematics,
+            postures,
+            gripper: self.gripper(side)?,
+        })
+    }
+
+    /// Postures within the hard limits of the joints.
+    fn postures(
+        &self,
+        node: Node<'_>,
+        joints: &[JointId; 7],
+    ) -> Result<Vec<(String, ArmPositions)>, DataError> {
+        let mut postures = Vec::new();
+        for posture in node.list()? {
+            let items = posture.list()?;
+            let name = posture.head()?;
+            let numbers = items.iter().skip(1).map(Node::number);
+            let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+            let positions = ArmPositions::try_from(numbers.as_slice())
+                .map_err(|_| posture.expected("a name and seven joint positions"))?;
+            for (i, (joint, position)) in joints.iter().zip(positions).enumerate() {
+                let joint = self.tree.joint(*joint);
+                if let Some(limits) = joint.limits.filter(|l| !l.contains(position)) {
+                    let Limits { lower, upper } = limits;
+                    let wanted = format!("a position of {} from {lower} to {upper}", joint.name);
+                    // One item per position, after the name.
+                    let item = items.get(i + 1).unwrap_or(&posture);
+                    return Err(item.expected(&wanted));
+                }
+            }
+            postures.push((name.to_owned(), positions));
+        }
+        Ok(postures)
+    }
+
+    fn gripper(&self, side: Side) -> Result<Gripper, DataError> {
+        let record = self.sided("gripper", side)?;
+        let (joint, limits) = self.limited_joint(record.required("joint")?)?;
+        let tip = self.joint(record.required("tip-joint")?)?;
+        let tip = self.tree.joint(tip).origin.translation.vector;
+        let finger = self.tree.joint(joint).origin.translation.vector;
+        Ok(Gripper {
+            palm: self.link(record.required("palm")?)?,
+            joint,
+            limits,
+            fingers: [
+                self.links(&record.required("left-finger")?.list()?)?,
+                self.links(&record.required("right-finger")?.list()?)?,
+            ],
+            joint_per_metre: record.required("joint-per-metre")?.positive()?,
+            effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
+            tip: [tip.x, tip.y.abs()],
+            pad: finger.y.abs() - record.required("pad-face")?.number()?,
+        })
+    }
+
+    /// The speed of every joint: its own, or the default within what the URDF allows.
+    fn speeds(&self) -> Result<Vec<Speed>, DataError> {
+        let default = speed(self.single("default-speed")?, "velocity", "acceleration")?;
+        let mut speeds: Vec<Speed> = self
+            .tree
+            .joints()
+            .map(|(_, joint)| {
+                let limit = joint.max_velocity.unwrap_or(default.velocity);
+                Speed {
+                    velocity: default.velocity.min(limit),
+                    ..default
+                }
+            })
+            .collect();
+        for record in self.all("speed") {
+            let node = record.thing("joint")?;
+            let joint = self.joint(node)?;
+            if self.tree.joint(joint).kind == JointKind::Fixed {
+                return Err(node.expected("a joint that moves"));
+            }
+            if let Some(own) = speeds.get_mut(joint.index()) {
+                *own = speed(record, "velocity", "acceleration")?;
+            }
+        }
+        Ok(speeds)
+    }
+}
+
+fn optional_positive(record: &Record<'_>, key: &str) -> Result<Option<f64>, DataError> {
+    record.optional(key).map(|node| node.positive()).transpose()
+}
+
+fn speed(record: &Record<'_>, velocity: &str, acceleration: &str) -> Result<Speed, DataError> {
+    Ok(Speed {
+        velocity: record.required(velocity)?.positive()?,
+        acceleration: record.required(acceleration)?.positive()?,
+    })
+}
+
+/// A rotation, given as the rows of its matrix.
+fn rotation(node: Node<'_>) -> Result<UnitQuaternion<f64>, DataError> {
+    let wrong = || node.expected("the three rows of a rotation matrix");
+    let rows = node.list().map_err(|_| wrong())?;
+    let rows: Vec<[f64; 3]> = rows
+        .iter()
+        .map(Node::numbers::<3>)
+        .collect::<Result<_, _>>()?;
+    let [a, b, c] = <[[f64; 3]; 3]>::try_from(rows).map_err(|_| wrong())?;
+    let matrix = Matrix3::from([a, b, c]).transpose();
+    let error = (matrix * matrix.transpose() - Matrix3::identity()).norm();
+    if error > 1e-6 || matrix.determinant() < 0.0 {
+        return Err(wrong());
+    }
+    let rotation = Rotation3::from_matrix_unchecked(matrix);
+    Ok(UnitQuaternion::from_rotation_matrix(&rotation))
+}

@@ -1,0 +1,36 @@
+//! The robot's body: links and joints read from a URDF, the poses of all links for given
+//! joint positions, and the joint positions that bring a hand to a given pose.
+//!
+//! The same kinematic tree also describes the furniture. Nothing here knows of
+//! time, physics or the plan language; poses are those of [`spatial`].
+
+pub(crate) mod arm_chain;
+pub(crate) mod arm_kinematics;
+pub mod description;
+mod description_file;
+mod elbow_curve;
+pub mod fit;
+pub mod ids;
+mod joint_positions;
+mod polynomial;
+mod side;
+pub mod torso_search;
+pub mod tree;
+pub mod unreachable;
+pub mod urdf;
+mod urdf_elements;
+pub(crate) mod urdf_error;
+mod urdf_schema;
+mod xml_elements;
+
+pub(crate) use arm_chain::ARM_JOINTS;
+pub use arm_chain::ArmPositions;
+pub use arm_kinematics::ArmKinematics;
+pub use description::RobotDescription;
+pub use fit::MissingNames;
+pub use ids::{JointId, LinkId};
+pub use joint_positions::JointPositions;
+pub use side::Side;
+pub use tree::{Joint, JointKind, KinematicTree, Limits, Link};
+pub use unreachable::{LimitViolation, Unreachable};
+pub use urdf_error::UrdfError;

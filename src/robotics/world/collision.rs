@@ -1,0 +1,496 @@
+//! Collision queries for any configuration of the robot.
+//!
+//! A query reads the world without changing it, and does not depend on where the robot is:
+//! the configuration to check is passed in. Attached objects move with the link that holds
+//! them. The pairs checked are robot or held object against furniture, floor and objects,
+//! and the robot against itself; furniture is never checked against furniture.
+//!
+//! Castors are never checked against the floor, on which they roll. Links that are
+//! neighbours or always overlap are left out, as given by the robot's description. Queries
+//! may require a gap. Between parts of the robot at most 5 mm is required, and between the
+//! floor and anything but the arms and what they hold none: the robot's build determines
+//! these gaps.
+
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+use super::allowed_pairs::AllowedPairs;
+use super::body_name::BodyName;
+use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted, in_order};
+use super::link_pairs::LinkPairs;
+use super::moving_parts::{MovingParts, Pairs};
+use super::part_key::{PartKey, index};
+use super::robot_configuration::RobotConfiguration;
+use super::solid::from_parry_vector;
+use spatial::Pose;
+
+/// Two bodies that are closer together than a query allows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CollisionHit {
+    /// The robot's link, or the object that the robot holds.
+    pub moving: BodyName,
+    /// The other body.
+    pub other: BodyName,
+    /// How far the two overlap (m); negative for a gap smaller than required.
+    pub depth: f64,
+    /// A point of the overlap, or between the two, in the map frame (m).
+    pub point: Point3<f64>,
+}
+
+/// The two bodies that are closest to each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearance {
+    /// The robot's link, or the object that the robot holds.
+    pub moving: BodyName,
+    /// The other body.
+    pub other: BodyName,
+    /// The gap between the two (m); negative when they overlap.
+    pub distance: f64,
+}
+
+/// Checks configurations of the robot in one state of the world.
+///
+/// Creating one takes a few microseconds, as does a query: keep it for a whole search.
+pub struct CollisionChecker<'w> {
+    surroundings: Surroundings<'w>,
+    /// The configuration in which a query was made last, and the poses of the links in it.
+    last: Option<RobotConfiguration>,
+    poses: Vec<Pose>,
+    moved: Vec<bool>,
+    /// Whether the coming search is for `last`, and `moved` says what has moved before it.
+    is_update: bool,
+    scratch: Scratch,
+    moving: Option<MovingParts>,
+    /// The pairs of solid links that move relative to each other, once they have been listed.
+    changing: Option<LinkPairs>,
+    pairs: Pairs,
+    /// The pairs of bodies that a query is about, if not all.
+    only: Option<Keys>,
+    /// The keys of pairs that were passed in.
+    known: Vec<(AllowedPairs, Keys)>,
+}
+
+/// Pairs of bodies, each in order, sorted.
+type Keys = Rc<[(PartKey, PartKey)]>;
+
+/// How many lists of pairs are remembered by a checker: callers use the same few again and again.
+const MOST_KNOWN: usize = 4;
+
+impl<'w> CollisionChecker<'w> {
+    pub fn new(surroundings: Surroundings<'w>) -> Self {
+        Self {
+            surroundings,
+            last: None,
+            poses: Vec::new(),
+            moved: Vec::new(),
+            is_update: false,
+            scratch: Scratch::default(),
+            moving: None,
+            changing: None,
+            pairs: Pairs::All,
+            only: None,
+            known: Vec::new(),
+        }
+    }
+
+    /// A checker that knows where the links are in a configuration.
+    pub(crate) fn knowing(mut self, robot: &RobotConfiguration, link_poses: &[Pose]) -> Self {
+        self.last = Some(robot.clone());
+        self.poses = link_poses.to_vec();
+        self
+    }
+
+    /// As [`Self::expect`], for a single query, which the preparation for many is not worth.
+    pub(crate) fn expect_once(&mut self, moving: MovingParts, pairs: Pairs) {
+        self.changing = None;
+        self.moving = Some(moving);
+        self.pairs = pairs;
+    }
+
+    /// Says what moves between the configurations that are queried from now on, and which pairs
+    /// the queries are about.
+    pub fn expect(&mut self, moving: MovingParts, pairs: Pairs) {
+        let models = self.surroundings.models;
+        let links = &models.robot_geometry.solid_links;
+        let all = &models.self_pairs;
+        // The pairs are indices of this list.
+        let changing = all.filtered(|a, b| moving.part(links[a].link, links[b].link));
+        self.changing = Some(changing);
+        self.moving = Some(moving);
+        self.pairs = pairs;
+    }
+
+    /// Which pairs queries are about from now on; the value is what they were about.
+    pub(crate) fn look_at(&mut self, pairs: Pairs) -> Pairs {
+        std::mem::replace(&mut self.pairs, pairs)
+    }
+
+    /// Whether no pairs but the allowed ones are closer than `margin` (m).
+    ///
+    /// With a negative margin, overlaps up to that depth are accepted.
+    pub fn is_free(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> bool {
+        let mut free = true;
+        self.with_poses(robot, |checker, poses| {
+            checker.search(poses, allowed, Wanted::Whether, margin, |_, _| {
+                free = false;
+                ControlFlow::Break(())
+            });
+        });
+        free
+    }
+
+    /// A pair that is closer than `margin` (m) and not allowed, the first one found in a
+    /// fixed order; `None` if there is none.
+    pub fn first_hit(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        self.with_poses(robot, |checker, poses| {
+            checker.first(poses, allowed, Wanted::HowMuch, margin)
+        })
+    }
+
+    /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them, without
+    /// the pairs of the robot's own links and of what it holds: for a robot that moves as a whole,
+    /// within which no distance changes.
+    pub(crate) fn first_hit_around(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        self.last = None;
+        self.first(link_poses, allowed, Wanted::HowMuchToOthers, margin)
+    }
+
+    fn first(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        wanted: Wanted,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        let mut found = None;
+        self.search(link_poses, allowed, wanted, margin, |near, _| {
+            found = Some(near);
+            ControlFlow::Break(())
+        });
+        found.and_then(|near| self.report(&near))
+    }
+
+    /// Every pair of bodies that is closer than `margin` (m) and not allowed, the deepest first.
+    pub fn all_hits(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Vec<CollisionHit> {
+        let mut found: Vec<Near> = Vec::new();
+        self.with_poses(robot, |checker, poses| {
+            checker.search(poses, allowed, Wanted::HowMuch, margin, |near, _| {
+                let known = found
+                    .iter_mut()
+                    .find(|n| n.moving == near.moving && n.other == near.other);
+                match known {
+                    Some(n) if n.separation.distance <= near.separation.distance => {}
+                    Some(n) => *n = near,
+                    None => found.push(near),
+                }
+                ControlFlow::Continue(())
+            });
+        });
+        found.sort_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance));
+        found.iter().filter_map(|near| self.report(near)).collect()
+    }
+
+    /// As [`Self::all_hits`], of some pairs of bodies only.
+    pub(crate) fn hits_among(
+        &mut self,
+        robot: &RobotConfiguration,
+        pairs: &AllowedPairs,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Vec<CollisionHit> {
+        self.only = Some(self.keys_of(pairs));
+        let hits = self.all_hits(robot, allowed, margin);
+        self.only = None;
+        hits
+    }
+
+    /// The pair with the smallest gap among those closer than `reach` (m) and not allowed. Pairs
+    /// of the robot's own links do not count: how close those are is a matter of posture.
+    pub fn clearance(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        reach: f64,
+    ) -> Option<Clearance> {
+        let mut found = None;
+        self.with_poses(robot, |checker, poses| {
+            checker.search(
+                poses,
+                allowed,
+                Wanted::HowMuchToOthers,
+                reach,
+                |near, margin| {
+                    // From here on, only closer pairs matter.
+                    *margin = near.separation.distance;
+                    found = Some(near);
+                    ControlFlow::Continue(())
+                },
+            );
+        });
+        let nearest = self.report(&found?)?;
+        Some(Clearance {
+            moving: nearest.moving,
+            other: nearest.other,
+            distance: -nearest.depth,
+        })
+    }
+
+    fn with_poses<T>(
+        &mut self,
+        robot: &RobotConfiguration,
+        query: impl FnOnce(&mut Self, &[Pose]) -> T,
+    ) -> T {
+        let mut poses = std::mem::take(&mut self.poses);
+        let tree = &self.surroundings.models.robot;
+        match &mut self.last {
+            Some(last) if last.base == robot.base => {
+                let (before, now) = (&last.joints, &robot.joints);
+                tree.update_forward_kinematics(before, now, &mut poses, &mut self.moved);
+                last.joints.clone_from(&robot.joints);
+                self.is_update = true;
+            }
+            last => {
+                tree.forward_kinematics(&robot.base, &robot.joints, &mut poses);
+                *last = Some(robot.clone());
+            }
+        }
+        let result = query(self, &poses);
+        self.poses = poses;
+        result
+    }
+
+    fn search(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        wanted: Wanted,
+        margin: f64,
+        visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
+    ) {
+        let allowed = self.keys_of(allowed);
+        let question = Question {
+            allowed: &allowed,
+            only: self.only.as_deref(),
+            moving: self.moving.as_ref(),
+            pairs: self.pairs,
+            self_pairs: match (self.pairs, &self.changing) {
+                (Pairs::Changing, Some(changing)) => changing,
+                _ => &self.surroundings.models.self_pairs,
+            },
+            wanted,
+        };
+        let moved = std::mem::take(&mut self.is_update).then_some(self.moved.as_slice());
+        let scratch = &mut self.scratch;
+        self.surroundings
+            .search(link_poses, moved, question, margin, scratch, visit);
+    }
+
+    /// The keys of the pairs.
+    fn keys_of(&mut self, pairs: &AllowedPairs) -> Keys {
+        let known = self.known.iter().find(|(list, _)| list.is_same(pairs));
+        if let Some((_, keys)) = known {
+            return keys.clone();
+        }
+        let keys = pairs.iter();
+        let keys = keys.filter_map(|(a, b)| Some(in_order(self.key_of(a)?, self.key_of(b)?)));
+        let mut keys: Vec<_> = keys.collect();
+        keys.sort_unstable();
+        let keys = Keys::from(keys);
+        self.known.truncate(MOST_KNOWN - 1);
+        self.known.insert(0, (pairs.clone(), keys.clone()));
+        keys
+    }
+
+    fn key_of(&self, name: &BodyName) -> Option<PartKey> {
+        Some(match name {
+            BodyName::Floor => PartKey::Floor,
+            BodyName::Robot(link) => PartKey::Robot(index(link.id)),
+            BodyName::Furniture(link) => PartKey::Furniture(index(link.id)),
+            BodyName::Object(name) => {
+                let lying = self.surroundings.objects.iter().map(|o| (o.name, o.key));
+                let held = self.surroundings.held.iter().map(|o| (o.name, o.key));
+                lying.chain(held).find(|(n, _)| n == name)?.1
+            }
+        })
+    }
+
+    fn name_of(&self, key: PartKey) -> Option<BodyName> {
+        Some(match key {
+            PartKey::Floor => BodyName::Floor,
+            PartKey::Robot(i) => {
+                BodyName::Robot(self.surroundings.models.robot_geometry.name(i)?.clone())
+            }
+            PartKey::Furniture(i) => {
+                BodyName::Furniture(self.surroundings.models.kitchen_geometry.name(i)?.clone())
+            }
+            PartKey::Object(_) => {
+                let lying = self.surroundings.objects.iter().map(|o| (o.name, o.key));
+                let held = self.surroundings.held.iter().map(|o| (o.name, o.key));
+                let (name, _) = lying.chain(held).find(|(_, k)| *k == key)?;
+                BodyName::Object(name.to_owned())
+            }
+        })
+    }
+
+    fn report(&self, near: &Near) -> Option<CollisionHit> {
+        Some(CollisionHit {
+            moving: self.name_of(near.moving)?,
+            other: self.name_of(near.other)?,
+            depth: -near.separation.distance,
+            point: from_parry_vector(near.separation.point).into(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use parry3d_f64::query;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::robot::Side;
+    use crate::world::solid::to_parry;
+    use crate::world::{Models, World};
+    use spatial::pose::from_xy_yaw;
+
+    fn world() -> World {
+        let models = Arc::new(Models::pr2_in_kitchen().unwrap());
+        let joints = models.description.start_positions(&models.robot);
+        let base = Pose::identity();
+        World::new(models, RobotConfiguration { base, joints })
+    }
+
+    /// The smallest distance (m) between the robot and the furniture, from all pairs.
+    fn distance_by_brute_force(world: &World, robot: &RobotConfiguration) -> f64 {
+        let models = world.models();
+        let mut poses = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&robot.base, &robot.joints, &mut poses);
+        let mut nearest = f64::INFINITY;
+        for link in &models.robot_geometry.solid_links {
+            let link_pose = to_parry(&poses[link.link.index()]);
+            for solid in &link.solids {
+                let pose = link_pose * solid.pose;
+                for other in world.state.furniture.all() {
+                    // The library's own distance of two boxes is off by centimetres.
+                    let (one, two) = (&*solid.shape, &*other.solid.shape);
+                    let near = query::contact(&pose, one, &other.placed.pose, two, 1.0).unwrap();
+                    nearest = near.map_or(nearest, |c| nearest.min(c.dist));
+                }
+            }
+        }
+        nearest
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn the_search_finds_what_looking_at_all_pairs_finds(
+            x in -3.5f64..1.5,
+            y in -1.8f64..2.9,
+            yaw in -3.1f64..3.1,
+            torso in 0.0f64..0.33,
+            pan in -0.7f64..0.7,
+            elbow in -2.1f64..0.0,
+        ) {
+            let world = world();
+            let models = world.models();
+            let mut robot = world.robot_configuration().clone();
+            robot.base = from_xy_yaw(x, y, yaw);
+            robot.joints.set(models.description.torso.joint, torso);
+            let arm = models.description.arm(Side::Right);
+            robot.joints.set(arm.joints()[0], pan);
+            robot.joints.set(arm.joints()[3], elbow);
+
+            let floor = models.robot.links().map(|(link, _)| models.robot_body(link));
+            let allowed = AllowedPairs::none().and_all(floor, &BodyName::Floor);
+            let expected = distance_by_brute_force(&world, &robot);
+            let mut checker = world.collision_checker();
+            let found = checker.clearance(&robot, &allowed, 0.5);
+            match &found {
+                None => prop_assert!(expected >= 0.5),
+                Some(near) => prop_assert!(
+                    (near.distance - expected).abs() < 1e-6,
+                    "{near:?} instead of {expected}"
+                ),
+            }
+            if expected < 0.0 {
+                prop_assert!(!checker.is_free(&robot, &allowed, 0.0));
+                prop_assert!(checker.first_hit(&robot, &allowed, 0.0).is_some());
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn one_checker_finds_what_new_ones_find_and_no_pair_is_missing(
+            x in -3.5f64..1.5,
+            y in -1.8f64..2.9,
+            pans in proptest::array::uniform3(-2.1f64..0.5),
+            elbows in proptest::array::uniform3(-2.1f64..0.0),
+        ) {
+            let world = world();
+            let models = world.models();
+            let mut robot = world.robot_configuration().clone();
+            robot.base = from_xy_yaw(x, y, 0.3);
+            let arm = models.description.arm(Side::Right);
+            let joints = [arm.joints()[0], arm.joints()[3]];
+            let moving = || MovingParts::of_joints(&models.robot, &joints);
+            let mut reused = world.collision_checker();
+            let mut changing = world.collision_checker();
+            changing.expect(moving(), Pairs::Changing);
+            let none = AllowedPairs::none();
+            for (pan, elbow) in pans.into_iter().zip(elbows) {
+                robot.joints.set(joints[0], pan);
+                robot.joints.set(joints[1], elbow);
+                let all = world.collision_checker().all_hits(&robot, &none, 0.05);
+                prop_assert_eq!(&reused.all_hits(&robot, &none, 0.05), &all);
+                let mut found = changing.all_hits(&robot, &none, 0.05);
+                let mut constant = world.collision_checker();
+                constant.expect(moving(), Pairs::Constant);
+                found.extend(constant.all_hits(&robot, &none, 0.05));
+                found.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+                let depths = |hits: &[CollisionHit]| -> Vec<f64> {
+                    hits.iter().map(|hit| hit.depth).collect()
+                };
+                prop_assert_eq!(depths(&found), depths(&all));
+            }
+        }
+    }
+
+    #[test]
+    fn a_world_can_be_handed_to_another_thread() {
+        fn needs_send<T: Send + Sync>(_: &T) {}
+        needs_send(&world());
+        needs_send(&world().snapshot());
+    }
+}

@@ -1,0 +1,563 @@
+//! How objects are grasped: where the hand goes, how hard it grips, which grasp is tried first.
+//!
+//! Names are lower-case and without a colon: type `bottle`, grasp `left-side`. The built-in
+//! library is `world/grasps.sexp`; plans add and override grasps at run time. Nothing here
+//! knows of a particular robot: the hand is the gripper frame of a grasp (z forward, x
+//! across the palm), which the robot description turns into its tool frame.
+
+use indexmap::IndexMap;
+use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+use crate::robot::Side;
+use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
+use closest_name::closest_name;
+use spatial::Pose;
+
+/// The text of the built-in library, `world/grasps.sexp`.
+pub use descriptions::GRASPS;
+
+/// How far the rows of a rotation may deviate from unit length and right angles; it allows
+/// for hand-written matrices with entries such as 0.707.
+const ROTATION_SLACK: f64 = 0.01;
+
+/// Above all third components of the directions in which a hand approaches from above, 45 degrees off
+/// the vertical at most (-0.707).
+const LEAST_DOWN: f64 = -0.7;
+
+/// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraspDefinition {
+    /// Position of the hand in the object's frame.
+    pub translation: [f64; 3],
+    /// Orientation of the hand in the object's frame: the rows of the matrix as written.
+    pub rotation: [[f64; 3]; 3],
+    /// First pregrasp, relative to `translation`.
+    pub pregrasp: [f64; 3],
+    /// Second pregrasp, relative to `translation`.
+    pub second_pregrasp: [f64; 3],
+    /// First lift.
+    pub lift: Lift,
+    /// Second lift.
+    pub second_lift: Lift,
+    /// How wide (m) the hand opens beforehand, if not as for other grasps of the type.
+    pub opening: Option<f64>,
+}
+
+/// How the hand lifts what it has grasped. CRAM has had two notations for this; if both are
+/// given, they add up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lift {
+    /// Position of the hand relative to that of the grasp, along the object's axes (m). For an
+    /// object that lies on its side this does not point upwards.
+    pub offset: [f64; 3],
+    /// Further displacement of hand and object in the frame of the robot's base, whatever
+    /// the orientation of the object.
+    pub in_base: Pose,
+}
+
+impl Lift {
+    /// Along the object's axes only (m).
+    pub fn along_object(offset: [f64; 3]) -> Self {
+        Self {
+            offset,
+            in_base: Pose::identity(),
+        }
+    }
+}
+
+/// Poses of the robot's tool for a grasp, in the frame of the robot's base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolPoses {
+    /// The tool approaches here first.
+    pub pregrasp: Pose,
+    /// Then here.
+    pub second_pregrasp: Pose,
+    /// Here the gripper closes.
+    pub grasp: Pose,
+    /// The tool lifts to here.
+    pub lift: Pose,
+    /// Then to here.
+    pub second_lift: Pose,
+}
+
+/// A matrix that is not a rotation, as rows.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "{0:?} is not a rotation: its rows must have length 1, be at right angles to each other \
+     and make a right-handed frame"
+)]
+pub struct NotARotation(pub [[f64; 3]; 3]);
+
+impl GraspDefinition {
+    /// Orientation of the hand in the object's frame; small errors of the matrix are corrected.
+    pub fn orientation(&self) -> Result<UnitQuaternion<f64>, NotARotation> {
+        let matrix = Matrix3::from(self.rotation).transpose();
+        let flaw = (matrix * matrix.transpose() - Matrix3::identity()).amax();
+        // NaN counts as a flaw too.
+        let sound = flaw <= ROTATION_SLACK && matrix.determinant() > 0.0;
+        if !sound {
+            return Err(NotARotation(self.rotation));
+        }
+        // Orthonormalised starting from the third column, the approach direction.
+        let z = matrix.column(2).normalize();
+        let x: Vector3<f64> = matrix.column(0) - z * z.dot(&matrix.column(0));
+        let x = x.normalize();
+        let square = Matrix3::from_columns(&[x, z.cross(&x), z]);
+        let rotation = Rotation3::from_matrix_unchecked(square);
+        Ok(UnitQuaternion::from_rotation_matrix(&rotation))
+    }
+
+    /// The five poses of the tool for an object at `object`, all in the frame of the robot's
+    /// base; `tool_axes` is the tool's orientation in the hand's frame.
+    pub fn tool_poses(
+        &self,
+        object: &Pose,
+        tool_axes: &UnitQuaternion<f64>,
+    ) -> Result<ToolPoses, NotARotation> {
+        let orientation = self.orientation()? * tool_axes;
+        let at = |offset: [f64; 3]| {
+            let place = Vector3::from(self.translation) + Vector3::from(offset);
+            object * Pose::from_parts(Translation3::from(place), orientation)
+        };
+        let lifted = |lift: &Lift| lift.in_base * at(lift.offset);
+        Ok(ToolPoses {
+            pregrasp: at(self.pregrasp),
+            second_pregrasp: at(self.second_pregrasp),
+            grasp: at([0.0; 3]),
+            lift: lifted(&self.lift),
+            second_lift: lifted(&self.second_lift),
+        })
+    }
+}
+
+/// How hard to grip, and how wide to open beforehand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grip {
+    /// Effort (N).
+    pub effort: f64,
+    /// Opening (m).
+    pub opening: f64,
+}
+
+/// The grasps, grips and named rotations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraspLibrary {
+    rotations: IndexMap<String, [[f64; 3]; 3]>,
+    default_grip: Grip,
+    grips: IndexMap<String, Grip>,
+    /// Names of grasps by type, in the order in which they are tried.
+    order: IndexMap<String, Vec<String>>,
+    /// By type, arm and name.
+    grasps: IndexMap<(String, Side, String), GraspDefinition>,
+}
+
+/// The records of a library, each with its keys.
+const RECORDS: &[(&str, &[&str])] = &[
+    ("rotation", &[]),
+    ("default-grip", &["effort", "opening"]),
+    ("grip", &["effort", "opening"]),
+    ("order", &[]),
+    (
+        "grasp",
+        &[
+            "types",
+            "arms",
+            "translation",
+            "rotation",
+            "pregrasp",
+            "second-pregrasp",
+            "lift",
+            "second-lift",
+            "opening",
+        ],
+    ),
+];
+
+impl GraspLibrary {
+    /// Reads a library; `file_name` is used only in errors.
+    pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
+        let file = DataFile::read(text, file_name)?;
+        let mut default_grip = None;
+        let mut library = Self {
+            rotations: IndexMap::new(),
+            default_grip: Grip {
+                effort: 0.0,
+                opening: 0.0,
+            },
+            grips: IndexMap::new(),
+            order: IndexMap::new(),
+            grasps: IndexMap::new(),
+        };
+        for node in file.nodes() {
+            let record = node.record("record", RECORDS)?;
+            match record.head() {
+                "rotation" => library.add_rotation(&record)?,
+                "default-grip" => default_grip = Some(grip(&record)?),
+                "grip" => {
+                    let grip = grip(&record)?;
+                    for name in record.thing("list of types")?.symbols()? {
+                        library.grips.insert(name.to_owned(), grip);
+                    }
+                }
+                "order" => library.add_order(&record)?,
+                _ => library.add_grasp(&record)?,
+            }
+        }
+        library.default_grip = default_grip
+            .ok_or_else(|| file.error(DataProblem::MissingRecord("default-grip".to_owned())))?;
+        Ok(library)
+    }
+
+    /// The grasps of a type in the order in which they are tried; empty for an unknown type.
+    pub fn grasps(&self, object_type: &str) -> &[String] {
+        self.order.get(object_type).map_or(&[], Vec::as_slice)
+    }
+
+    /// The grasps of a type by which a hand comes from above, straight or at up to 45 degrees, in the
+    /// order in which they are defined: also those that are not tried unless they are asked for.
+    pub fn grasps_from_above(&self, object_type: &str) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for ((kind, _, name), definition) in &self.grasps {
+            // The hand approaches along the third column.
+            let is_downward = definition.rotation[2][2] < LEAST_DOWN;
+            if kind == object_type && is_downward && !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// The grasp with that name for objects of that type with that arm.
+    pub fn get(&self, object_type: &str, arm: Side, grasp: &str) -> Option<&GraspDefinition> {
+        let key = (object_type.to_owned(), arm, grasp.to_owned());
+        self.grasps.get(&key)
+    }
+
+    /// Effort and opening for a type.
+    pub fn grip(&self, object_type: &str) -> Grip {
+        let grip = self.grips.get(object_type).copied();
+        grip.unwrap_or(self.default_grip)
+    }
+
+    /// How wide (m) the hand opens for a grasp of a type.
+    pub fn opening(&self, object_type: &str, grasp: &GraspDefinition) -> f64 {
+        grasp.opening.unwrap_or(self.grip(object_type).opening)
+    }
+
+    /// The rows of the rotation with that name.
+    pub fn rotation(&self, name: &str) -> Option<[[f64; 3]; 3]> {
+        self.rotations.get(name).copied()
+    }
+
+    /// Adds a grasp, or replaces the one that the type has under that name for that arm. A
+    /// new name is tried last.
+    pub fn define(
+        &mut self,
+        object_type: &str,
+        arm: Side,
+        grasp: &str,
+        definition: GraspDefinition,
+    ) -> Result<(), NotARotation> {
+        definition.orientation()?;
+        let order = self.order.entry(object_type.to_owned()).or_default();
+        if !order.iter().any(|name| name == grasp) {
+            order.push(grasp.to_owned());
+        }
+        let key = (object_type.to_owned(), arm, grasp.to_owned());
+        self.grasps.insert(key, definition);
+        Ok(())
+    }
+
+    fn add_rotation(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let [name, rows] = record.things() else {
+            return Err(record.node().expected("(rotation name rows)"));
+        };
+        let rows = rotation_rows(*rows)?;
+        self.rotations.insert(name.symbol()?.to_owned(), rows);
+        Ok(())
+    }
+
+    fn add_order(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let Some((types, names)) = record.things().split_first() else {
+            return Err(record.node().expected("(order (type …) grasp …)"));
+        };
+        let names = names.iter().map(|n| n.symbol().map(str::to_owned));
+        let names: Vec<String> = names.collect::<Result<_, _>>()?;
+        for name in types.symbols()? {
+            self.order.insert(name.to_owned(), names.clone());
+        }
+        Ok(())
+    }
+
+    fn add_grasp(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let name = record.thing("name")?.symbol()?;
+        let numbers = |key: &str| record.required(key)?.numbers::<3>();
+        let rotation = record.required("rotation")?;
+        let definition = GraspDefinition {
+            translation: numbers("translation")?,
+            rotation: match rotation.symbol() {
+                Ok(name) => self.rotation(name).ok_or_else(|| {
+                    let names = self.rotations.keys().map(String::as_str);
+                    rotation.unknown("rotation", name, closest_name(name, names))
+                })?,
+                Err(_) => rotation_rows(rotation)?,
+            },
+            pregrasp: numbers("pregrasp")?,
+            second_pregrasp: numbers("second-pregrasp")?,
+            lift: Lift::along_object(numbers("lift")?),
+            second_lift: Lift::along_object(numbers("second-lift")?),
+            opening: record
+                .optional("opening")
+                .map(|n| n.positive())
+                .transpose()?,
+        };
+        let types = record.required("types")?.symbols()?;
+        for arm in record.required("arms")?.list()? {
+            let side = Side::named(arm.symbol()?).ok_or_else(|| arm.expected("left or right"))?;
+            for object_type in &types {
+                let key = ((*object_type).to_owned(), side, name.to_owned());
+                if self.grasps.insert(key, definition.clone()).is_some() {
+                    let what = format!("the grasp {name} of {object_type} with the {side} arm");
+                    return Err(record.node().error(DataProblem::Repeated(what)));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn grip(record: &Record<'_>) -> Result<Grip, DataError> {
+    Ok(Grip {
+        effort: record.required("effort")?.positive()?,
+        opening: record.required("opening")?.positive()?,
+    })
+}
+
+fn rotation_rows(node: Node<'_>) -> Result<[[f64; 3]; 3], DataError> {
+    let wrong = || node.expected("the three rows of a rotation matrix");
+    let rows = node.list().map_err(|_| wrong())?;
+    let rows = rows.iter().map(Node::numbers::<3>);
+    let rows: Vec<[f64; 3]> = rows.collect::<Result<_, _>>()?;
+    let rotation = <[[f64; 3]; 3]>::try_from(rows).map_err(|_| wrong())?;
+    let probe = GraspDefinition {
+        translation: [0.0; 3],
+        rotation,
+        pregrasp: [0.0; 3],
+        second_pregrasp: [0.0; 3],
+        lift: Lift::along_object([0.0; 3]),
+        second_lift: Lift::along_object([0.0; 3]),
+        opening: None,
+    };
+    let sound = probe.orientation();
+    sound.map_err(|e| node.error(DataProblem::Invalid(e.to_string())))?;
+    Ok(rotation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spatial::pose::from_xyz_rpy;
+
+    fn library() -> GraspLibrary {
+        GraspLibrary::from_sexp(GRASPS, "grasps.sexp").expect("the built-in library is right")
+    }
+
+    fn definition(rotation: [[f64; 3]; 3]) -> GraspDefinition {
+        GraspDefinition {
+            translation: [0.0; 3],
+            rotation,
+            pregrasp: [0.0; 3],
+            second_pregrasp: [0.0; 3],
+            lift: Lift::along_object([0.0; 3]),
+            second_lift: Lift::along_object([0.0; 3]),
+            opening: None,
+        }
+    }
+
+    /// A gripper frame whose z axis is the tool's x axis, like the PR2's.
+    fn tool_axes() -> UnitQuaternion<f64> {
+        let turn = definition([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+        turn.orientation().expect("a rotation")
+    }
+
+    fn place(pose: &Pose) -> [f64; 3] {
+        // To the nanometre, without a negative zero.
+        let rounded = |x: f64| (x * 1e9).round() / 1e9 + 0.0;
+        [0, 1, 2].map(|i| rounded(pose.translation.vector[i]))
+    }
+
+    #[test]
+    fn grasps_are_listed_in_crams_order() {
+        let library = library();
+        assert_eq!(
+            library.grasps("bottle"),
+            ["left-side", "right-side", "back", "front"]
+        );
+        assert_eq!(
+            library.grasps("cup"),
+            ["back", "front", "left-side", "right-side"]
+        );
+        assert!(library.grasps("bread").is_empty());
+    }
+
+    #[test]
+    fn grasps_from_above_need_not_be_listed() {
+        let library = library();
+        assert_eq!(
+            library.grasps_from_above("cup"),
+            ["top", "top-around", "top-around-left"]
+        );
+        assert_eq!(
+            library.grasps_from_above("spoon"),
+            ["top", "top-back", "top-front"]
+        );
+        assert_eq!(library.grasps("spoon"), ["top"]);
+        assert_eq!(library.grasps_from_above("bowl"), ["top"]);
+        assert_eq!(
+            library.grasps_from_above("milk"),
+            [
+                "back-above",
+                "left-side-above",
+                "right-side-above",
+                "front-above"
+            ]
+        );
+        assert!(library.grasps_from_above("tray-base").is_empty());
+    }
+
+    #[test]
+    fn every_listed_grasp_is_defined_for_an_arm_except_that_of_the_tray() {
+        let library = library();
+        for (object_type, names) in &library.order {
+            for name in names {
+                let defined = Side::BOTH.map(|s| library.get(object_type, s, name).is_some());
+                let expected = (object_type.as_str(), name.as_str()) != ("tray", "right-side");
+                assert_eq!(defined.contains(&true), expected, "{object_type} {name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bottle_is_approached_from_its_left() {
+        let library = library();
+        let grasp = library
+            .get("bottle", Side::Right, "left-side")
+            .expect("defined");
+        let bottle = from_xyz_rpy([1.0, 2.0, 3.0], [0.0; 3]);
+        let poses = grasp.tool_poses(&bottle, &tool_axes()).expect("a rotation");
+        assert_eq!(place(&poses.pregrasp), [1.0, 2.13, 3.155]);
+        assert_eq!(place(&poses.second_pregrasp), [1.0, 2.13, 3.005]);
+        assert_eq!(place(&poses.grasp), [1.0, 1.98, 3.005]);
+        assert_eq!(place(&poses.lift), [1.0, 1.98, 3.155]);
+        assert_eq!(place(&poses.second_lift), [1.0, 1.98, 3.155]);
+        // The tool points along -y, with its z axis up.
+        let axes = [Vector3::x(), Vector3::z()].map(|axis| poses.grasp.rotation * axis);
+        assert!((axes[0] + Vector3::y()).norm() < 1e-12);
+        assert!((axes[1] - Vector3::z()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn hands_come_from_where_their_pregrasps_are() {
+        let library = library();
+        for ((object_type, side, name), grasp) in &library.grasps {
+            let hand = grasp.orientation().expect("a rotation") * Vector3::z();
+            let offset = Vector3::from(grasp.second_pregrasp);
+            assert!(
+                hand.dot(&offset) < 0.0,
+                "{name} of {object_type} with the {side} arm"
+            );
+        }
+    }
+
+    #[test]
+    fn offsets_are_along_the_axes_of_the_object() {
+        let library = library();
+        let grasp = library
+            .get("bottle", Side::Left, "left-side")
+            .expect("defined");
+        let lying = from_xyz_rpy([0.0; 3], [std::f64::consts::FRAC_PI_2, 0.0, 0.0]);
+        let poses = grasp.tool_poses(&lying, &tool_axes()).expect("a rotation");
+        let lift = poses.lift.translation.vector - poses.grasp.translation.vector;
+        assert!((lift + Vector3::new(0.0, 0.15, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_lift_in_the_base_leads_upwards_however_the_object_lies() {
+        let mut grasp = definition([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]);
+        grasp.lift.in_base = Pose::translation(0.0, 0.0, 0.1);
+        grasp.second_lift = Lift {
+            offset: [0.0, 0.05, 0.0],
+            in_base: Pose::translation(0.0, 0.0, 0.2),
+        };
+        let lying = from_xyz_rpy([1.0, 0.0, 0.5], [std::f64::consts::FRAC_PI_2, 0.0, 0.0]);
+        let poses = grasp.tool_poses(&lying, &tool_axes()).expect("a rotation");
+        assert_eq!(place(&poses.lift), [1.0, 0.0, 0.6]);
+        assert_eq!(place(&poses.second_lift), [1.0, 0.0, 0.75]);
+        assert!(poses.lift.rotation.angle_to(&poses.grasp.rotation) < 1e-12);
+    }
+
+    #[test]
+    fn grips_fall_back_to_the_default() {
+        let library = library();
+        let grip = |effort, opening| Grip { effort, opening };
+        assert_eq!(library.grip("bottle"), grip(60.0, 0.1));
+        assert_eq!(library.grip("fork"), grip(100.0, 0.04));
+        assert_eq!(library.grip("bread"), grip(35.0, 0.1));
+    }
+
+    #[test]
+    fn a_new_grasp_is_tried_last_and_an_old_one_is_overridden() {
+        let mut library = library();
+        // The tutorial's diagonal grasp, whose matrix is accurate to four digits only.
+        let s = 7071.0 / 10_000.0;
+        let diagonal = definition([[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]]);
+        for _ in 0..2 {
+            let defined = library.define("bottle", Side::Left, "fl-diagonal", diagonal.clone());
+            assert_eq!(defined, Ok(()));
+        }
+        assert_eq!(library.grasps("bottle").len(), 5);
+        assert_eq!(library.grasps("bottle")[4], "fl-diagonal");
+        assert_eq!(
+            library.get("bottle", Side::Left, "fl-diagonal"),
+            Some(&diagonal)
+        );
+        assert_eq!(library.get("bottle", Side::Right, "fl-diagonal"), None);
+        let orientation = diagonal.orientation().expect("close enough to a rotation");
+        assert!((orientation.norm() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_matrix_that_mirrors_is_refused() {
+        let mirror = definition([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]);
+        let mut library = library();
+        let refused = library.define("bottle", Side::Left, "mirror", mirror.clone());
+        assert_eq!(refused, Err(NotARotation(mirror.rotation)));
+        assert_eq!(library.get("bottle", Side::Left, "mirror"), None);
+        let nothing = definition([[f64::NAN; 3]; 3]);
+        assert!(nothing.orientation().is_err());
+    }
+
+    #[test]
+    fn mistakes_are_reported_with_their_place() {
+        let error = |text: &str| match GraspLibrary::from_sexp(text, "g.sexp") {
+            Ok(_) => "no error".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(
+            error(""),
+            "g.sexp:1:1: the file has no (default-grip …); add one"
+        );
+        assert_eq!(
+            error("(rotation r ((1 0 0) (0 1 0)))"),
+            "g.sexp:1:13: expected the three rows of a rotation matrix, found ((1 0 0) (0 1 0))"
+        );
+        assert_eq!(
+            error(
+                "(rotation up ((1 0 0) (0 1 0) (0 0 1)))\n(grasp g :rotation upp
+                   :translation (0 0 0) :types (a) :arms (left))"
+            ),
+            "g.sexp:2:20: there is no rotation named upp; did you mean up?"
+        );
+    }
+}

@@ -1,0 +1,222 @@
+//! Objects that are held by links.
+//!
+//! Fingers that press on an object hold it. A soft weld to the palm stands in for their
+//! friction, which the engine would compute less exactly, and at a higher price. So the weld
+//! exists only as long as the fingers are as close together as when they pressed, and only
+//! while it transmits no more force than friction would.
+
+use serde::{Deserialize, Serialize};
+
+use super::error::WorldError;
+use super::hash::Hasher;
+use super::object::Attachment;
+use super::physics::Robot;
+use super::scene::World;
+use crate::robot::{LinkId, Side};
+
+/// How far (rad) a finger joint opens before its fingers count as pressing no more.
+const OPENED: f64 = 1e-4;
+
+/// Number of consecutive steps with too much force after which an object slips: single steps
+/// are noise of the solver.
+const SLIPPING_STEPS: u32 = 3;
+
+/// Number of consecutive steps without contact to anything but the robot after which an object
+/// counts as lifted: a tenth of a second.
+const LIFTED_STEPS: u32 = 24;
+
+/// How fingers hold an object.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hold {
+    side: Side,
+    /// Position of the finger joint (rad) at which both fingers press.
+    fingers: f64,
+    /// The greatest force (N) that friction transmits.
+    strength: f64,
+    /// For how many steps the force has been greater.
+    slipping: u32,
+    /// For how many steps the object has touched nothing but the robot.
+    free: u32,
+}
+
+impl Hold {
+    /// Whether the object has left what it stood on.
+    pub fn is_lifted(&self) -> bool {
+        self.free >= LIFTED_STEPS
+    }
+
+    /// The hand.
+    pub(super) fn side(&self) -> Side {
+        self.side
+    }
+
+    pub(super) fn hash_into(&self, hasher: &mut Hasher) {
+        hasher.number(self.fingers);
+        hasher.number(self.strength);
+        hasher.integer(u64::from(self.slipping));
+        hasher.integer(u64::from(self.free));
+    }
+}
+
+/// An object that has slipped out of a hand.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Slip {
+    /// Name of the object.
+    pub object: String,
+    /// The hand.
+    pub side: Side,
+    /// The force (N) between object and hand.
+    pub force: f64,
+    /// The greatest force (N) that friction could transmit.
+    pub strength: f64,
+    /// The number of the step in which it happened.
+    pub step: u64,
+}
+
+impl World {
+    /// Makes the hand hold the object, with its fingers pressing as they are now, each with the
+    /// effort (N).
+    pub fn hold(&mut self, name: &str, side: Side, effort: f64) -> Result<(), WorldError> {
+        let gripper = &self.models.description.arm(side).gripper;
+        let (palm, fingers) = (gripper.palm, self.state.robot.joints.get(gripper.joint));
+        self.attach(name, palm)?;
+        if let Some(object) = self.state.objects.get_mut(name)
+            && let Some(attachment) = &mut object.attachment
+        {
+            attachment.hold = Some(Hold {
+                side,
+                fingers,
+                // Each of the two pads transmits its share.
+                strength: 2.0 * object.friction * effort,
+                slipping: 0,
+                free: 0,
+            });
+            self.physics
+                .collide(object.body, Robot::WithoutHand(side.index()));
+        }
+        Ok(())
+    }
+
+    /// Welds the object softly to the robot's link at its current pose. An object that was
+    /// attached elsewhere is detached first.
+    pub fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
+        self.detach(name)?;
+        self.bring_body(link);
+        let body = self.object(name)?.body;
+        let Some((carrier, root)) = self.body_of_link(link) else {
+            // A link of another tree has no body here that could hold anything.
+            return Ok(());
+        };
+        // The engine's poses, since the robot may already be set to move in the next step.
+        let grip = self.physics.pose(carrier).inverse() * self.physics.pose(body);
+        let weld = self.physics.weld(carrier, &grip, body);
+        let at = self.link_pose(link).inverse() * self.link_pose(root) * grip;
+        if let Some(object) = self.state.objects.get_mut(name) {
+            object.attachment = Some(Attachment {
+                link,
+                at,
+                weld,
+                hold: None,
+            });
+        }
+        Ok(())
+    }
+
+    /// Lets go of the object. Returns the link that held it.
+    pub fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
+        self.object(name)?;
+        let Some(object) = self.state.objects.get_mut(name) else {
+            return Ok(None);
+        };
+        let held = object.attachment.take();
+        if let Some(attachment) = held {
+            self.physics.unweld(attachment.weld);
+            self.physics.collide(object.body, Robot::Whole);
+            self.physics.wake(object.body);
+        }
+        Ok(held.map(|a| a.link))
+    }
+
+    /// Lets go of what opening fingers no longer press on. Call before a step.
+    pub(super) fn release_opened_hands(&mut self) {
+        let joints = &self.state.robot.joints;
+        let arm = |side: Side| self.models.description.arm(side);
+        let is_released =
+            |hold: &Hold| joints.get(arm(hold.side).gripper.joint) > hold.fingers + OPENED;
+        let held = self.state.objects.values();
+        let released = held.filter(|o| o.hold().is_some_and(is_released));
+        let released: Vec<String> = released.map(|o| o.name.clone()).collect();
+        for name in released {
+            // The object has just been found.
+            let _link = self.detach(&name);
+        }
+    }
+
+    /// The fingers that hold the object transmit no force any more, as if it were wet: it slips out of
+    /// the hand. Returns whether fingers hold it.
+    pub fn loosen(&mut self, name: &str) -> bool {
+        let object = self.state.objects.get_mut(name);
+        let attachment = object.and_then(|object| object.attachment.as_mut());
+        let hold = attachment.and_then(|attachment| attachment.hold.as_mut());
+        hold.is_some_and(|hold| {
+            hold.strength = 0.0;
+            true
+        })
+    }
+
+    /// Notes what the load on the hands has done in the last step: what has been lifted, and
+    /// what has slipped away.
+    pub(super) fn watch_holds(&mut self) {
+        let mut slips = Vec::new();
+        let mut changed = Vec::new();
+        for object in self.state.objects.values() {
+            let Some((attachment, mut hold)) = object
+                .attachment
+                .and_then(|attachment| Some((attachment, attachment.hold?)))
+            else {
+                continue;
+            };
+            let force = self.physics.weld_force(attachment.weld);
+            hold.slipping = if force > hold.strength {
+                hold.slipping + 1
+            } else {
+                0
+            };
+            if !hold.is_lifted() {
+                hold.free = if self.touches_others(object) {
+                    0
+                } else {
+                    hold.free + 1
+                };
+            }
+            if hold.slipping >= SLIPPING_STEPS {
+                slips.push(Slip {
+                    object: object.name.clone(),
+                    side: hold.side,
+                    force,
+                    strength: hold.strength,
+                    step: self.state.steps,
+                });
+            }
+            changed.push((object.name.clone(), hold));
+        }
+        for (name, hold) in changed {
+            let object = self.state.objects.get_mut(&name);
+            if let Some(attachment) = object.and_then(|o| o.attachment.as_mut()) {
+                attachment.hold = Some(hold);
+            }
+        }
+        for slip in slips {
+            // The object has just been found.
+            let _link = self.detach(&slip.object);
+            self.state.slips.retain(|old| old.side != slip.side);
+            self.state.slips.push(slip);
+        }
+    }
+
+    /// The last object that has slipped out of one of the hands in that step or later.
+    pub fn slip_since(&self, step: u64, is_hand: impl Fn(Side) -> bool) -> Option<&Slip> {
+        let mut slips = self.state.slips.iter();
+        slips.find(|slip| slip.step >= step && is_hand(slip.side))
+    }
+}

@@ -1,0 +1,108 @@
+//! Drawers and doors, and how they move.
+
+use std::sync::Arc;
+
+use super::error::WorldError;
+use super::obstacles::Obstacles;
+use super::scene::{World, pose_of};
+use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
+use closest_name::closest_name;
+use spatial::Pose;
+
+impl World {
+    /// Pose of a link of the kitchen in the map frame.
+    pub fn furniture_pose(&self, link: LinkId) -> Pose {
+        pose_of(&self.state.kitchen_poses, link)
+    }
+
+    /// Positions of all joints of the kitchen (rad or m).
+    pub fn kitchen_positions(&self) -> &JointPositions {
+        &self.state.kitchen
+    }
+
+    /// Position of a joint of the kitchen (rad or m).
+    pub fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        Ok(self.models.kitchen.position(&self.state.kitchen, joint))
+    }
+
+    /// Makes a drawer or door move to the position (rad or m) during the next step, taking
+    /// along what is in it. The position is clamped to the joint's limits and returned.
+    #[cfg(test)]
+    pub(crate) fn set_kitchen_joint(
+        &mut self,
+        name: &str,
+        position: f64,
+    ) -> Result<f64, WorldError> {
+        let position = self.change_kitchen_joint(name, position)?;
+        self.state.kitchen_moves = true;
+        Ok(position)
+    }
+
+    /// Puts a drawer or door at the position (rad or m) at once, with what is in it. A hand that
+    /// holds its handle loses it. The position is clamped to the joint's limits and returned.
+    pub fn teleport_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        let part = self.part(joint);
+        if position.is_finite() {
+            let limits = self.models.kitchen.joint(joint).limits;
+            let position = limits.map_or(position, |l| l.clamp(position));
+            let (_, poses) = self.kitchen_with(joint, position);
+            self.carry_riders(&part, &poses);
+        }
+        let position = self.change_kitchen_joint(name, position)?;
+        self.release_handles(Some(joint));
+        self.state.kitchen_moves = false;
+        for (body, group) in self
+            .kitchen_bodies
+            .iter()
+            .zip(&self.models.kitchen_geometry.groups)
+        {
+            if let (Some(body), true) = (body, group.moves) {
+                self.physics
+                    .place(*body, &pose_of(&self.state.kitchen_poses, group.root));
+            }
+        }
+        Ok(position)
+    }
+
+    fn change_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        if !position.is_finite() {
+            return Err(WorldError::ImpossibleNumber {
+                quantity: "the position",
+                name: name.to_owned(),
+                value: position,
+            });
+        }
+        let limits = self.models.kitchen.joint(joint).limits;
+        let position = limits.map_or(position, |l| l.clamp(position));
+        self.set_joint(joint, position);
+        Ok(position)
+    }
+
+    /// Notes that the joint is at the position (rad or m), which is within its limits. The bodies
+    /// are still where they were.
+    pub(super) fn set_joint(&mut self, joint: JointId, position: f64) {
+        let (positions, poses) = self.kitchen_with(joint, position);
+        self.state.furniture = Arc::new(Obstacles::new(&self.models.kitchen_geometry, &poses));
+        self.state.kitchen = positions;
+        self.state.kitchen_poses = poses;
+    }
+
+    fn moving_kitchen_joint(&self, name: &str) -> Result<JointId, WorldError> {
+        let tree: &KinematicTree = &self.models.kitchen;
+        tree.joint_named(name)
+            .filter(|j| tree.joint(*j).is_actuated())
+            .ok_or_else(|| WorldError::UnknownKitchenJoint {
+                name: name.to_owned(),
+                closest: closest_name(
+                    name,
+                    tree.joints()
+                        .filter(|(_, j)| j.is_actuated())
+                        .map(|(_, j)| j.name.as_str()),
+                )
+                .map(str::to_owned),
+            })
+    }
+}

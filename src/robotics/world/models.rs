@@ -1,0 +1,200 @@
+//! Everything about a world that never changes: the trees of robot and kitchen, the robot's
+//! description and the kinds of objects, with the geometry prepared for queries.
+
+use super::body_name::BodyName;
+use super::link_geometry::TreeGeometry;
+use super::link_pairs::LinkPairs;
+use super::map_area::MapArea;
+use super::object_library::{OBJECTS, ObjectLibrary};
+use super::part_key::PartKey;
+use super::physics::Surface;
+use crate::robot::description::Arm;
+use crate::robot::{KinematicTree, LinkId, RobotDescription, Side, UrdfError};
+use crate::sexp::DataError;
+use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
+use thiserror::Error;
+
+/// The models that worlds are built from; shared by a world and its copies.
+pub struct Models {
+    /// The robot's body.
+    pub robot: KinematicTree,
+    /// The roles of the robot's links and joints.
+    pub description: RobotDescription,
+    /// The furniture.
+    pub kitchen: KinematicTree,
+    /// The kinds of objects that can be spawned.
+    pub objects: ObjectLibrary,
+    pub(crate) robot_geometry: TreeGeometry,
+    pub(crate) kitchen_geometry: TreeGeometry,
+    /// The floor that the robot can drive on.
+    pub map: MapArea,
+    /// Pairs of the robot's solid links that must not touch.
+    pub(crate) self_pairs: LinkPairs,
+    /// The hand that each link of the robot belongs to, if any.
+    hand_of: Vec<Option<Side>>,
+    /// For each body of the robot in the physics engine, the number of the hand that it is of.
+    pub hands: Vec<Option<usize>>,
+    /// The relation of each link of the robot to the floor.
+    footing: Vec<Footing>,
+}
+
+/// The relation of a link to the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Footing {
+    /// It rolls on the floor.
+    Rolls,
+    /// It moves over the floor at its own height.
+    Rides,
+    /// It may reach for the floor.
+    Reaches,
+}
+
+/// An error in a file that describes the world.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ModelsError {
+    /// In a URDF.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// In a file of s-expressions.
+    #[error(transparent)]
+    Data(#[from] DataError),
+}
+
+impl Models {
+    /// The built-in PR2 in the built-in kitchen.
+    pub fn pr2_in_kitchen() -> Result<Self, ModelsError> {
+        let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
+        let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
+        let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf")?;
+        let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")?;
+        Ok(Self::new(robot, description, kitchen, objects))
+    }
+
+    /// Prepares the models; the description must belong to that robot.
+    pub fn new(
+        robot: KinematicTree,
+        description: RobotDescription,
+        kitchen: KinematicTree,
+        objects: ObjectLibrary,
+    ) -> Self {
+        let idle = &description.idle_joints;
+        let robot_geometry = TreeGeometry::new(&robot, |joint| idle.contains(&joint));
+        let kitchen_geometry = TreeGeometry::new(&kitchen, |_| false);
+        let map = MapArea::new(&kitchen, &kitchen_geometry);
+        let links = &robot_geometry.solid_links;
+        let mut self_pairs = Vec::new();
+        for (a, one) in links.iter().enumerate() {
+            for (b, two) in links.iter().enumerate().skip(a + 1) {
+                if !may_touch(&description, one.link, two.link) {
+                    self_pairs.push((a, b));
+                }
+            }
+        }
+        let hand_of = |link| {
+            let palm = |side: &Side| description.arm(*side).gripper.palm;
+            Side::BOTH
+                .into_iter()
+                .find(|side| robot.carries(palm(side), link))
+        };
+        let hand_of = robot.links().map(|(link, _)| hand_of(link)).collect();
+        let hands = robot_geometry.groups.iter().map(|group| {
+            let is_of = |arm: &&Arm| {
+                let palm = arm.gripper.palm;
+                let body = robot_geometry.group_of.get(palm.index()).copied();
+                let palm_root = body.and_then(|body| robot_geometry.groups.get(body));
+                palm_root.is_some_and(|palm| palm.root == group.root)
+                    || robot.carries(palm, group.root)
+            };
+            let arm = description.arms.iter().find(is_of);
+            arm.map(|arm| arm.side.index())
+        });
+        let hands = hands.collect();
+        let is_of_arm = |link| {
+            let shoulder = |arm: &Arm| robot.joint(arm.joints()[0]).child;
+            description
+                .arms
+                .iter()
+                .any(|arm| robot.carries(shoulder(arm), link))
+        };
+        let footing = |link| {
+            if description.wheels.contains(&link) {
+                Footing::Rolls
+            } else if is_of_arm(link) {
+                Footing::Reaches
+            } else {
+                Footing::Rides
+            }
+        };
+        let footing = robot.links().map(|(link, _)| footing(link)).collect();
+        Self {
+            robot,
+            description,
+            kitchen,
+            objects,
+            robot_geometry,
+            kitchen_geometry,
+            map,
+            self_pairs: LinkPairs::new(self_pairs),
+            hand_of,
+            hands,
+            footing,
+        }
+    }
+
+    /// The name of a link of the robot; the floor for a link of another tree.
+    pub fn robot_body(&self, link: LinkId) -> BodyName {
+        let name = self.robot_geometry.names.get(link.index());
+        name.map_or(BodyName::Floor, |name| BodyName::Robot(name.clone()))
+    }
+
+    /// The name of a link of the kitchen; the floor for a link of another tree.
+    pub(crate) fn furniture_body(&self, link: LinkId) -> BodyName {
+        let name = self.kitchen_geometry.names.get(link.index());
+        name.map_or(BodyName::Floor, |name| BodyName::Furniture(name.clone()))
+    }
+
+    /// Whether both links are part of the same hand.
+    pub(crate) fn belong_to_same_hand(&self, a: LinkId, b: LinkId) -> bool {
+        match (self.hand_of.get(a.index()), self.hand_of.get(b.index())) {
+            (Some(Some(x)), Some(Some(y))) => x == y,
+            _ => false,
+        }
+    }
+
+    /// What the link is to the physics engine: part of a hand, a gripping surface, or neither.
+    pub(crate) fn surface_of(&self, link: LinkId) -> Surface {
+        let group = |link: LinkId| self.robot_geometry.group_of.get(link.index());
+        for arm in &self.description.arms {
+            let gripper = &arm.gripper;
+            if gripper
+                .fingers
+                .iter()
+                .flatten()
+                .any(|finger| *finger == link)
+            {
+                return Surface::Pad(arm.side.index());
+            }
+            let hand = self.hand_of.get(link.index()).copied().flatten();
+            if hand == Some(arm.side) || group(link) == group(gripper.palm) {
+                return Surface::Hand(arm.side.index());
+            }
+        }
+        Surface::Plain
+    }
+
+    /// The relation of the part to the floor; held objects may reach for it.
+    pub(crate) fn footing(&self, key: PartKey) -> Footing {
+        let PartKey::Robot(i) = key else {
+            return Footing::Reaches;
+        };
+        let place = usize::try_from(i).unwrap_or(usize::MAX);
+        self.footing.get(place).copied().unwrap_or(Footing::Reaches)
+    }
+}
+
+/// Whether two links of the robot are never checked against each other.
+fn may_touch(description: &RobotDescription, a: LinkId, b: LinkId) -> bool {
+    let rolls = |link| description.wheels.contains(&link);
+    let together = |group: &Vec<LinkId>| group.contains(&a) && group.contains(&b);
+    rolls(a) || rolls(b) || description.touching.iter().any(together)
+}

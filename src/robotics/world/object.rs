@@ -1,0 +1,95 @@
+//! Movable objects.
+
+use std::sync::Arc;
+
+use parry3d_f64::bounding_volume::Aabb;
+use serde::{Deserialize, Serialize};
+
+use super::holding::Hold;
+use super::part_key::PartKey;
+use super::physics::{BodyHandle, WeldHandle};
+use super::solid::Solid;
+use crate::robot::LinkId;
+use spatial::{PlacedShape, Pose, Shape};
+
+/// The attachment of an object to a link.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attachment {
+    /// The link that carries the object.
+    pub link: LinkId,
+    /// Pose of the object in the link's frame when it was attached.
+    pub at: Pose,
+    pub(crate) weld: WeldHandle,
+    /// How fingers hold the object; `None` if it is merely fixed to the link.
+    pub hold: Option<Hold>,
+}
+
+/// An object of the world.
+#[derive(Clone)]
+pub struct Object {
+    pub name: String,
+    pub type_name: String,
+    pub color: [f32; 4],
+    pub mass: f64,
+    pub friction: f64,
+    pub shapes: Arc<[PlacedShape]>,
+    pub(crate) solids: Arc<[Solid]>,
+    pub bounds: Aabb,
+    pub number: u32,
+    pub body: BodyHandle,
+    pub attachment: Option<Attachment>,
+}
+
+impl Object {
+    /// Name, unique in the world.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Name of its type in the object library.
+    pub fn type_name(&self) -> &str {
+        &self.type_name
+    }
+
+    /// Colour, red green blue alpha in 0..1.
+    pub fn color(&self) -> [f32; 4] {
+        self.color
+    }
+
+    /// Mass (kg).
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Extent (m) along its own x, y and z axes.
+    pub fn size(&self) -> [f64; 3] {
+        let extents = self.bounds.extents();
+        [extents.x, extents.y, extents.z]
+    }
+
+    /// Shapes, in the object's own frame.
+    pub fn shapes(&self) -> &[PlacedShape] {
+        &self.shapes
+    }
+
+    /// Whether it can tip over. A ball rolls instead, which only its place tells.
+    pub fn can_tip(&self) -> bool {
+        let is_ball = |placed: &PlacedShape| matches!(placed.shape, Shape::Sphere { .. });
+        !self.shapes.iter().all(is_ball)
+    }
+
+    /// The attachment, if a link carries the object.
+    pub fn attachment(&self) -> Option<&Attachment> {
+        self.attachment.as_ref()
+    }
+
+    /// How fingers hold the object, if they do.
+    pub fn hold(&self) -> Option<&Hold> {
+        self.attachment.as_ref()?.hold.as_ref()
+    }
+
+    /// The key of its parts.
+    pub fn key(&self) -> PartKey {
+        PartKey::Object(self.number)
+    }
+}

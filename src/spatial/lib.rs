@@ -1,0 +1,12 @@
+//! Geometry shared by all layers: poses, shapes, and trigonometry with the same results on
+//! every platform.
+//!
+//! Lengths are in metres, angles in radians; quaternions are x y z w. Nothing here knows of
+//! robots, worlds or the plan language.
+
+pub mod pose;
+pub mod shape;
+pub mod trig;
+
+pub use pose::Pose;
+pub use shape::{PlacedShape, Shape};

@@ -1,0 +1,24 @@
+//! Sweeps: one plan in many worlds. What a world draws, what came of it, and what all of them say
+//! together.
+//!
+//! This room knows no robot and no language. A world depends on its seed and its number alone, and
+//! every draw in it on its own name besides: so neither threads nor the order of worlds matter, and
+//! a draw that is added changes no other.
+
+mod beta;
+mod division;
+pub mod draw;
+mod feature;
+pub mod influence;
+mod normal;
+pub mod paired;
+pub mod pairs;
+mod plural;
+pub mod rate;
+pub mod record;
+pub mod summary;
+mod tree;
+
+pub use draw::Draws;
+pub use normal::normal_quantile;
+pub use record::{Drawn, Ending, Record};

@@ -1,0 +1,176 @@
+//! How things look: surfaces by which users recognise what the world knows as a few boxes and
+//! cylinders. Looks have no effect on anything: neither physics nor the robot's camera knows of
+//! them.
+
+mod appearances;
+mod look;
+mod surfaces;
+mod vessel;
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::scene::{Body, Finish, Kind, Owner, Scene};
+use super::surface::Surface;
+use appearances::Appearances;
+use look::{Look, PLAIN};
+use robotics::robot::{KinematicTree, Link, LinkId};
+use robotics::world::{Models, Object, World};
+use spatial::Pose;
+
+/// Half the edge length (m) of the drawn floor.
+const FLOOR_HALF: f64 = 30.0;
+
+/// Greatest width (m) of bevelled edges.
+const FURNITURE_BEVEL: f64 = 0.003;
+const ROBOT_BEVEL: f64 = 0.022;
+
+/// The looks of everything that a world may contain; made once, they serve any number of
+/// scenes.
+pub struct Looks {
+    floor: Arc<Surface>,
+    furniture: Vec<Dressed>,
+    robot: Vec<Dressed>,
+    /// By type.
+    objects: IndexMap<String, Vec<Look>>,
+}
+
+/// A link with its looks.
+struct Dressed {
+    link: LinkId,
+    owner: Owner,
+    looks: Vec<Look>,
+}
+
+impl Looks {
+    /// The looks of robot, kitchen and objects.
+    pub fn of(models: &Models) -> Self {
+        let kinds = models.objects.types();
+        Self {
+            floor: Arc::new(Surface::ground(FLOOR_HALF)),
+            furniture: dressed(&models.kitchen, Kind::Furniture),
+            robot: dressed(&models.robot, Kind::Robot),
+            objects: kinds
+                .map(|kind| {
+                    (
+                        kind.name.clone(),
+                        Appearances::built_in().of_object(&kind.name, &kind.shapes),
+                    )
+                })
+                .collect(),
+        }
+    }
+
+    /// The world as it is now.
+    pub fn scene(&self, world: &World) -> Scene {
+        let mut bodies = vec![Body {
+            owner: Owner::new(Kind::Floor, "floor"),
+            surface: self.floor.clone(),
+            pose: Pose::identity(),
+            color: PLAIN,
+            finish: Finish::Boards,
+        }];
+        for dressed in &self.furniture {
+            dressed.add(&world.furniture_pose(dressed.link), &mut bodies);
+        }
+        for dressed in &self.robot {
+            dressed.add(&world.link_pose(dressed.link), &mut bodies);
+        }
+        for object in world.objects() {
+            // The object comes from the world itself.
+            if let Ok(pose) = world.object_pose(object.name()) {
+                match self.objects.get(object.type_name()) {
+                    Some(looks) => add_object(object, looks, &pose, &mut bodies),
+                    // Of a type for which these looks were not made.
+                    None => bodies.extend(object_scene(object).bodies),
+                }
+            }
+        }
+        Scene { bodies }
+    }
+}
+
+/// The appearance of a link, in the link's frame.
+fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
+    let mut scene = Scene::default();
+    let dressed = Dressed::new(tree, link, tree.link(link), kind);
+    dressed.add(&Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+/// The appearance of an object, in its own frame.
+fn object_scene(object: &Object) -> Scene {
+    let mut scene = Scene::default();
+    let looks = Appearances::built_in().of_object(object.type_name(), object.shapes());
+    add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+impl Scene {
+    /// The world as it is now. To draw it repeatedly, keep the [`Looks`] instead.
+    pub fn of(world: &World) -> Self {
+        Looks::of(world.models()).scene(world)
+    }
+
+    /// The appearance of a link, in the link's frame.
+    pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+        let kind = if is_robot {
+            Kind::Robot
+        } else {
+            Kind::Furniture
+        };
+        link_scene(tree, link, kind)
+    }
+
+    /// The appearance of an object, in its own frame.
+    pub(crate) fn of_object(object: &Object) -> Self {
+        object_scene(object)
+    }
+}
+
+fn add_object(object: &Object, looks: &[Look], pose: &Pose, bodies: &mut Vec<Body>) {
+    let owner = Owner::new(Kind::Object, object.name());
+    let color = object.color();
+    bodies.extend(looks.iter().map(|look| look.body(&owner, pose, color)));
+}
+
+impl Dressed {
+    fn new(tree: &KinematicTree, id: LinkId, link: &Link, kind: Kind) -> Self {
+        let own = match kind {
+            Kind::Robot => Appearances::built_in().of_link(tree.name(), &link.name),
+            _ => None,
+        };
+        Self {
+            link: id,
+            owner: Owner::new(kind, &link.name),
+            looks: own.map_or_else(|| as_modelled(link, kind), <[Look]>::to_vec),
+        }
+    }
+
+    fn add(&self, pose: &Pose, bodies: &mut Vec<Body>) {
+        let looks = self.looks.iter();
+        bodies.extend(looks.map(|look| look.body(&self.owner, pose, PLAIN)));
+    }
+}
+
+fn dressed(tree: &KinematicTree, kind: Kind) -> Vec<Dressed> {
+    tree.links()
+        .map(|(id, link)| Dressed::new(tree, id, link, kind))
+        .filter(|dressed| !dressed.looks.is_empty())
+        .collect()
+}
+
+/// The shapes given by the model.
+fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
+    let (bevel, finish) = match kind {
+        Kind::Robot => (ROBOT_BEVEL, Finish::Gloss),
+        _ => (FURNITURE_BEVEL, Finish::Satin),
+    };
+    let shapes = link.visuals.iter();
+    let mut looks: Vec<_> = shapes.map(|s| Look::of_shape(s, bevel, finish)).collect();
+    if kind == Kind::Furniture {
+        looks.extend_from_slice(Appearances::built_in().of_furniture(&link.name));
+    }
+    looks
+}

@@ -1,0 +1,81 @@
+//! Adds what happens in a session to a history.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::history::History;
+use crate::watch::{Cause, Follower, FrameBuilder, Observation, WatchEvent};
+use robotics::world::CollisionHit;
+
+/// Least real time between two frames for viewers; a screen could not show more.
+const BETWEEN_FRAMES: Duration = Duration::from_millis(14);
+
+/// Simulated time (s) between two frames of the past.
+const BETWEEN_KEPT: f64 = 1.0 / 30.0;
+
+/// Adds what happens in a session to a history. Builds frames no more often than a viewer can
+/// see them.
+pub struct LiveFollower {
+    history: History,
+    frame_builder: FrameBuilder,
+    left: Option<Instant>,
+    kept: f64,
+    /// Whether there are viewers to be, who want to see more than what is kept.
+    is_live: bool,
+}
+
+impl LiveFollower {
+    /// A follower that adds to the history.
+    pub fn new(history: History, frame_builder: FrameBuilder) -> Self {
+        Self {
+            history,
+            frame_builder,
+            left: None,
+            kept: f64::NEG_INFINITY,
+            is_live: true,
+        }
+    }
+
+    /// A follower that adds only what is kept: the same session gives the same history.
+    pub fn without_viewers(history: History, frame_builder: FrameBuilder) -> Self {
+        let mut follower = Self::new(history, frame_builder);
+        follower.is_live = false;
+        follower
+    }
+}
+
+impl Follower for LiveFollower {
+    fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
+        let keep = observation.time >= self.kept + BETWEEN_KEPT || cause == Cause::Rest;
+        let is_due = match self.is_live {
+            true => (self.left).is_none_or(|left| left.elapsed() >= BETWEEN_FRAMES),
+            false => cause == Cause::Edit,
+        };
+        if !keep && !is_due {
+            return;
+        }
+        let frame = Arc::new(self.frame_builder.build(observation));
+        if keep {
+            self.kept = observation.time;
+        }
+        // Edits that take no time are part of the past, too; of several, the last one is kept.
+        let keep = keep || cause == Cause::Edit;
+        self.history
+            .publish(self.frame_builder.nodes(), frame, keep);
+        self.left = Some(Instant::now());
+    }
+
+    fn hear(&mut self, time: f64, event: &WatchEvent) {
+        self.history.add_news(time, event);
+    }
+
+    fn collide(&mut self, time: f64, hit: &CollisionHit) {
+        self.frame_builder.collide(time, hit);
+    }
+}
+
+impl Drop for LiveFollower {
+    fn drop(&mut self) {
+        self.history.close();
+    }
+}
