@@ -43,9 +43,9 @@ pub(crate) fn builtin(attribute: TokenStream, item: TokenStream) -> Result<Token
         #function
 
         #[doc = #about]
-        #visibility const #entry: builtin::Builtin = {
+        #visibility const #entry: typed::Builtin = {
             #call
-            builtin::Builtin {
+            typed::Builtin {
                 name: #name,
                 lambda_list: #lambda_list,
                 doc: #text,
@@ -115,32 +115,32 @@ fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenS
         let converted = converted(parameters, &quote!(&mut *image), false);
         return Ok(quote! {
             fn wrapper(
-                image: &mut builtin::Image,
-                args: &[builtin::Value],
-            ) -> ::std::result::Result<builtin::Value, ::std::boxed::Box<builtin::Raise>> {
+                image: &mut typed::Image,
+                args: &[typed::Value],
+            ) -> ::std::result::Result<typed::Value, ::std::boxed::Box<typed::Raise>> {
                 let _ = &image;
                 #converted
-                builtin::Returned::returned(#called)
+                typed::Returned::returned(#called)
             }
-            let call = builtin::BuiltinCall::Pure(wrapper);
+            let call = typed::BuiltinCall::Pure(wrapper);
         });
     }
     let converted = converted(parameters, &quote!(&mut *machine.image), true);
     let called = if is_async {
-        quote!(builtin::run(machine, #name, |calls| #called))
+        quote!(typed::run(machine, #name, |calls| #called))
     } else {
         called
     };
     Ok(quote! {
         fn wrapper(
-            machine: &mut builtin::Machine<'_>,
-            args: ::std::vec::Vec<builtin::Value>,
-        ) -> ::std::result::Result<builtin::Step, ::std::boxed::Box<builtin::Raise>> {
+            machine: &mut typed::Machine<'_>,
+            args: ::std::vec::Vec<typed::Value>,
+        ) -> ::std::result::Result<typed::Step, ::std::boxed::Box<typed::Raise>> {
             let _ = &machine;
             #converted
             #called
         }
-        let call = builtin::BuiltinCall::Control(wrapper);
+        let call = typed::BuiltinCall::Control(wrapper);
     })
 }
 
@@ -165,28 +165,28 @@ fn acting(function: &ItemFn, parameters: &Parameters, owner: &Type) -> Result<To
     let called = if names(&function.sig.output, "Reply") {
         called
     } else {
-        quote!(builtin::Returned::returned(#called).map(::std::convert::Into::into))
+        quote!(typed::Returned::returned(#called).map(::std::convert::Into::into))
     };
     Ok(quote! {
         fn act(
             owner: &mut #owner,
-            image: &mut builtin::Image,
-            args: &[builtin::Value],
+            image: &mut typed::Image,
+            args: &[typed::Value],
         ) -> ::std::result::Result<
-            <#owner as builtin::Owner>::Reply,
-            ::std::boxed::Box<builtin::Raise>,
+            <#owner as typed::Owner>::Reply,
+            ::std::boxed::Box<typed::Raise>,
         > {
             let _ = &image;
             #converted
             #called
         }
         fn wrapper(
-            _: &mut builtin::Machine<'_>,
-            args: ::std::vec::Vec<builtin::Value>,
-        ) -> ::std::result::Result<builtin::Step, ::std::boxed::Box<builtin::Raise>> {
-            ::std::result::Result::Ok(<#owner as builtin::Owner>::request(#name, act, args))
+            _: &mut typed::Machine<'_>,
+            args: ::std::vec::Vec<typed::Value>,
+        ) -> ::std::result::Result<typed::Step, ::std::boxed::Box<typed::Raise>> {
+            ::std::result::Result::Ok(<#owner as typed::Owner>::request(#name, act, args))
         }
-        let call = builtin::BuiltinCall::Control(wrapper);
+        let call = typed::BuiltinCall::Control(wrapper);
     })
 }
 
@@ -249,7 +249,7 @@ fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> To
     } else {
         statements.extend(quote! {
             let #pattern = #slice else {
-                return ::std::result::Result::Err(builtin::wrong_count());
+                return ::std::result::Result::Err(typed::wrong_count());
             };
         });
     }
@@ -258,10 +258,10 @@ fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> To
         let symbols = keys.iter().map(|key| key.name().to_uppercase());
         let count = Literal::usize_unsuffixed(before - required.len());
         statements.extend(quote! {
-            let [#(#given),*] = builtin::keys(
+            let [#(#given),*] = typed::keys(
                 #image,
                 more.get(#count..).unwrap_or_default(),
-                const { [#(builtin::keyword(#symbols)),*] },
+                const { [#(typed::keyword(#symbols)),*] },
             )?;
         });
     }
@@ -292,19 +292,19 @@ fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> To
         let value = match (argument.shape, argument.optional_type(), &argument.default) {
             (Shape::Rest, ..) => match argument.element_type() {
                 Some(element) => {
-                    quote!(builtin::all::<#element>(#image, #given)?)
+                    quote!(typed::all::<#element>(#image, #given)?)
                 }
                 None => given,
             },
             (Shape::Required, ..) => {
-                quote!(builtin::required::<#ty>(#image, #given)?)
+                quote!(typed::required::<#ty>(#image, #given)?)
             }
             (_, Some(inner), _) => {
-                quote!(builtin::optional::<#inner>(#image, #given)?)
+                quote!(typed::optional::<#inner>(#image, #given)?)
             }
             (_, None, default) => quote! {
                 match #given {
-                    ::std::option::Option::Some(given) => builtin::required::<#ty>(#image, given)?,
+                    ::std::option::Option::Some(given) => typed::required::<#ty>(#image, given)?,
                     ::std::option::Option::None => #default,
                 }
             },
@@ -343,7 +343,7 @@ mod tests {
         );
         holds(&code, "name:\"DIGIT-CHAR\"");
         holds(&code, "lambda_list:\"weight&optionalgiven&keyfrom-end\"");
-        holds(&code, "constDIGIT_CHAR_BUILTIN:builtin::Builtin");
+        holds(&code, "constDIGIT_CHAR_BUILTIN:typed::Builtin");
         holds(&code, "BuiltinCall::Pure(wrapper)");
     }
 
@@ -392,7 +392,7 @@ mod tests {
         );
         holds(
             &code,
-            "builtin::run(machine,\"FIND\",|calls|find(calls,argument_item))",
+            "typed::run(machine,\"FIND\",|calls|find(calls,argument_item))",
         );
         let wrong = expansion(
             quote!(),
@@ -413,10 +413,7 @@ mod tests {
                 fn spawn(world: &mut World, image: &mut Image, name: &Value) -> Result<Reply> {}
             },
         );
-        holds(
-            &code,
-            "<Worldasbuiltin::Owner>::request(\"spawn\",act,args)",
-        );
+        holds(&code, "<Worldastyped::Owner>::request(\"spawn\",act,args)");
         holds(&code, "spawn(owner,image,argument_name)");
     }
 
@@ -431,7 +428,7 @@ mod tests {
         );
         holds(&code, "None=>1,");
         holds(&code, "fnlast(list:&Value,n:usize,x:u8){}");
-        holds(&code, "const{[builtin::keyword(\"X\")]}");
+        holds(&code, "const{[typed::keyword(\"X\")]}");
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //!
 //! The name is the function's, with `-` for `_`; the lambda list is that of its parameters; the
 //! documentation and the examples are its doc comment. The code that the macros make names module
-//! `builtin` of the language, which `use …::builtin` brings into scope together with the attribute.
+//! `typed` of the language: `use …::typed::{self, builtin, builtins}` brings all into scope.
 
 mod attribute;
 mod doc;

@@ -1,28 +1,15 @@
 //! The table entry of a builtin: everything that is known about it, in one place. Calls, help,
 //! completion, the reference manual and the tests of the examples read the same tables.
-//!
-//! `#[builtin]` makes the entry of a Rust function; its code names what this module has.
-
-mod from_value;
-mod returned;
 
 use std::rc::Rc;
 
+use super::image::Image;
 use super::image::definition::{Definition, Kind};
-use super::native::{ControlFn, PureFn};
+use super::native::{BuiltinCall, ControlFn, PureFn};
+use super::value::Value;
 use super::value::function::Function;
+use super::value::raise::Raise;
 use super::value::symbol::Sym;
-
-pub use from_value::{FromValue, all, keys, keyword, optional, required, wrong_count};
-pub use returned::Returned;
-
-pub use super::image::Image;
-pub use super::native::BuiltinCall;
-pub use super::value::Value;
-pub use super::value::raise::Raise;
-pub use super::vm::calls::run;
-pub use super::vm::machine::Machine;
-pub use super::vm::step::Step;
 
 /// One builtin function.
 pub struct Builtin {

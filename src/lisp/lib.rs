@@ -18,12 +18,12 @@ mod setup;
 pub mod source;
 pub mod stream;
 pub mod structure;
+pub mod typed;
 pub mod types;
 pub mod value;
 pub mod vm;
 
 pub use image::Image;
-pub use planwright_lisp_macros::{builtin, builtins};
 pub use value::raise::Raise;
 pub use value::symbol::Sym;
 

@@ -7,6 +7,7 @@ use crate::request::Request;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::native::{NativeCall, PureFn};
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::function::Body;
 use lisp::value::known;
@@ -15,7 +16,6 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

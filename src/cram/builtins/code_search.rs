@@ -9,11 +9,11 @@ use crate::state::Plan;
 use lisp::builtin::Builtin;
 use lisp::compile;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 /// The names of the tags in forms, in order.
 ///

@@ -8,11 +8,11 @@ use crate::state::Plan;
 use crate::task::TaskRef;
 use lisp::builtin::Builtin;
 use lisp::evaluator::signal::Declined;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// Calls functions in parallel; the values of the first.
 #[builtin]

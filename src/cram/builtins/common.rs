@@ -4,10 +4,10 @@ use super::arithmetic::sleep;
 use crate::state::Plan;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// Waits for so many simulated seconds.
 ///

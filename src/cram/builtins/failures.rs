@@ -8,13 +8,13 @@ use lisp::condition;
 use lisp::evaluator::signal::Declined;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::class::ClassKind;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// Fails: with a text and its arguments, with the name of a condition class and initargs, with a
 /// condition object, or just so.

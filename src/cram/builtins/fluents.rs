@@ -8,9 +8,10 @@ use crate::request::Request;
 use crate::state::Plan;
 use crate::task::TaskRef;
 use lisp::builtin::Builtin;
-use lisp::builtins::keywords;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::equality;
 use lisp::value::known;
@@ -19,7 +20,6 @@ use lisp::vm::callable::builtin_name;
 use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// The value of a fluent; anything else is its own value. It can be set with SETF.
 ///

@@ -3,9 +3,9 @@
 use crate::handlers::Handlers;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
-use lisp::{builtin, builtins};
 
 /// The number of a clause of WITH-FAILURE-HANDLING in a program; NIL elsewhere.
 ///

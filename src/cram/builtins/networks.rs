@@ -4,14 +4,14 @@ use crate::Result;
 use crate::fluent::{self, FluentRef, Missed, Operation};
 use crate::state::Plan;
 use lisp::builtin::Builtin;
-use lisp::builtins::keywords;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// The last value, or NIL if one is NIL; a fluent if a value is one.
 ///

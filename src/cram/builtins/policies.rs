@@ -2,14 +2,15 @@
 
 use crate::Result;
 use crate::state::Plan;
-use lisp::builtin::{Builtin, FromValue};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::FromValue;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 /// A policy.
 pub(crate) struct Policy {

@@ -5,9 +5,11 @@ use crate::fluent::{FluentRef, Operation};
 use crate::request::Request;
 use crate::state::Plan;
 use crate::task::{Status, TaskRef};
-use lisp::builtin::{Builtin, FromValue};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::FromValue;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -15,7 +17,6 @@ use lisp::value::symbol::Sym;
 use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// The fluent of a task's status: :CREATED, :RUNNING, :SUSPENDED, :SUCCEEDED, :FAILED or
 /// :EVAPORATED.

@@ -8,12 +8,12 @@ use crate::tree::{NodeObject, TreeNode};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 use std::rc::Rc;
 
 /// Forgets the task tree of a named plan.

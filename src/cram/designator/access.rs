@@ -4,14 +4,14 @@ use super::value;
 use super::value::{Class, Designator, Quantifier};
 use crate::packages;
 use lisp::builtin::{Builtin, Operator};
-use lisp::builtins::keywords;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

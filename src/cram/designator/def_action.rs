@@ -7,13 +7,13 @@ use closest_name::closest_name;
 use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::form::{form, quote, split_body};
 use lisp::value::known;
 use lisp::value::package::PackageTable;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -3,6 +3,7 @@
 use crate::{Result, packages};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -10,7 +11,6 @@ use lisp::value::symbol::Sym;
 use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// The variable with the generators: a list of `(priority function documentation enabled)`.
 pub(super) const GENERATORS: &str = "*LOCATION-GENERATORS*";

@@ -4,12 +4,12 @@
 
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::foreign::PrintContext;
 use lisp::value::known;
 use lisp::value::package::PackageId;
 use lisp::value::raise::Raise;
-use lisp::{builtin, builtins};
 
 /// The name of a symbol in lower case with underscores.
 ///

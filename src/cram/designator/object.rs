@@ -7,12 +7,12 @@ use crate::packages;
 use crate::pose::value::{pose_stamped, transform_stamped};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 use spatial::Pose;
 
 /// The name in the world of what a perceived object's designator refers to.

@@ -20,6 +20,7 @@ use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::print;
 use lisp::source::Place;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::function::Body;
@@ -29,7 +30,6 @@ use lisp::value::symbol::FunctionCell;
 use lisp::vm::calls::{Annotation, Args, Calls, run};
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an
 /// action (type going) (target ?location)))).

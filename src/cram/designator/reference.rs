@@ -17,6 +17,7 @@ use crate::{Result, packages};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -24,7 +25,6 @@ use lisp::value::symbol::Sym;
 use lisp::vm::calls::{Calls, run};
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 /// Maximum number of groundings of one designator that are searched for.
 const MOST_GROUNDINGS: usize = 64;

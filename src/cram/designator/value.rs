@@ -8,8 +8,8 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use crate::packages;
-use lisp::builtin::FromValue;
 use lisp::image::Image;
+use lisp::typed::FromValue;
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::cycles;

@@ -8,8 +8,8 @@ use super::value;
 use super::value::{Quaternion, Vector3};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
-use lisp::{builtin, builtins};
 use spatial::trig;
 
 /// The sum of vectors.

@@ -3,9 +3,9 @@
 use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
-use lisp::builtin::FromValue;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::FromValue;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;

@@ -6,12 +6,12 @@ use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
 use lisp::builtin::Builtin;
-use lisp::builtins::keywords;
 use lisp::image::Image;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 /// A vector (m).
 ///

@@ -10,8 +10,8 @@ use super::value;
 use super::value::Placement;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
-use lisp::{builtin, builtins};
 
 /// The product of transforms: the last is applied first.
 ///

@@ -8,13 +8,13 @@ use super::argument::Result;
 use super::value;
 use super::value::Quaternion;
 use lisp::builtin::Builtin;
-use lisp::builtins::keywords;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use lisp::{builtin, builtins};
 use spatial::{pose, trig};
 
 /// The axis and the angle (rad) of a quaternion, as two values.

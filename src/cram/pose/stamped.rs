@@ -10,12 +10,13 @@ use super::value::{Placement, PoseStamped, TransformStamped};
 use crate::pose::argument::FrameName;
 use crate::pose::value::Quaternion;
 use crate::pose::value::Vector3;
-use lisp::builtin::{Builtin, FromValue};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::FromValue;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
-use lisp::{builtin, builtins};
 
 /// A pose in a frame at a time (s).
 ///

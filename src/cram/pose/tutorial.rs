@@ -8,10 +8,10 @@ use super::value::Placement;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
-use lisp::{builtin, builtins};
 
 /// The transform back.
 ///

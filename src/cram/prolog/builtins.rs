@@ -3,13 +3,13 @@
 use super::engine::{Engine, Progress};
 use super::search::{NextProofs, Search};
 use lisp::builtin::Builtin;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::vm::calls::Calls;
 use lisp::vm::computation::{self, Computation, compute};
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
-use lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -12,12 +12,12 @@ use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
-use lisp::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -3,11 +3,11 @@
 use crate::builtin::{Builtin, Entry};
 use crate::image::Image;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -7,13 +7,13 @@ use super::array_make;
 use super::arrays::{dimensions, element_type, is_adjustable, row_major};
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Array;
 use crate::value::element_type::ElementType;
 use crate::value::elements::{Displacement, Elements};
 use crate::value::raise::Raise;
 use crate::value::sequence::{checked_element, text_of};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -5,12 +5,13 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::arrays::{element_type, total_size};
-use super::keywords;
 use super::lists::size;
 use super::settled_types;
 use crate::builtin::Builtin;
 use crate::guard::{MOST_ELEMENTS, reserve};
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::{Array, Vector};
 use crate::value::elements::{Displacement, Elements};
@@ -18,7 +19,6 @@ use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Sequence, checked_element, index, list_items, text_of};
 use crate::value::string::LispString;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

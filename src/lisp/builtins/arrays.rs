@@ -5,6 +5,7 @@ use std::slice;
 use super::array_index;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::element_type::ElementType;
@@ -12,7 +13,6 @@ use crate::value::elements::displacement;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{checked_element, index};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -6,11 +6,11 @@ use std::rc::Rc;
 use super::array_make;
 use super::arrays::{bit_array_type, dimensions, element_type};
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Array;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

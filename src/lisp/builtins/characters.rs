@@ -4,10 +4,10 @@ use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::reader::ascii_name::ascii_name;
 use crate::reader::char_name::{char_name as special_name, char_named};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -3,6 +3,7 @@
 use crate::builtin::Builtin;
 use crate::object::access::unbound_slot;
 use crate::object::instance;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::class::ClassKind;
 use crate::value::known;
@@ -10,7 +11,6 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// The format control of a simple condition.
 ///

@@ -6,12 +6,12 @@ use crate::builtin::Builtin;
 use crate::compile::{keep_place, setf};
 use crate::image::Image;
 use crate::image::setf_expander::SetfExpander;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::Function;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

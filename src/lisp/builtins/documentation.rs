@@ -6,12 +6,12 @@ use crate::builtin::{Builtin, Entry};
 use crate::image::Image;
 use crate::library::definition_of;
 use crate::object::method::MethodObject;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym};
-use crate::{builtin, builtins};
 
 /// The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a
 /// function, class or method.

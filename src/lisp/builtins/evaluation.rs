@@ -6,6 +6,7 @@ use crate::builtin::Builtin;
 use crate::compile;
 use crate::guard::descend;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
@@ -14,7 +15,6 @@ use crate::value::symbol::FunctionCell;
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -7,18 +7,19 @@ use std::io::{BufWriter, Error, ErrorKind};
 use std::rc::Rc;
 use std::time::UNIX_EPOCH;
 
-use super::keywords;
 use super::shown::shown;
 use super::strings::string;
-use crate::builtin::{Builtin, FromValue};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{Stream, StreamKind};
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::Pathname;
 use crate::value::raise::Raise;
 use crate::value::stream::Elements;
-use crate::{builtin, builtins};
 use closest_name::closest_name;
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -1,12 +1,12 @@
 //! Vectors with fill pointers: pushing and popping.
 
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{character, element, index};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -6,13 +6,13 @@ use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::print::format::Control;
 use crate::stream;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// Macros of package `COMMON-LISP`.
 pub static OPERATORS: &[Operator] = &[Operator {

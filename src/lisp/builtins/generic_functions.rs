@@ -4,7 +4,7 @@ use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, FromValue, Operator};
+use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::object::combination::{define_combination, expand_define_method_combination};
 use crate::object::combine::{invoke_method, no_next_method};
@@ -12,13 +12,14 @@ use crate::object::dispatch::no_applicable_method_error;
 use crate::object::effective::applicable_methods;
 use crate::object::method::{MethodObject, add_method, method_value, remove_method, specializer};
 use crate::object::{defmethod, text};
+use crate::typed::FromValue;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::Function;
 use crate::value::generic::{GenericFunction, Method};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
-use crate::{builtin, builtins};
 
 /// Called when no method of a generic function applies. Add methods to do something else.
 ///

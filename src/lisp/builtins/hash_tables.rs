@@ -2,11 +2,12 @@
 
 use std::rc::Rc;
 
-use super::keywords;
 use super::lists::size;
 use super::shown::shown;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::hash_table::{HashTable, HashTest};
@@ -17,7 +18,6 @@ use crate::vm::callable::{builtin_name, callable};
 use crate::vm::calls::run;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

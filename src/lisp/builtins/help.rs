@@ -14,6 +14,7 @@ use crate::library::definition_of;
 use crate::object::method::extended_function;
 use crate::print;
 use crate::stream;
+use crate::typed::{self, builtin, builtins};
 use crate::types::type_of::type_of;
 use crate::value::Value;
 use crate::value::class::{Class, ClassKind, Instance};
@@ -23,7 +24,6 @@ use crate::value::known;
 use crate::value::package::{Access, PackageTable};
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::{builtin, builtins};
 
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;

@@ -4,12 +4,12 @@ use super::array_make::MAX_RANK;
 use crate::builtin::Builtin;
 use crate::guard::MOST_ELEMENTS;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
 use crate::value::symbol::VariableKind;
-use crate::{builtin, builtins};
 
 /// The name of the implementation.
 ///

@@ -3,6 +3,7 @@
 use super::criterion::{Compare, Criterion, Key, Test};
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -10,7 +11,6 @@ use crate::value::sequence::ListWalk;
 use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,16 +2,17 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, FromValue};
+use crate::builtin::Builtin;
 use crate::guard::{MOST_ELEMENTS, Pace, reserve};
 use crate::image::Image;
+use crate::typed::FromValue;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cons::Cons;
 use crate::value::cycles;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{self, ListBuilder, ListWalk, last_pair};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

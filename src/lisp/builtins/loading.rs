@@ -5,6 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use super::files::reason;
 use crate::builtin::Builtin;
 use crate::reader::{Outcome, Reader};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::{Pathname, file_name};
@@ -14,7 +15,6 @@ use crate::vm::calls::{Args, run};
 use crate::vm::fiber::Dynamic;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -7,13 +7,13 @@ use std::rc::Rc;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::object::method::method_value;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::class::{Class, Initform, SlotDefinition};
 use crate::value::function::Function;
 use crate::value::generic::{Accessor, Specializer};
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,16 +1,17 @@
 //! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
-use super::keywords;
-use crate::builtin::{Builtin, FromValue};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::reader::numeric::parse_integer as read_integer;
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::number;
 use crate::value::number::ByteSpecifier;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,12 +2,12 @@
 
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::number;
 use crate::value::number::Rounding;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -4,9 +4,9 @@ use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::print::{self, Calls, Settings};
 use crate::stream;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 /// Prints an object. Add methods to print instances of your classes in a form of your own.
 ///

@@ -6,13 +6,13 @@ use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::object::define::{self, no_class};
 use crate::object::{access, class_of, defclass, instance, update};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::class::Instance;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// Makes an instance of a class.
 ///

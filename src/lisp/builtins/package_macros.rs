@@ -9,13 +9,13 @@ use super::shown::shown;
 use super::strings;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{Access, PackageId};
 use crate::value::raise::Raise;
 use crate::value::sequence::list_items;
 use crate::value::symbol::Sym;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

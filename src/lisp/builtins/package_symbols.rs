@@ -5,11 +5,11 @@ use super::property_lists::symbol;
 use super::shown::shown;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::package::PackageId;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

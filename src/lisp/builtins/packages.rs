@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::keywords;
-use crate::builtin::{Builtin, FromValue};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{Access, PackageId, PackageTable};
 use crate::value::raise::Raise;
 use crate::value::sequence::list_items;
 use crate::value::symbol::Sym;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

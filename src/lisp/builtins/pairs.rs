@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::cons::{self, Cons};
 use crate::value::cycles;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::{Rounds, Value};
-use crate::{builtin, builtins};
 
 use crate::value::sequence;
 

@@ -1,12 +1,12 @@
 //! Pathnames: taking them apart and putting them together. All else is written in Lisp.
 
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::Pathname;
 use crate::value::raise::Raise;
 use crate::value::string::LispString;
-use crate::{builtin, builtins};
 use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -9,13 +9,13 @@ use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::print::{self, Settings, SharedLabels};
 use crate::stream::{self, Stream};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::document::{Document, Newline, Tab};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,12 +1,13 @@
 //! Writing values and characters to streams: `print`, `princ`, `write-line`, …
 
 use super::composing::compose;
-use super::keywords;
 use super::streams::or_method;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::print::{self, Case, Settings};
 use crate::stream;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
@@ -16,7 +17,6 @@ use crate::value::symbol::Sym;
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,11 +2,11 @@
 
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::value::{Rounds, Value};
-use crate::{builtin, builtins};
 
 use crate::value::sequence::{ListWalk, circular};
 

@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::or_method;
 use crate::builtin::Builtin;
 use crate::image::Image;
@@ -10,6 +9,8 @@ use crate::print;
 use crate::reader::readtable::{LetterCase, Readtable};
 use crate::reader::{Completeness, ReadError, Reader, is_complete};
 use crate::stream::{self, Stream};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -17,7 +18,6 @@ use crate::value::sequence::{Bounds, Sequence};
 use crate::vm::computation::{Computation, Progress, compute};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -5,13 +5,13 @@ use std::cell::RefCell;
 use crate::builtin::Builtin;
 use crate::evaluator::restart::Restart;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::vm::calls::{Args, Calls};
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -9,11 +9,11 @@ use super::settled_types::sequence_type;
 use crate::builtin::Builtin;
 use crate::guard::reserve;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Vector;
 use crate::value::raise::Raise;
 use crate::value::sequence::{self, Bounds, Kind, Sequence, index};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

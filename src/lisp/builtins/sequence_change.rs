@@ -2,9 +2,10 @@
 //! their `-if` forms.
 
 use super::criterion::{Criterion, Key, Test};
-use super::keywords;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -12,7 +13,6 @@ use crate::value::sequence::{Bounds, Sequence, conses, relink, text_of};
 use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// What happens to the elements that satisfy a condition.
 enum Change {

@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 
 use super::criterion::{Key, Test};
-use super::keywords;
 use super::sequence_change::removed;
 use crate::builtin::Builtin;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::hash_table::{HashKey, HashTest};
 use crate::value::known;
@@ -14,7 +15,6 @@ use crate::value::sequence::{Bounds, Sequence};
 use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 struct Duplicates {
     sequence: Sequence,

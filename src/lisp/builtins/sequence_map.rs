@@ -4,6 +4,7 @@
 use super::criterion::Key;
 use super::settled_types::sequence_type;
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -12,7 +13,6 @@ use crate::vm::callable::callable;
 use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

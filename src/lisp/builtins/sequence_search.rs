@@ -1,9 +1,10 @@
 //! Comparing sequences: `search` and `mismatch`.
 
 use super::criterion::{Key, Test};
-use super::keywords;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -11,7 +12,6 @@ use crate::value::sequence::{Bounds, Sequence};
 use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// Two parts of sequences and how their elements are compared.
 struct Pair {

@@ -4,6 +4,7 @@ use crate::builtin::Builtin;
 use crate::evaluator::signal::Declined;
 use crate::image::Image;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -11,7 +12,6 @@ use crate::value::symbol::Sym;
 use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -3,6 +3,7 @@
 use super::criterion::Key;
 use super::settled_types::sequence_type;
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -11,7 +12,6 @@ use crate::vm::callable::{builtin_name, callable};
 use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// An item with the value by which it is compared.
 #[derive(Clone)]

@@ -8,11 +8,11 @@ use super::strings::string;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Stream, StreamKind};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence, index, text_of};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -4,16 +4,16 @@ use crate::value::string::LispString;
 use crate::value::symbol::Sym;
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::stream_of;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Stream, StreamKind};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence};
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use super::keywords;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Elements, Stream, StreamKind};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

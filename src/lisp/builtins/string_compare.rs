@@ -7,11 +7,11 @@ use super::characters::upcase;
 use super::strings::designated;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence};
 use crate::value::string::LispString;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -7,32 +7,15 @@ use super::array_index;
 use super::characters::{downcase, upcase};
 use crate::builtin::Builtin;
 use crate::image::Image;
+pub(crate) use crate::typed::designated;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence, character, index};
 use crate::value::string::LispString;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
-
-/// The text that a string designator denotes: a string, a symbol's name or a character.
-pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
-    match value {
-        Value::Str(s) => Ok(s.text()),
-        Value::Symbol(s, ..) => Ok(image.name(*s).to_owned()),
-        Value::Char(c) => Ok(c.to_string()),
-        _ => Err(Raise::type_error(
-            value,
-            Value::list([
-                known::OR.into(),
-                known::STRING.into(),
-                known::SYMBOL.into(),
-                known::CHARACTER.into(),
-            ]),
-        )),
-    }
-}
 
 /// A value as a string.
 pub fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {

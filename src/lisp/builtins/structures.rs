@@ -5,9 +5,9 @@ use crate::image::Image;
 use crate::structure::define::{copy_structure, define_structure, make_structure};
 use crate::structure::expand::expand_defstruct;
 use crate::structure::typed::define_typed_structure;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::raise::Raise;
-use crate::{builtin, builtins};
 
 /// A structure of the same type with the same slot values.
 ///

@@ -4,6 +4,7 @@ use super::property_lists::symbol;
 use super::strings::string;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
@@ -12,7 +13,6 @@ use crate::value::sequence::index;
 use crate::value::string::LispString;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::vm::callable::callable;
-use crate::{builtin, builtins};
 use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -1,9 +1,9 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::raise::Raise;
 use crate::value::{Value, number};
-use crate::{builtin, builtins};
 
 /// The base to the power.
 ///

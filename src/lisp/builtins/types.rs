@@ -3,6 +3,7 @@
 use super::settled_types::element_type;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::types::asking;
 use crate::types::coerce::coerce;
 use crate::types::emptiness::is_subtype;
@@ -18,7 +19,6 @@ use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-use crate::{builtin, builtins};
 
 /// Is the object of the type?
 ///

@@ -1,6 +1,7 @@
 //! Weak pointers: objects that refer to others without keeping them.
 
 use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::copy::Copier;
 use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
@@ -8,7 +9,6 @@ use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 use crate::value::weak::Reference;
-use crate::{builtin, builtins};
 
 /// A weak pointer; without a reference if its object was gone when the image was copied.
 struct WeakPointer(Option<Reference>);

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Vector;
 use crate::value::cons::Cons;
@@ -13,7 +14,6 @@ use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
 use crate::value::sequence::Sequence;
 use crate::value::sequence::last_pair;
-use crate::{builtin, builtins};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -50,7 +50,7 @@ pub(crate) fn given<'a, const N: usize>(
     }
     match unknown {
         Some(name) if others_allowed != Some(true) => {
-            let shown = super::shown::shown(image, name);
+            let shown = crate::print::to_string(image, name, true);
             Err(Raise::unknown_key(
                 &shown,
                 names.map(|known| image.name(known)),

@@ -2,8 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::builtins::keywords;
-use crate::builtins::strings::designated;
+use super::keywords;
 use crate::image::Image;
 use crate::stream::Stream;
 use crate::value::Value;
@@ -170,6 +169,24 @@ impl FromValue<'_> for Rc<Function> {
     #[inline]
     fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
         <&Rc<Function>>::from_value(image, value).cloned()
+    }
+}
+
+/// The text that a string designator denotes: a string, a symbol's name or a character.
+pub fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
+    match value {
+        Value::Str(s) => Ok(s.text()),
+        Value::Symbol(s, ..) => Ok(image.name(*s).to_owned()),
+        Value::Char(c) => Ok(c.to_string()),
+        _ => Err(Raise::type_error(
+            value,
+            Value::list([
+                known::OR.into(),
+                known::STRING.into(),
+                known::SYMBOL.into(),
+                known::CHARACTER.into(),
+            ]),
+        )),
     }
 }
 
