@@ -40,10 +40,10 @@ fn check_plan_builtin(machine: &mut Machine<'_>, name: &Value) -> Result<Step> {
 }
 
 /// Fails with a failure that holds others.
-#[builtin(_, "failures")]
-fn all_failed(machine: &mut Machine<'_>, failures_value: &Value) -> Result<Step> {
+#[builtin]
+fn all_failed(machine: &mut Machine<'_>, failures: &Value) -> Result<Step> {
     let plan = Plan::of(machine.image);
-    let failures = failures_value.iter_list().collect();
+    let failures = failures.iter_list().collect();
     let failure = scheduler::composite(&plan, machine.image, failures)?;
     machine.signal(failure, Declined::Stop)
 }

@@ -41,22 +41,18 @@ fn peek_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 /// Wakes those who wait for pulses of the fluent; its value stays.
 ///
 /// `(cpl:pulse (cpl:make-fluent))` => `NIL`
-#[builtin(_, "fluent")]
-fn pulse(machine: &mut Machine<'_>, fluent_value: &Value) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent_value)?;
+#[builtin]
+fn pulse(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
     fluent::pulse(machine, &fluent)
 }
 
 /// Forgets the callback of that name; was there one?
 ///
 /// `(cpl:remove-update-callback (cpl:make-fluent) 'see)` => `NIL`
-#[builtin(_, "fluent name")]
-fn remove_update_callback(
-    machine: &mut Machine<'_>,
-    fluent_value: &Value,
-    name: &Value,
-) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent_value)?;
+#[builtin]
+fn remove_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
     let removed = fluent.get().remove_callback(name);
     Ok(Step::Return(Value::bool(removed)))
 }
@@ -64,13 +60,9 @@ fn remove_update_callback(
 /// The callback of that name, or NIL.
 ///
 /// `(cpl:get-update-callback (cpl:make-fluent) 'see)` => `NIL`
-#[builtin(_, "fluent name")]
-fn get_update_callback(
-    machine: &mut Machine<'_>,
-    fluent_value: &Value,
-    name: &Value,
-) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent_value)?;
+#[builtin]
+fn get_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
     let callback = fluent.get().callback(name);
     Ok(Step::Return(callback.unwrap_or(Value::NIL)))
 }

@@ -145,9 +145,9 @@ fn pop_suspension_hook() -> Result<Step> {
 }
 
 /// Allows (1) or forbids (-1) that the current task is disturbed while it waits.
-#[builtin(_, "change")]
-fn allow_scheduling(change_value: &Value) -> Result<Step> {
-    let change = match change_value {
+#[builtin]
+fn allow_scheduling(change: &Value) -> Result<Step> {
+    let change = match change {
         Value::Int(n) if *n < 0 => -1,
         _ => 1,
     };
@@ -231,10 +231,10 @@ fn wait_until_suspended(machine: &mut Machine<'_>, task: TaskRef) -> Result<Step
 }
 
 /// Makes a variable one that each task binds anew.
-#[builtin(_, "name function")]
-fn define_task_variable(image: &mut Image, name_value: &Value, function: Value) -> Result<Value> {
-    let Some(name) = name_value.as_symbol() else {
-        return Err(Raise::type_error(name_value, known::SYMBOL));
+#[builtin]
+fn define_task_variable(image: &mut Image, name: &Value, function: Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let plan = Plan::of(image);
     let init = Some(function).filter(Value::is_true);

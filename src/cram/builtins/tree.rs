@@ -17,10 +17,10 @@ use lisp::vm::step::Step;
 use std::rc::Rc;
 
 /// Forgets the task tree of a named plan.
-#[builtin(_, "name")]
-fn remove_top_level_task_tree(image: &mut Image, name_value: &Value) -> Result<Value> {
-    let Some(name) = name_value.as_symbol() else {
-        return Err(Raise::type_error(name_value, known::SYMBOL));
+#[builtin]
+fn remove_top_level_task_tree(image: &mut Image, name: &Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let plan = Plan::of(image);
     let removed = plan.trees.borrow_mut().shift_remove(&name);
@@ -83,9 +83,9 @@ fn fresh_tag(machine: &mut Machine<'_>, task_value: &Value, name: Value) -> Resu
 }
 
 /// Runs a function as a task and returns its values.
-#[builtin(_, "task function")]
-fn run_tag(machine: &mut Machine<'_>, task_value: &Value, function: Value) -> Result<Step> {
-    let task = super::tasks::task(machine.image, task_value)?;
+#[builtin]
+fn run_tag(machine: &mut Machine<'_>, task: &Value, function: Value) -> Result<Step> {
+    let task = super::tasks::task(machine.image, task)?;
     Ok(Step::request(Request::Run { task, function }))
 }
 
@@ -129,10 +129,10 @@ fn node(image: &Image, value: &Value) -> Result<Rc<TreeNode>> {
 }
 
 /// The task tree of a plan defined by DEF-TOP-LEVEL-CRAM-FUNCTION.
-#[builtin("GET-TOP-LEVEL-TASK-TREE", "name")]
-fn top_level_tree(image: &mut Image, name_value: &Value) -> Result<Value> {
-    let Some(name) = name_value.as_symbol() else {
-        return Err(Raise::type_error(name_value, known::SYMBOL));
+#[builtin("GET-TOP-LEVEL-TASK-TREE")]
+fn top_level_tree(image: &mut Image, name: &Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let plan = Plan::of(image);
     let mut trees = plan.trees.borrow_mut();

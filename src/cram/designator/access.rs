@@ -151,19 +151,16 @@ fn class(image: &Image, argument: &Value) -> Result<Class> {
 #[builtin(_, "quantifier class properties")]
 fn designator_of_form(
     image: &mut Image,
-    quantifier_value: &Value,
+    quantifier: &Value,
     class_value: &Value,
-    properties_value: &Value,
+    properties: &Value,
 ) -> Result<Value> {
     let class = class(image, class_value)?;
-    let quantifier = match quantifier_value.as_symbol().map(|s| image.name(s)) {
+    let quantifier = match quantifier.as_symbol().map(|s| image.name(s)) {
         Some("ALL") => Quantifier::All,
         _ => Quantifier::A,
     };
-    let properties: Vec<Value> = properties_value
-        .iter_list()
-        .filter(Value::is_true)
-        .collect();
+    let properties: Vec<Value> = properties.iter_list().filter(Value::is_true).collect();
     let designator = Designator::new(image, class, quantifier, list(properties));
     Ok(Value::foreign(designator))
 }
@@ -218,9 +215,9 @@ fn prop_value(designator: &Value, key: &Value) -> Result<Value> {
 /// The first values of all properties of a key.
 ///
 /// `(desig:desig-prop-values (desig:an action (tool a) (tool b)) :tool)` => `(:A :B)`
-#[builtin("DESIG-PROP-VALUES", "designator key")]
-fn prop_values(designator_value: &Value, key: &Value) -> Result<Value> {
-    let Some(designator) = value::as_designator(designator_value) else {
+#[builtin("DESIG-PROP-VALUES")]
+fn prop_values(designator: &Value, key: &Value) -> Result<Value> {
+    let Some(designator) = value::as_designator(designator) else {
         return Ok(Value::NIL);
     };
     let values = designator
@@ -281,10 +278,10 @@ fn copy(image: &mut Image, args: &[Value]) -> Result<Value> {
 /// A designator with more properties.
 ///
 /// `(desig:properties (desig:extend-designator-properties (desig:an object (type a)) '((:name :b))))` => `((:TYPE :A) (:NAME :B))`
-#[builtin("EXTEND-DESIGNATOR-PROPERTIES", "designator properties")]
-fn extend(image: &mut Image, designator: &Designator, properties_value: &Value) -> Result<Value> {
+#[builtin("EXTEND-DESIGNATOR-PROPERTIES")]
+fn extend(image: &mut Image, designator: &Designator, properties: &Value) -> Result<Value> {
     let original = designator;
-    let new = checked_description(image, properties_value)?;
+    let new = checked_description(image, properties)?;
     let mut properties: Vec<Value> = original.description.borrow().iter_list().collect();
     properties.extend(new.iter_list());
     Ok(like(image, original, properties))
@@ -352,9 +349,9 @@ fn make_effective(image: &mut Image, args: &[Value]) -> Result<Value> {
 /// The newest designator of the chain that refers to something known by effect, or NIL.
 ///
 /// `(desig:newest-effective-designator (desig:an object))` => `NIL`
-#[builtin("NEWEST-EFFECTIVE-DESIGNATOR", "designator")]
-fn newest_effective(designator_value: &Value) -> Result<Value> {
-    let mut at = value::current(designator_value);
+#[builtin("NEWEST-EFFECTIVE-DESIGNATOR")]
+fn newest_effective(designator: &Value) -> Result<Value> {
+    let mut at = value::current(designator);
     while let Some(designator) = value::as_designator(&at) {
         if designator.is_effective.get() {
             return Ok(at);

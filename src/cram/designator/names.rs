@@ -33,10 +33,10 @@ fn rosify_lisp_name(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>
 #[builtin(_, "name &optional package")]
 fn lispify_ros_underscore_name(
     image: &mut Image,
-    name_value: &Value,
+    name: &Value,
     package_value: Option<&Value>,
 ) -> Result<Value, Box<Raise>> {
-    let name = canonical(&text(image, name_value)?);
+    let name = canonical(&text(image, name)?);
     let sym = match package_value.and_then(|p| package(image, p)) {
         Some(package) => image.intern(package, &name),
         None => image.keyword(&name),
@@ -50,10 +50,10 @@ fn lispify_ros_underscore_name(
 #[builtin(_, "name &optional package")]
 fn lispify_ros_name(
     image: &mut Image,
-    name_value: &Value,
+    name: &Value,
     package_value: Option<&Value>,
 ) -> Result<Value, Box<Raise>> {
-    let name = uncamel(&text(image, name_value)?);
+    let name = uncamel(&text(image, name)?);
     let sym = match package_value.and_then(|p| package(image, p)) {
         Some(package) => image.intern(package, &name),
         None => image.keyword(&name),

@@ -46,20 +46,20 @@ fn transform_diff(transform: Placement, other: Placement) -> Result<Value> {
 /// The pose carried along by the transform.
 ///
 /// `(cl-tf:transform-pose (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)))` => `#<POSE #<3D-VECTOR (2.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "transform pose")]
-fn transform_pose(transform_argument: Placement, pose_argument: Placement) -> Result<Value> {
-    let transform = transform_argument.to_pose();
-    let pose = pose_argument.to_pose();
+#[builtin]
+fn transform_pose(transform: Placement, pose: Placement) -> Result<Value> {
+    let transform = transform.to_pose();
+    let pose = pose.to_pose();
     Ok(value::pose(Placement::of(&(transform * pose))))
 }
 
 /// The point carried along by the transform (m).
 ///
 /// `(cl-tf:transform-point (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-3d-vector 1 2 3))` => `#<3D-VECTOR (2.0d0 2.0d0 3.0d0)>`
-#[builtin(_, "transform point")]
-fn transform_point(transform_argument: Placement, point_argument: Vector3) -> Result<Value> {
-    let transform = transform_argument.to_pose();
-    let point = Point3::from(point_argument.0);
+#[builtin]
+fn transform_point(transform: Placement, point: Vector3) -> Result<Value> {
+    let transform = transform.to_pose();
+    let point = Point3::from(point.0);
     let moved = transform * point;
     Ok(value::vector([moved.x, moved.y, moved.z]))
 }

@@ -138,9 +138,9 @@ fn quaternion_to_euler(image: &mut Image, args: &[Value]) -> Result<Value> {
 /// The quaternion of a rotation by an angle (rad) about an axis.
 ///
 /// `(cl-transforms:axis-angle->quaternion (cl-transforms:make-3d-vector 0 0 1) 0)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
-#[builtin("AXIS-ANGLE->QUATERNION", "axis angle")]
-fn axis_angle_to_quaternion(axis_argument: Vector3, angle: f64) -> Result<Value> {
-    let axis = Column::from(axis_argument.0);
+#[builtin("AXIS-ANGLE->QUATERNION")]
+fn axis_angle_to_quaternion(axis: Vector3, angle: f64) -> Result<Value> {
+    let axis = Column::from(axis.0);
     let length = axis.norm();
     if length == 0.0 {
         return Err(Raise::simple(
@@ -155,12 +155,12 @@ fn axis_angle_to_quaternion(axis_argument: Vector3, angle: f64) -> Result<Value>
 /// The quaternion of a 3 × 3 rotation matrix: an array, or a list of three rows.
 ///
 /// `(cl-transforms:matrix->quaternion '((1 0 0) (0 1 0) (0 0 1)))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
-#[builtin("MATRIX->QUATERNION", "matrix")]
-fn matrix_to_quaternion(image: &mut Image, matrix_value: &Value) -> Result<Value> {
-    let numbers = matrix_numbers(matrix_value).ok_or_else(|| {
+#[builtin("MATRIX->QUATERNION")]
+fn matrix_to_quaternion(image: &mut Image, matrix: &Value) -> Result<Value> {
+    let numbers = matrix_numbers(matrix).ok_or_else(|| {
         Raise::simple(format!(
             "{} is not a rotation matrix: an array or a list of three rows of three numbers was expected.",
-            print::to_string(image, matrix_value, true)
+            print::to_string(image, matrix, true)
         ))
     })?;
     let matrix = Matrix3::from_row_slice(&numbers);

@@ -39,11 +39,11 @@ fn make_pose_stamped(
 /// A transform from a frame to a child frame at a time (s).
 ///
 /// `(cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))` => `#<"map" "base" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "frame-id child-frame-id stamp translation rotation")]
+#[builtin]
 fn make_transform_stamped(
     frame_id: FrameName,
     child_frame_id: FrameName,
-    stamp_argument: Time,
+    stamp: Time,
     translation: Vector3,
     rotation: Quaternion,
 ) -> Result<Value> {
@@ -52,7 +52,7 @@ fn make_transform_stamped(
         orientation: rotation,
     };
     let (frame, child) = (frame_id.0, child_frame_id.0);
-    let stamp = stamp_argument.0;
+    let stamp = stamp.0;
     Ok(value::transform_stamped_at(
         &frame, &child, stamp, placement,
     ))
@@ -162,16 +162,16 @@ fn list_to_transform(image: &mut Image, list: &Value) -> Result<Value> {
 /// The transform between two frames that a pose says.
 ///
 /// `(cram-tf:pose->transform-stamped "map" "base" 0.0 (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)))` => `#<"map" "base" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin("POSE->TRANSFORM-STAMPED", "parent-frame child-frame stamp pose")]
+#[builtin("POSE->TRANSFORM-STAMPED")]
 fn pose_to_transform_stamped(
     parent_frame: FrameName,
     child_frame: FrameName,
-    stamp_argument: Time,
+    stamp: Time,
     pose: Placement,
 ) -> Result<Value> {
     let placement = pose;
     let (frame, child) = (parent_frame.0, child_frame.0);
-    let stamp = stamp_argument.0;
+    let stamp = stamp.0;
     Ok(value::transform_stamped_at(
         &frame, &child, stamp, placement,
     ))

@@ -16,9 +16,9 @@ use lisp::value::raise::Raise;
 /// The transform back.
 ///
 /// `(pp-tut:inverse-transformation (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)))` => `#<TRANSFORM #<3D-VECTOR (-1.0d0 0.0d0 0.0d0)> #<QUATERNION (-0.0d0 -0.0d0 -0.0d0 1.0d0)>>`
-#[builtin(_, "transform")]
-fn inverse_transformation(transform_value: &Value) -> Result<Value> {
-    let transform = argument::as_kind(transform_value, names::TRANSFORM)?;
+#[builtin]
+fn inverse_transformation(transform: &Value) -> Result<Value> {
+    let transform = argument::as_kind(transform, names::TRANSFORM)?;
     let inverse = transform.to_pose().inverse();
     Ok(value::transform(Placement::of(&inverse)))
 }
@@ -26,9 +26,9 @@ fn inverse_transformation(transform_value: &Value) -> Result<Value> {
 /// The pose carried along by the transform; frames are not compared.
 ///
 /// `(pp-tut:apply-transformation (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose-stamped "map" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)))` => `#<POSE #<3D-VECTOR (2.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "transform pose")]
-fn apply_transformation(transform_value: &Value, pose: Placement) -> Result<Value> {
-    let transform = argument::as_kind(transform_value, names::TRANSFORM)?;
+#[builtin]
+fn apply_transformation(transform: &Value, pose: Placement) -> Result<Value> {
+    let transform = argument::as_kind(transform, names::TRANSFORM)?;
     let moved = transform.to_pose() * pose.to_pose();
     Ok(value::pose(Placement::of(&moved)))
 }
@@ -53,14 +53,14 @@ fn get_y_of_pose(image: &mut Image, pose: &Value) -> Result<Value> {
 /// metres and a quaternion.
 ///
 /// `(pp-tut:make-pose "map" '((0 1 0) (0 0 0 1)))` => `#<"map" ((0.00000 1.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "frame pose")]
-fn make_pose(image: &mut Image, frame_value: &Value, pose: &Value) -> Result<Value> {
-    let Some(frame) = frame_value.as_text() else {
+#[builtin]
+fn make_pose(image: &mut Image, frame: &Value, pose: &Value) -> Result<Value> {
+    let Some(frame) = frame.as_text() else {
         return Err(Raise::simple(format!(
             "{} is not the name of a frame: a string such as \"map\" or \"base_footprint\" was expected.",
-            print::to_string(image, frame_value, true)
+            print::to_string(image, frame, true)
         ))
-        .with(known::K_DATUM, frame_value.clone()));
+        .with(known::K_DATUM, frame.clone()));
     };
     let placement = match value::as_placement(pose) {
         Some(placement) => placement,

@@ -20,7 +20,7 @@ fn check_arguments(
     list: &Value,
     least_value: &Value,
     most_value: &Value,
-    context_value: &Value,
+    context: &Value,
     lambda_list_value: &Value,
 ) -> Result<Value> {
     let mut elements = list.iter_list();
@@ -40,11 +40,11 @@ fn check_arguments(
     if count >= least && most.is_none_or(|most| count <= most) {
         return Ok(list.clone());
     }
-    let lambda_list = lambda_list_text(image, context_value, lambda_list_value);
+    let lambda_list = lambda_list_text(image, context, lambda_list_value);
     let show = |v: &Value| print::to_string(image, v, true);
-    let context = match context_value.as_symbol() {
+    let context = match context.as_symbol() {
         Some(known::DESTRUCTURING_BIND) => "DESTRUCTURING-BIND".to_owned(),
-        _ => format!("DEFMACRO {}", show(context_value)),
+        _ => format!("DEFMACRO {}", show(context)),
     };
     let few = if count < least { "few" } else { "many" };
     let expected = match most {

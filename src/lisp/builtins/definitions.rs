@@ -173,13 +173,13 @@ fn set_setf_expander(image: &mut Image, name: &Value, function: Value) -> Result
 /// form that stores, the form that reads.
 ///
 /// `(fifth (multiple-value-list (get-setf-expansion 'x)))` => `X`
-#[builtin(_, "place &optional environment")]
+#[builtin]
 fn get_setf_expansion(
     image: &mut Image,
     place: &Value,
-    environment_value: Option<&Value>,
+    environment: Option<&Value>,
 ) -> Result<Value> {
-    let environment = environment_value.cloned().unwrap_or(Value::NIL);
+    let environment = environment.cloned().unwrap_or(Value::NIL);
     let outside = std::mem::replace(&mut image.environment, environment);
     let expansion = setf::expansion(image, place);
     image.environment = outside;

@@ -214,30 +214,21 @@ fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
 /// Expands a macro call until it is none; was it one?
 ///
 /// `(macroexpand '(when a b))` => `(IF A B) ; T`
-#[builtin(_, "form &optional environment")]
-fn macroexpand(
-    image: &mut Image,
-    form_value: &Value,
-    environment: Option<&Value>,
-) -> Result<Value> {
+#[builtin]
+fn macroexpand(image: &mut Image, form: &Value, environment: Option<&Value>) -> Result<Value> {
     let (form, expanded) =
-        compile::macroexpand_in(image, form_value, environment.unwrap_or(&Value::NIL))?;
+        compile::macroexpand_in(image, form, environment.unwrap_or(&Value::NIL))?;
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
 /// Expands a macro call once; was it one?
 ///
 /// `(macroexpand-1 '(when a b))` => `(IF A B) ; T`
-#[builtin(_, "form &optional environment")]
-fn macroexpand_1(
-    image: &mut Image,
-    form_value: &Value,
-    environment: Option<&Value>,
-) -> Result<Value> {
-    let expansion =
-        compile::macroexpand_1_in(image, form_value, environment.unwrap_or(&Value::NIL))?;
+#[builtin]
+fn macroexpand_1(image: &mut Image, form: &Value, environment: Option<&Value>) -> Result<Value> {
+    let expansion = compile::macroexpand_1_in(image, form, environment.unwrap_or(&Value::NIL))?;
     let expanded = expansion.is_some();
-    let form = expansion.unwrap_or_else(|| form_value.clone());
+    let form = expansion.unwrap_or_else(|| form.clone());
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
@@ -320,10 +311,10 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
 /// NIL, T and the function's name.
 ///
 /// `(function-lambda-expression #'car)` => `NIL ; T ; CAR`
-#[builtin(_, "function")]
-fn function_lambda_expression(function_value: &Value) -> Result<Value> {
-    let Value::Function(function) = function_value else {
-        return Err(Raise::type_error(function_value, known::FUNCTION));
+#[builtin]
+fn function_lambda_expression(function: &Value) -> Result<Value> {
+    let Value::Function(function) = function else {
+        return Err(Raise::type_error(function, known::FUNCTION));
     };
     let name = match &function.body {
         Body::Closure { code, .. } => code.name.value(),

@@ -325,9 +325,9 @@ fn make_directories(name: FilePath) -> Outcome {
 /// folder.
 ///
 /// `(system:file-names "no-such-folder")` => `NIL`
-#[builtin(_, "folder")]
-fn file_names(folder_argument: &Rc<LispString>) -> Outcome {
-    let folder = folder_argument.text();
+#[builtin]
+fn file_names(folder: &Rc<LispString>) -> Outcome {
+    let folder = folder.text();
     let Ok(entries) = fs::read_dir(&folder) else {
         return Ok(Value::NIL);
     };
@@ -348,9 +348,9 @@ fn file_names(folder_argument: &Rc<LispString>) -> Outcome {
 ///
 /// `(system:closest-name "iterat" '("fiveam" "iterate"))` => `"iterate"`
 #[builtin("CLOSEST-NAME", "name names")]
-fn closest(name_argument: &Rc<LispString>, names_value: &Value) -> Outcome {
+fn closest(name_argument: &Rc<LispString>, names: &Value) -> Outcome {
     let name = name_argument.text();
-    let names: Vec<String> = names_value
+    let names: Vec<String> = names
         .iter_list()
         .map(|name| Ok(string(&name)?.text()))
         .collect::<Result<_, Box<Raise>>>()?;

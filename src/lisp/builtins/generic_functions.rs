@@ -78,14 +78,14 @@ fn remove_method_builtin(
 /// The methods that apply to the arguments, most specific first.
 ///
 /// `(progn (defgeneric f (x)) (compute-applicable-methods #'f '(1)))` => `NIL`
-#[builtin(_, "generic-function arguments")]
+#[builtin]
 fn compute_applicable_methods(
     image: &mut Image,
     generic_function: Generic<'_>,
-    arguments_value: &Value,
+    arguments: &Value,
 ) -> Result<Value, Box<Raise>> {
     let function = generic_function.0.clone();
-    let arguments: Vec<Value> = arguments_value.iter_list().collect();
+    let arguments: Vec<Value> = arguments.iter_list().collect();
     let generic = as_generic(&function)?;
     let methods = applicable_methods(image, generic, &arguments);
     Ok(Value::list(methods.iter().map(method_value)))
@@ -144,13 +144,13 @@ fn define_combination_builtin(image: &mut Image, args: &[Value]) -> Result<Value
 }
 
 /// Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.
-#[builtin("%INVOKE-METHOD", "method arguments next")]
+#[builtin("%INVOKE-METHOD")]
 fn invoke_method_builtin(
     method: &Rc<Method>,
-    arguments_value: &Value,
+    arguments: &Value,
     next: Value,
 ) -> Result<Step, Box<Raise>> {
-    let arguments = arguments_value.iter_list().collect();
+    let arguments = arguments.iter_list().collect();
     Ok(invoke_method(method, arguments, next))
 }
 

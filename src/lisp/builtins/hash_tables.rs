@@ -170,14 +170,14 @@ fn rehash_threshold(table_value: &Value) -> Outcome {
 /// Calls a function with the key and value of each entry, in order of insertion.
 ///
 /// `(let ((h (make-hash-table)) r) (setf (gethash 1 h) 'a) (maphash (lambda (k v) (push (list k v) r)) h) r)` => `((1 A))`
-#[builtin(_, "function table")]
+#[builtin]
 fn maphash(
     machine: &mut Machine<'_>,
-    function_value: Value,
-    table_argument: &Rc<HashTable>,
+    function: Value,
+    table: &Rc<HashTable>,
 ) -> Result<Step, Box<Raise>> {
-    let function = callable(machine.image, &function_value)?;
-    let table = table_argument.clone();
+    let function = callable(machine.image, &function)?;
+    let table = table.clone();
     run(machine, "MAPHASH", |calls| async move {
         for (key, _) in table.pairs() {
             // An entry may have been removed or changed since.

@@ -53,9 +53,9 @@ fn method_specializers(method: &Rc<Method>) -> Outcome {
 /// The `:superclasses`, `:subclasses` or the `:precedence` list of a class.
 ///
 /// `(length (system::%related-classes (find-class 'integer) :superclasses))` => `1`
-#[builtin("%RELATED-CLASSES", "class relation")]
-fn related_classes(image: &mut Image, class: &Rc<Class>, relation_value: &Value) -> Outcome {
-    let relation = relation_value.as_symbol().map(|sym| image.name(sym));
+#[builtin("%RELATED-CLASSES")]
+fn related_classes(image: &mut Image, class: &Rc<Class>, relation: &Value) -> Outcome {
+    let relation = relation.as_symbol().map(|sym| image.name(sym));
     let classes = match relation {
         Some("SUPERCLASSES") => &class.direct_superclasses,
         Some("SUBCLASSES") => &class.direct_subclasses,

@@ -214,17 +214,17 @@ fn set_slot_value(
 }
 
 /// Called when a slot that the object does not have is used.
-#[builtin(_, "class object slot-name operation &optional new-value")]
+#[builtin]
 fn slot_missing(
     machine: &mut Machine<'_>,
     _class: &Value,
     object: &Value,
     slot_name: &Value,
-    operation_value: &Value,
+    operation: &Value,
     new_value: Option<&Value>,
 ) -> Result<Step, Box<Raise>> {
     let slot = access::slot_name(slot_name)?;
-    let operation = match operation_value.as_symbol() {
+    let operation = match operation.as_symbol() {
         Some(known::SETF) => access::Access::Write,
         Some(known::SLOT_BOUNDP) => access::Access::IsBound,
         Some(known::SLOT_MAKUNBOUND) => access::Access::MakeUnbound,

@@ -40,8 +40,8 @@ pub(crate) fn import_one(
 ///
 /// `(import 'cl:car)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn import(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+fn import(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for sym in symbols(symbols_value)? {
         import_one(image, package, sym)?;
     }
@@ -57,12 +57,8 @@ fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
 ///
 /// `(shadowing-import nil)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn shadowing_import(
-    image: &mut Image,
-    symbols_value: &Value,
-    package_value: Option<&Value>,
-) -> Outcome {
-    let package = or_current(image, package_value)?;
+fn shadowing_import(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for sym in symbols(symbols_value)? {
         image
             .packages
@@ -75,10 +71,10 @@ fn shadowing_import(
 ///
 /// `(unintern (make-symbol "X"))` => `NIL`
 // Removes a symbol from a package, unless two different symbols that it shadows would get its name.
-#[builtin(_, "symbol &optional package")]
-fn unintern(image: &mut Image, symbol: Sym, package_value: Option<&Value>) -> Outcome {
+#[builtin]
+fn unintern(image: &mut Image, symbol: Sym, package: Option<&Value>) -> Outcome {
     let sym = symbol;
-    let package = or_current(image, package_value)?;
+    let package = or_current(image, package)?;
     let name = image.name(sym).to_owned();
     let this = image.packages.get(package);
     let is_present = this
@@ -139,8 +135,8 @@ fn must_be_accessible(
 ///
 /// `(export 'exported-as-example)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn export(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+fn export(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "exported", "; import it first")?;
         no_conflict_in_users(image, package, sym)?;
@@ -183,8 +179,8 @@ fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(
 ///
 /// `(unexport 'exported-as-example)` => `T`
 #[builtin(_, "symbols &optional package")]
-fn unexport(image: &mut Image, symbols_value: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+fn unexport(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "unexported", "")?;
         image.packages.unexport(&image.symbols, package, sym);
@@ -222,8 +218,8 @@ pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
 ///
 /// `(shadow "OWN-SYMBOL")` => `T`
 #[builtin(_, "names &optional package")]
-fn shadow(image: &mut Image, names_value: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+fn shadow(image: &mut Image, names_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for name in names(image, Some(names_value))? {
         shadow_one(image, package, &name);
     }

@@ -256,15 +256,15 @@ pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
 /// Gives a package another name.
 ///
 /// `(progn (make-package :old-name) (package-name (rename-package :old-name :new-name)))` => `"NEW-NAME"`
-#[builtin(_, "package name &optional nicknames")]
+#[builtin]
 fn rename_package(
     image: &mut Image,
     package: &Value,
     name: String,
-    nicknames_value: Option<&Value>,
+    nicknames: Option<&Value>,
 ) -> Outcome {
     let id = designated(image, package)?;
-    let nicknames: Vec<Rc<str>> = names(image, nicknames_value)?
+    let nicknames: Vec<Rc<str>> = names(image, nicknames)?
         .iter()
         .map(|n| n.as_str().into())
         .collect();
@@ -349,9 +349,9 @@ pub(crate) fn use_one(
 /// Lets a package (the current one) inherit the exported symbols of others.
 ///
 /// `(use-package :cl)` => `T`
-#[builtin(_, "packages &optional package")]
-fn use_package(image: &mut Image, packages: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+#[builtin]
+fn use_package(image: &mut Image, packages: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         use_one(image, package, used)?;
@@ -362,9 +362,9 @@ fn use_package(image: &mut Image, packages: &Value, package_value: Option<&Value
 /// Takes packages out of those that a package uses.
 ///
 /// `(unuse-package :keyword)` => `T`
-#[builtin(_, "packages &optional package")]
-fn unuse_package(image: &mut Image, packages: &Value, package_value: Option<&Value>) -> Outcome {
-    let package = or_current(image, package_value)?;
+#[builtin]
+fn unuse_package(image: &mut Image, packages: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
     for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         image.packages.unuse_package(package, used);

@@ -23,9 +23,9 @@ fn pathnamep(object: &Value) -> bool {
 /// The pathname of a name.
 ///
 /// `(system::%parse-pathname "plans/a.lisp")` => `#P"plans/a.lisp"`
-#[builtin("%PARSE-PATHNAME", "name")]
-fn parse(name_argument: &Rc<LispString>) -> Outcome {
-    let name = name_argument.text();
+#[builtin("%PARSE-PATHNAME")]
+fn parse(name: &Rc<LispString>) -> Outcome {
+    let name = name.text();
     Ok(Value::foreign(Pathname::parse(&name)))
 }
 

@@ -75,17 +75,12 @@ fn write_label(image: &mut Image, object: &Value, stream: &Value) -> Outcome {
 }
 
 /// Indents the next lines from the current column, or from where the block started.
-#[builtin("%INDENT", "current columns stream")]
-fn indent(
-    image: &mut Image,
-    current: bool,
-    columns_value: &Value,
-    stream_value: &Value,
-) -> Outcome {
-    let Value::Int(columns) = columns_value else {
-        return Err(Raise::type_error(columns_value, known::FIXNUM));
+#[builtin("%INDENT")]
+fn indent(image: &mut Image, current: bool, columns: &Value, stream: &Value) -> Outcome {
+    let Value::Int(columns) = columns else {
+        return Err(Raise::type_error(columns, known::FIXNUM));
     };
-    if let Some(stream) = stream::pretty(image, stream_value) {
+    if let Some(stream) = stream::pretty(image, stream) {
         stream.with_document(|document| {
             if current {
                 document.indent_current(*columns);
@@ -110,18 +105,18 @@ fn lay_out(image: &mut Image, stream: &Value, target: &Value) -> Outcome {
 }
 
 /// Writes the prefix and starts a block, whose lines begin with it if so wanted.
-#[builtin("%START-BLOCK", "stream prefix per-line suffix")]
+#[builtin("%START-BLOCK")]
 fn start_block(
     image: &mut Image,
-    stream_value: &Value,
-    prefix_argument: &Rc<LispString>,
+    stream: &Value,
+    prefix: &Rc<LispString>,
     per_line: bool,
-    suffix_argument: &Rc<LispString>,
+    suffix: &Rc<LispString>,
 ) -> Outcome {
-    let prefix = prefix_argument.text();
-    let suffix = suffix_argument.text();
-    stream::write(image, stream_value, &prefix)?;
-    if let Some(stream) = stream::pretty(image, stream_value) {
+    let prefix = prefix.text();
+    let suffix = suffix.text();
+    stream::write(image, stream, &prefix)?;
+    if let Some(stream) = stream::pretty(image, stream) {
         let prefix = if per_line { prefix } else { String::new() };
         stream.with_document(|document| document.start_lines(prefix.into(), suffix.into()));
     }

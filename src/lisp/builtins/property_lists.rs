@@ -102,9 +102,9 @@ fn putf(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
 /// The property list without an indicator, and whether it was there.
 ///
 /// `(system::remove-property (list :a 1 :b 2) :b)` => `(:A 1) ; T`
-#[builtin("REMOVE-PROPERTY", "plist indicator")]
-fn removef(plist_value: &Value, indicator: &Value) -> Outcome {
-    let (plist, found) = remove(plist_value, indicator)?;
+#[builtin("REMOVE-PROPERTY")]
+fn removef(plist: &Value, indicator: &Value) -> Outcome {
+    let (plist, found) = remove(plist, indicator)?;
     Ok(Value::values(vec![plist, found.into()]))
 }
 
@@ -112,14 +112,14 @@ fn removef(plist_value: &Value, indicator: &Value) -> Outcome {
 /// from there.
 ///
 /// `(get-properties '(:a 1 :b 2) '(:b :c))` => `:B ; 2 ; (:B 2)`
-#[builtin(_, "plist indicators")]
-fn get_properties(plist: &Value, indicators_value: &Value) -> Outcome {
+#[builtin]
+fn get_properties(plist: &Value, indicators: &Value) -> Outcome {
     let mut walk = ListWalk::new(plist.clone());
     while let Some(cons) = walk.next_cons()? {
         let Some(value) = walk.next()? else {
             return Err(malformed(plist));
         };
-        let mut indicators = indicators_value.iter_list();
+        let mut indicators = indicators.iter_list();
         let is_among = indicators.any(|i| i.is_eq(&cons.car()));
         if !is_among && !indicators.rest.is_nil() {
             return Err(Raise::type_error(&indicators.rest, known::LIST));

@@ -64,9 +64,9 @@ fn readtable_case(readtable: &Value) -> Outcome {
 /// Is nothing open at the end of the text?
 ///
 /// `(system::%whole-form-p "(a")` => `NIL`
-#[builtin("%WHOLE-FORM-P", "text")]
-fn whole_form_p(text_value: &Value) -> bool {
-    let text = text_value.as_text().unwrap_or_default();
+#[builtin("%WHOLE-FORM-P")]
+fn whole_form_p(text: &Value) -> bool {
+    let text = text.as_text().unwrap_or_default();
     let is_open = matches!(is_complete(&text), Completeness::Incomplete { .. });
     !is_open
 }

@@ -193,10 +193,10 @@ fn notevery(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Bo
 ///
 /// `(reduce #'+ '(1 2 3 4))` => `10`
 /// `(reduce #'list '(1 2 3) :from-end t)` => `(1 (2 3))`
-#[builtin(_, "function sequence &key key from-end start end initial-value")]
+#[builtin]
 fn reduce(
     machine: &mut Machine<'_>,
-    function_value: Value,
+    function: Value,
     sequence: Sequence,
     #[key] key: Option<Value>,
     #[key] from_end: Option<Value>,
@@ -205,7 +205,7 @@ fn reduce(
     #[key] initial_value: Option<Value>,
 ) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let function = callable(image, &function_value)?;
+    let function = callable(image, &function)?;
     let key = Key::new(image, key)?;
     let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let from_end = from_end.is_some_and(|v| v.is_true());

@@ -96,9 +96,9 @@ fn write_byte(image: &mut Image, integer: &Value, stream: &Rc<Stream>) -> Outcom
 ///
 /// `(file-string-length *standard-output* "naïve")` => `6`
 // How many bytes a character or a string takes in a file.
-#[builtin(_, "stream object")]
-fn file_string_length(image: &mut Image, stream_value: &Value, object: &Value) -> Outcome {
-    let stream = stream::output_stream(image, stream_value)?;
+#[builtin]
+fn file_string_length(image: &mut Image, stream: &Value, object: &Value) -> Outcome {
+    let stream = stream::output_stream(image, stream)?;
     // A stream that writes nowhere takes no more than one element.
     if matches!(&*stream.kind.borrow(), StreamKind::Broadcast { targets } if targets.is_empty()) {
         return Ok(Value::Int(1));

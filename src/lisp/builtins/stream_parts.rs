@@ -44,13 +44,13 @@ fn get_output_stream_string(stream: &Value) -> Outcome {
 /// A stream that gives the characters of a string.
 ///
 /// `(read-char (make-string-input-stream "abc" 1))` => `#\b`
-#[builtin(_, "string &optional start end")]
+#[builtin]
 fn make_string_input_stream(
-    string_argument: &Rc<LispString>,
+    string: &Rc<LispString>,
     start: Option<&Value>,
     end: Option<&Value>,
 ) -> Outcome {
-    let string = string_argument.clone();
+    let string = string.clone();
     let sequence = Sequence::Str(string.clone());
     let bounds = Bounds::new(&sequence, start, end)?;
     Ok(made(Stream::from_text(

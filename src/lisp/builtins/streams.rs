@@ -53,18 +53,18 @@ fn streamp(object: &Value) -> bool {
 /// Can the stream be read?
 ///
 /// `(input-stream-p (make-string-input-stream "x"))` => `T`
-#[builtin(_, "stream")]
-fn input_stream_p(image: &mut Image, stream_argument: &Rc<Stream>) -> Outcome {
-    let stream = stream::followed(image, stream_argument)?;
+#[builtin]
+fn input_stream_p(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream)?;
     Ok(Value::bool(stream.is_input()))
 }
 
 /// Can the stream be written?
 ///
 /// `(output-stream-p (make-string-input-stream "x"))` => `NIL`
-#[builtin(_, "stream")]
-fn output_stream_p(image: &mut Image, stream_argument: &Rc<Stream>) -> Outcome {
-    let stream = stream::followed(image, stream_argument)?;
+#[builtin]
+fn output_stream_p(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream)?;
     Ok(Value::bool(stream.is_output()))
 }
 
@@ -124,9 +124,9 @@ fn close(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(finish-output)` => `NIL`
 // Flushes the buffer of a file stream.
-#[builtin(_, "&optional stream")]
-fn finish_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
-    let target = stream_value.unwrap_or(&Value::NIL);
+#[builtin]
+fn finish_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    let target = stream.unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
     stream::flush(&stream)?;
     image.output.finish();
@@ -264,17 +264,17 @@ fn read_line(
 /// Writes out what is held back.
 ///
 /// `(force-output)` => `NIL`
-#[builtin(_, "&optional stream")]
-fn force_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
-    finish_output(image, stream_value)
+#[builtin]
+fn force_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    finish_output(image, stream)
 }
 
 /// Does nothing: all output is written.
 ///
 /// `(clear-output)` => `NIL`
-#[builtin(_, "&optional stream")]
-fn clear_output(image: &mut Image, stream_value: Option<&Value>) -> Outcome {
-    finish_output(image, stream_value)
+#[builtin]
+fn clear_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    finish_output(image, stream)
 }
 
 /// Reads a character.

@@ -270,15 +270,15 @@ fn string_right_trim(characters: Sequence, string: String) -> Outcome {
 /// The character of a string at an index from 0.
 ///
 /// `(schar "abc" 1)` => `#\b`
-#[builtin(_, "string index")]
-fn schar(string_value: &Value, index_value: &Value) -> Outcome {
-    char_at(string_value, index_value)
+#[builtin]
+fn schar(string: &Value, index: &Value) -> Outcome {
+    char_at(string, index)
 }
 
 /// Replaces a character of a string.
-#[builtin("SCHAR", "value string index")]
-fn set_schar(value: &Value, string_value: &Value, index_value: &Value) -> Outcome {
-    set_char_at(value, string_value, index_value)
+#[builtin("SCHAR")]
+fn set_schar(value: &Value, string: &Value, index: &Value) -> Outcome {
+    set_char_at(value, string, index)
 }
 
 /// Strings.

@@ -54,9 +54,9 @@ fn symbol_package(image: &mut Image, symbol: Sym) -> Outcome {
 /// A fresh symbol without a package.
 ///
 /// `(make-symbol "A")` => `#:A`
-#[builtin(_, "name")]
-fn make_symbol(image: &mut Image, name_argument: &Rc<LispString>) -> Outcome {
-    let name = name_argument.text();
+#[builtin]
+fn make_symbol(image: &mut Image, name: &Rc<LispString>) -> Outcome {
+    let name = name.text();
     Ok(image.symbols.make_passing(name.into()))
 }
 
@@ -240,10 +240,10 @@ fn fboundp(image: &mut Image, name: &Value) -> Outcome {
 /// The function of a name.
 ///
 /// `(funcall (fdefinition 'car) '(1))` => `1`
-#[builtin(_, "name")]
-fn fdefinition(image: &mut Image, name_value: &Value) -> Outcome {
-    let undefined = || Raise::undefined_function(name_value.clone());
-    match function_name(name_value)? {
+#[builtin]
+fn fdefinition(image: &mut Image, name: &Value) -> Outcome {
+    let undefined = || Raise::undefined_function(name.clone());
+    match function_name(name)? {
         FunctionName::Plain(sym) => match &image.symbol(sym).function {
             FunctionCell::Function(function) | FunctionCell::Macro(function) => {
                 Ok(Value::Function(function.clone()))
@@ -305,14 +305,10 @@ fn fmakunbound(image: &mut Image, name: &Value) -> Outcome {
 /// The symbol of a name, made if need be, and how it was accessible.
 ///
 /// `(intern "SVREF")` => `SVREF ; :INHERITED`
-#[builtin(_, "name &optional package")]
-fn intern(
-    image: &mut Image,
-    name_argument: &Rc<LispString>,
-    package_value: Option<&Value>,
-) -> Outcome {
-    let name = name_argument.text();
-    let package = super::packages::or_current(image, package_value)?;
+#[builtin]
+fn intern(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>) -> Outcome {
+    let name = name.text();
+    let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
     let sym = match found {
         Some((sym, _)) => sym,
@@ -325,14 +321,10 @@ fn intern(
 /// The symbol of a name, and how it is accessible, or `NIL`.
 ///
 /// `(find-symbol "CAR" :cl)` => `CAR ; :EXTERNAL`
-#[builtin(_, "name &optional package")]
-fn find_symbol(
-    image: &mut Image,
-    name_argument: &Rc<LispString>,
-    package_value: Option<&Value>,
-) -> Outcome {
-    let name = name_argument.text();
-    let package = super::packages::or_current(image, package_value)?;
+#[builtin]
+fn find_symbol(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>) -> Outcome {
+    let name = name.text();
+    let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
     Ok(Value::values(vec![
         found.map_or(Value::NIL, |(sym, _)| sym.into()),
