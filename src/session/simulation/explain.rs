@@ -13,7 +13,7 @@ use super::Simulation;
 use super::grasp_search::Wanted;
 use crate::tape::Frame;
 use lisp::image::Image;
-use robotics::motion::base_path::BasePlace;
+use robotics::motion::BasePlace;
 use robotics::motion::{
     CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
     pan_and_tilt, touching_at,
