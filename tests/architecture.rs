@@ -488,6 +488,27 @@ fn circles(sources: &Sources, wrong: &mut Vec<String>) {
     }
 }
 
+/// Whatever a part needs of the session, it is given; the console evaluates, as the session does.
+#[test]
+fn of_the_folders_of_the_session_only_the_console_names_the_session() {
+    let sources = Sources::of("src/session");
+    let folders: BTreeSet<&String> = (sources.names.keys())
+        .filter(|module| module.len() > 1)
+        .filter_map(|module| module.first())
+        .collect();
+    let mut naming = BTreeSet::new();
+    for (module, names) in &sources.names {
+        let folder = module.first().filter(|folder| folders.contains(folder));
+        // `pub(crate)` names the root, and nothing in it.
+        let mut names = names.iter().filter(|name| !name.is_empty());
+        if names.any(|name| sources.target(name).is_empty()) {
+            naming.extend(folder);
+        }
+    }
+    let naming: Vec<&str> = naming.into_iter().map(String::as_str).collect();
+    assert_eq!(naming, ["console"]);
+}
+
 #[test]
 fn only_one_module_names_the_physics_engine() {
     let names_it = |text: &str| tokens(text).iter().any(|t| t.starts_with("rapier"));

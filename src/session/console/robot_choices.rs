@@ -3,9 +3,10 @@
 
 use super::choices::Choice;
 use super::stack_frames::Told;
+use crate::Session;
 use crate::host::call::done;
+use crate::printing::on_one_line;
 use crate::simulation::Simulation;
-use crate::{Session, on_one_line};
 use cram::Reply;
 use cram::designator::perform::Performance;
 use cram::designator::value::{Class, as_class};

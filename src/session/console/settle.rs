@@ -1,5 +1,6 @@
 //! Handling the result of an evaluation that was continued.
 
+use crate::printing;
 use std::ops::Range;
 
 use super::{Asking, Cause, Level, Suspended, choices};
@@ -194,7 +195,7 @@ impl Session {
     /// The report of a condition, with the actions of all tasks that wait for the one that
     /// stopped.
     fn described_in_place(&mut self, condition: &Value) -> Abort {
-        let mut abort = self.describe(condition);
+        let mut abort = printing::describe(&mut self.image, condition);
         if let (Some(base), true) = (&self.console.base, abort.report == NESTED) {
             let plan = on_one_line(&print::to_string(&self.image, &base.form, false));
             abort.hint = Some(format!(

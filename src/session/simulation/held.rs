@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use lisp::image::Image;
 use robotics::motion::{HeldGrip, MotionFailure};
 use robotics::robot::Side;

@@ -5,21 +5,14 @@
 //! and the values of variables are not computed. The compiler's notes are judged at the end,
 //! when all definitions are known.
 
-mod judge;
-mod known;
-mod meant;
-mod tokens;
-
-#[cfg(test)]
-mod tests;
-
-pub(super) use known::KnownNames;
-pub(super) use meant::hint;
-
-use super::Session;
-use super::dialogue::{Finding, Severity};
+use super::judge;
+use super::known::KnownNames;
+use super::tokens;
+use crate::dialogue::{Finding, Severity};
+use crate::printing;
 use lisp::compile;
 use lisp::evaluator::nested;
+use lisp::image::Image;
 use lisp::image::notes::{Note, NoteKind};
 use lisp::reader::Reader;
 use lisp::source::Place;
@@ -28,35 +21,50 @@ use lisp::value::known as names;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::VariableKind;
 
-impl Session {
-    /// The mistakes in a text, in the order of the text.
-    pub(super) fn check_text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+/// The mistakes in a text, in the order of the text; what it defines is added to what is known.
+pub(crate) fn check_text(
+    image: &mut Image,
+    known: &mut KnownNames,
+    source_name: &str,
+    text: &str,
+) -> Vec<Finding> {
+    Check { image, known }.text(source_name, text)
+}
+
+/// The check of a text.
+struct Check<'s> {
+    image: &'s mut Image,
+    known: &'s mut KnownNames,
+}
+
+impl Check<'_> {
+    fn text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
         let source = self.image.sources.add(source_name, text);
-        let mut reader = Reader::new(&self.image, source);
+        let mut reader = Reader::new(self.image, source);
         let mut findings = Vec::new();
         self.image.notes = Some(Vec::new());
-        let was_open = self.checked.is_open;
+        let was_open = self.known.is_open;
         loop {
-            let form = match reader.next_form(&mut self.image) {
+            let form = match reader.next_form(self.image) {
                 Ok(Some((form, _))) => form,
                 Ok(None) => break,
                 Err(error) => {
                     let finding = self.finding(error.raise());
                     findings.push(finding);
                     // What the rest of the text defines is unknown.
-                    self.checked.is_open = true;
+                    self.known.is_open = true;
                     break;
                 }
             };
-            self.checked.note_form(&self.image, &form);
+            self.known.note_form(self.image, &form);
             self.check_form(&form, &mut findings);
         }
         let notes = self.image.notes.take().unwrap_or_default();
         for note in &notes {
             match &note.kind {
-                NoteKind::Definition(form) => self.checked.note_definition(&self.image, form),
+                NoteKind::Definition(form) => self.known.note_definition(self.image, form),
                 NoteKind::Assigned(name) => {
-                    self.checked.defined.insert(*name);
+                    self.known.defined.insert(*name);
                 }
                 _ => {}
             }
@@ -65,7 +73,7 @@ impl Session {
             let finding = self.warning(&note);
             findings.extend(finding.filter(|finding| !findings.contains(finding)));
         }
-        self.checked.is_open = was_open;
+        self.known.is_open = was_open;
         findings.sort_by_key(|f| f.place.as_ref().map(|place| (place.line, place.column)));
         findings
     }
@@ -86,7 +94,7 @@ impl Session {
     fn check_single(&mut self, form: &Value, findings: &mut Vec<Finding>) {
         let effect = self.effect(form);
         if effect != Effect::Reading
-            && let Err(raise) = compile::compile_form(&mut self.image, form)
+            && let Err(raise) = compile::compile_form(self.image, form)
         {
             let finding = self.finding(raise);
             return findings.push(finding);
@@ -100,7 +108,7 @@ impl Session {
             }
         };
         let notes = self.image.notes.take();
-        let result = nested::call_nested(&mut self.image, names::EVAL.into(), vec![form]);
+        let result = nested::call_nested(self.image, names::EVAL.into(), vec![form]);
         self.image.output.take();
         self.image.notes = notes;
         if let (Effect::Reading, Err(raise)) = (effect, result) {
@@ -142,7 +150,7 @@ impl Session {
     }
 
     fn finding(&mut self, raise: Box<Raise>) -> Finding {
-        let abort = self.raised(raise);
+        let abort = printing::raised(self.image, raise);
         Finding {
             message: abort.report,
             place: abort.place,
@@ -151,7 +159,7 @@ impl Session {
     }
 
     fn warning(&mut self, note: &Note) -> Option<Finding> {
-        let mistake = judge::judge(&self.image, &self.checked, &note.kind)?;
+        let mistake = judge::judge(self.image, self.known, &note.kind)?;
         let place = match mistake.name {
             Some(name) => self.place_of_name(note.place, &name),
             None => note.place,
