@@ -8,7 +8,6 @@
 pub(crate) mod call;
 pub(super) mod parts;
 mod request;
-mod taped;
 
 use crate::audience::Audience;
 use crate::person::Person;

@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::world::CollisionHit;
 
 /// The parts of a grasp for which the hand has to be somewhere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum GraspPart {
     /// Beside the object, touching nothing.
     Approach,
@@ -18,7 +18,7 @@ pub enum GraspPart {
 }
 
 /// Why a hand cannot grasp an object in some way.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum GraspObstacle {
     /// The hand holds something else.
     HandFull {

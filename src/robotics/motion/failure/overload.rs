@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::Side;
 
 /// An object that is too heavy for the arm that lifts it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overload {
     /// Name of the object.
     pub object: String,
@@ -20,7 +20,7 @@ pub struct Overload {
 }
 
 /// What limits the load of an arm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum PayloadLimit {
     /// The mass (kg) that its maker allows.
     Maker(f64),

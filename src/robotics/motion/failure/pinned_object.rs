@@ -1,12 +1,12 @@
 //! An object that the robot presses onto something.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::world::BodyName;
 
 /// An object that the robot presses onto what carries it, harder than a limit and than
 /// its own weight does.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PinnedObject {
     /// Name of the object.
     pub object: String,

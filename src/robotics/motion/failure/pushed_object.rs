@@ -1,11 +1,11 @@
 //! An object that the robot has pushed along.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::world::BodyName;
 
 /// An object that the robot has pushed along.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PushedObject {
     /// Name of the object.
     pub object: String,

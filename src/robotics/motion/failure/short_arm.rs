@@ -1,11 +1,11 @@
 //! An arm that is too short for a drawer or door.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::Side;
 
 /// An arm that cannot move a drawer or door as far as wanted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShortArm {
     /// The arm.
     pub side: Side,

@@ -1,11 +1,11 @@
 //! A drawer or door that something stops.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::world::CollisionHit;
 
 /// A drawer or door that was stopped, or would be.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StoppedPart {
     /// Name of the joint.
     pub joint: String,

@@ -1,11 +1,11 @@
 //! A held object that does not follow the hand.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::world::BodyName;
 
 /// A held object that does not follow the hand as it should.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StuckObject {
     /// Name of the object.
     pub object: String,

@@ -1,7 +1,5 @@
 //! Looking for objects with the camera. Nothing moves.
 
-use serde::{Deserialize, Serialize};
-
 use super::job::{Activity, DetectedObject, Job, MotionOutcome, MotionStatus, Progress};
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
@@ -10,7 +8,7 @@ use crate::world::noise::Perceived;
 use crate::world::{Object, World};
 
 /// Which objects are looked for.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DetectQuery {
     /// Name in the world; any if absent.
     pub name: Option<String>,

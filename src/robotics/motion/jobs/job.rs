@@ -1,7 +1,5 @@
 //! What all motions have in common: a job that is polled once per simulation step.
 
-use serde::{Deserialize, Serialize};
-
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::trajectories::planned_trajectory::PlannedTrajectory;
@@ -38,7 +36,7 @@ pub enum MotionOutcome {
 }
 
 /// An object that a camera sees.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DetectedObject {
     /// Name in the world.
     pub name: String,
