@@ -39,6 +39,7 @@ use std::sync::atomic::AtomicBool;
 use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use cram::{Evaluation, Scheduler};
 use host::SimulationHost;
+use host::call::HostCall;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
@@ -60,7 +61,7 @@ pub struct Session {
     /// What it began with.
     options: SessionOptions,
     image: Image,
-    scheduler: Scheduler,
+    scheduler: Scheduler<HostCall>,
     host: SimulationHost,
     /// What the checked texts define.
     checked: check::KnownNames,

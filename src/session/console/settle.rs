@@ -1,5 +1,6 @@
 //! Handling the result of an evaluation that was continued.
 
+use crate::host::call::HostCall;
 use crate::printing;
 use std::ops::Range;
 
@@ -25,7 +26,7 @@ impl Session {
     pub(super) fn go_on_with(
         &mut self,
         sink: &mut dyn FnMut(Event),
-        how: impl FnOnce(&mut Scheduler, &mut Image, &mut LiveHost<'_>) -> Evaluation,
+        how: impl FnOnce(&mut Scheduler<HostCall>, &mut Image, &mut LiveHost<'_>) -> Evaluation,
     ) -> Evaluation {
         let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         let evaluation = how(&mut self.scheduler, &mut self.image, &mut host);
