@@ -18,6 +18,7 @@ mod live_host;
 mod log_level;
 mod objects;
 mod options;
+mod package_name;
 mod person;
 mod plans;
 mod printing;
@@ -38,19 +39,18 @@ use std::sync::atomic::AtomicBool;
 use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use cram::{Evaluation, Scheduler};
 use host::SimulationHost;
+use host::call::HostCall;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
-use lisp::value::package::{PackageId, PackageTable};
 use lisp::value::release::FreesAll;
 use live_host::LiveHost;
+use package_name::prompt_name;
 use robotics::world::Models;
 use simulation::Simulation;
 use view::picture::ViewError;
 use view::picture::animation::Shot;
 use view::watch::Cause;
-
-use printing::on_one_line;
 
 pub use audience::{Audience, Filming, WatchError};
 pub use log_level::LogLevel;
@@ -61,7 +61,7 @@ pub struct Session {
     /// What it began with.
     options: SessionOptions,
     image: Image,
-    scheduler: Scheduler,
+    scheduler: Scheduler<HostCall>,
     host: SimulationHost,
     /// What the checked texts define.
     checked: check::KnownNames,
@@ -165,6 +165,11 @@ impl Session {
         &self.host.simulation
     }
 
+    /// Who answers questions about what is being typed.
+    fn assistant(&self) -> assist::Assistant<'_> {
+        assist::Assistant::new(&self.image, &self.host.simulation)
+    }
+
     /// The outputs that show the session.
     pub fn audience(&self) -> &Audience {
         &self.host.audience
@@ -264,7 +269,7 @@ impl Session {
                 return Ended::Stopped(stopped);
             }
             Evaluation::Unhandled(condition) => {
-                let abort = self.describe(&condition);
+                let abort = printing::describe(&mut self.image, &condition);
                 self.abort(sink);
                 Ended::Aborted(Box::new(abort))
             }
@@ -370,7 +375,7 @@ impl Evaluate for Session {
     }
 
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
-        self.check_text(source_name, text)
+        check::check_text(&mut self.image, &mut self.checked, source_name, text)
     }
 
     fn prompt(&self) -> String {
@@ -380,16 +385,4 @@ impl Evaluate for Session {
     fn interrupt_handle(&self) -> Arc<AtomicBool> {
         Arc::clone(self.image.interrupt())
     }
-}
-
-/// The name of a package, or a nickname, as prompts show it.
-fn prompt_name(image: &Image, package: PackageId) -> String {
-    if package == PackageTable::USER {
-        return "CL-USER".to_owned();
-    }
-    let package = image.packages.get(package);
-    std::iter::once(&package.name)
-        .chain(&package.nicknames)
-        .min_by_key(|name| name.chars().count())
-        .map_or_else(String::new, |name| name.to_string())
 }

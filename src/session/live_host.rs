@@ -1,10 +1,11 @@
 //! The scheduler's host, with output reported as it is produced.
 
-use std::any::Any;
 use std::time::{Duration, Instant};
 
 use super::dialogue::Event;
 use super::host::SimulationHost;
+use super::host::call::HostCall;
+use cram::designator::MotionRequest;
 use cram::{Advance, Host, Reply, TaskId, Ticket};
 use lisp::image::Image;
 use view::watch::WatchEvent;
@@ -28,6 +29,14 @@ impl<'a> LiveHost<'a> {
             tells_progress,
         }
     }
+
+    /// Reports the pictures that have been made.
+    fn tell_pictures(&mut self, image: &mut Image) {
+        for picture in self.host.audience.take_pictures() {
+            flush(image, self.host, self.sink);
+            (self.sink)(Event::Picture(picture));
+        }
+    }
 }
 
 /// How long a motion runs before its progress is reported, and the interval between reports.
@@ -46,12 +55,17 @@ pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn
 }
 
 impl Host for LiveHost<'_> {
-    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        let reply = self.host.request(image, task, request);
-        for picture in self.host.audience.take_pictures() {
-            flush(image, self.host, self.sink);
-            (self.sink)(Event::Picture(picture));
-        }
+    type Call = HostCall;
+
+    fn call(&mut self, image: &mut Image, task: TaskId, call: HostCall) -> Reply {
+        let reply = self.host.call(image, task, call);
+        self.tell_pictures(image);
+        reply
+    }
+
+    fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply {
+        let reply = self.host.perform(image, task, motion);
+        self.tell_pictures(image);
         reply
     }
 

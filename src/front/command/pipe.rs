@@ -2,11 +2,11 @@
 
 use std::io::{self, BufRead, Write};
 
-use super::arguments::{Options, PromptOptions, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use super::prompt::open_journals;
-use super::watching;
+use super::options::Options;
+use super::prompt::{PromptOptions, open_journals};
+use super::watching::{self, WatchArguments};
 use crate::prompt::{Doubt, Keeper, Opened, excerpt, resume, settle_doubts};
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};

@@ -3,7 +3,8 @@
 
 use super::choices::Choice;
 use super::stack_frames::Told;
-use crate::{Session, on_one_line};
+use crate::Session;
+use crate::printing::on_one_line;
 use cram::designator::perform::Performance;
 use cram::designator::value::{Class, as_class};
 use cram::packages;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::motions::sides;
 use crate::simulation::names::type_text;

@@ -4,9 +4,9 @@ use crate::simulation::properties::property;
 use cram::designator::value::current;
 use nalgebra::Translation3;
 
-use crate::LogLevel;
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::imagined::Imagined;

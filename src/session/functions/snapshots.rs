@@ -2,7 +2,7 @@
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
-use crate::on_one_line;
+use crate::printing::on_one_line;
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
 use cram::Reply;

@@ -1,7 +1,5 @@
 //! Carrying out tasks' requests, and advancing the world while all tasks wait.
 
-use std::any::Any;
-
 use super::call::HostCall;
 use super::{SimulationHost, note_motions};
 use crate::audience::task_news;
@@ -16,12 +14,18 @@ use robotics::world::physics::STEP_SECONDS;
 use view::watch::{Cause, TaskState};
 
 impl Host for SimulationHost {
-    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        self.asking = task;
-        self.person.snapshots.touch();
-        let reply = self.reply(image, request);
-        note_motions(&self.simulation, image);
-        reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
+    type Call = HostCall;
+
+    fn call(&mut self, image: &mut Image, task: TaskId, call: HostCall) -> Reply {
+        self.reply(image, task, |host, image| {
+            let reply = (call.call)(host, image, &call.args);
+            host.audience.show(&host.simulation, Cause::Edit);
+            reply
+        })
+    }
+
+    fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply {
+        self.reply(image, task, |host, image| host.begin(image, &motion))
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
@@ -134,24 +138,27 @@ impl SimulationHost {
         format!("… {}", parts.join(" · "))
     }
 
-    /// The reply to a request.
-    fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Result<Reply, Box<Raise>> {
-        let request = match request.downcast::<HostCall>() {
-            Ok(call) => {
-                let reply = (call.call)(self, image, &call.args);
-                self.audience.show(&self.simulation, Cause::Edit);
-                return reply;
-            }
-            Err(request) => request,
-        };
-        let Ok(request) = request.downcast::<MotionRequest>() else {
-            return Err(Raise::control("This cannot be waited for."));
-        };
-        let (motion, subject) = self.simulation.motion_for(image, &request)?;
-        let motion = self.simulation.with_faults(image, motion, &request);
+    /// The reply to what a task asks for.
+    fn reply(
+        &mut self,
+        image: &mut Image,
+        task: TaskId,
+        work: impl FnOnce(&mut Self, &mut Image) -> Result<Reply, Box<Raise>>,
+    ) -> Reply {
+        self.asking = task;
+        self.person.snapshots.touch();
+        let reply = work(self, image);
+        note_motions(&self.simulation, image);
+        reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
+    }
+
+    /// Begins a motion.
+    fn begin(&mut self, image: &mut Image, request: &MotionRequest) -> Result<Reply, Box<Raise>> {
+        let (motion, subject) = self.simulation.motion_for(image, request)?;
+        let motion = self.simulation.with_faults(image, motion, request);
         // Report the task before its actions.
         self.audience.tell_tasks(image);
-        let told = self.told(image, Some(&request));
+        let told = self.told(image, Some(request));
         let name = request.motion_type.to_lowercase();
         Ok(Reply::Later(self.start(motion, subject, name, told)))
     }

@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector3};
 use super::Simulation;
 use super::grasp_search::Wanted;
 use lisp::image::Image;
-use robotics::motion::base_path::BasePlace;
+use robotics::motion::BasePlace;
 use robotics::motion::{
     CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
     pan_and_tilt, touching_at,

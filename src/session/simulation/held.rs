@@ -1,7 +1,7 @@
 //! What the hands hold.
 
 use super::Simulation;
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use lisp::image::Image;
 use robotics::motion::{HeldGrip, MotionFailure};
 use robotics::robot::Side;

@@ -3,10 +3,13 @@
 use nalgebra::Translation3;
 
 use super::fixture::Kitchen;
-use crate::motion::handle_chooser::HandleChoice;
+use crate::motion::choosing::handle_chooser::HandleChoice;
+use crate::motion::jobs::gripper::GripperCommand;
+use crate::motion::jobs::move_torso::MoveTorso;
+use crate::motion::jobs::pull::Pull;
 use crate::motion::{
-    CollisionMode, Effort, GripperCommand, HandleChooser, HandleQuestion, MotionFailure,
-    MotionOutcome, MotionStatus, MoveJoints, MoveTorso, Pull, TcpPath,
+    CollisionMode, Effort, HandleChooser, HandleQuestion, MotionFailure, MotionOutcome,
+    MotionStatus, MoveJoints, TcpPath,
 };
 use crate::motion::{Motion, MoveTcp, PoseGoal};
 use crate::robot::{JointId, LinkId, Side};

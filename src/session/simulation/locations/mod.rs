@@ -11,7 +11,7 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
 use super::Simulation;
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use cram::designator::value::{Class, Designator, as_class, current, first};
 use lisp::image::Image;
 use lisp::print;
