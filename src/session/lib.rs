@@ -10,6 +10,7 @@ mod converse;
 mod copy;
 pub mod defect;
 pub mod dialogue;
+mod face;
 pub mod functions;
 mod halting;
 mod host;
@@ -55,6 +56,11 @@ use view::watch::Cause;
 use printing::on_one_line;
 
 pub use audience::{Audience, Filming, WatchError};
+pub use face::{
+    Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
+    PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
+    Within,
+};
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions};
 
@@ -73,6 +79,8 @@ pub struct Session {
     told_names: assist::ToldNames,
     /// What an editor refers to.
     objects: Rc<objects::Objects>,
+    /// The condition that has ended the evaluation of a form last.
+    failed_with: Option<Value>,
     /// The last to be dropped: what has been put off is freed.
     _rest: FreesAll,
 }
@@ -120,6 +128,7 @@ impl Session {
             console: console::Console::default(),
             told_names: assist::ToldNames::default(),
             objects,
+            failed_with: None,
             _rest: FreesAll,
         };
         session.image.limits.heap.set_limit(options.heap);
@@ -223,10 +232,14 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
+        self.host
+            .begin_bounds(&Limits::NONE, self.image.interrupt());
+        let outcome = match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
             Ok(outcome) => outcome,
             Err(defect) => self.recover(&defect, sink),
-        }
+        };
+        self.host.bounds.end();
+        outcome
     }
 
     /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
@@ -267,6 +280,7 @@ impl Session {
             }
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
+                self.failed_with = Some(condition);
                 self.abort(sink);
                 Ended::Aborted(Box::new(abort))
             }

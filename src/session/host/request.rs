@@ -45,7 +45,7 @@ impl Host for SimulationHost {
         if let Some(job) = self.simulation.jobs.cancel(ticket) {
             let now = self.simulation.now;
             self.audience
-                .tell_motion(now, &job, TaskState::Evaporated, "");
+                .tell_motion(now, &job, TaskState::Evaporated, None);
             self.simulation.jobs.leave(job);
         }
     }
@@ -243,7 +243,7 @@ impl SimulationHost {
         let job = simulation
             .jobs
             .add(motion, subject, self.asking, name, told);
-        self.audience.tell_motion(now, job, TaskState::Running, "");
+        self.audience.tell_motion(now, job, TaskState::Running, None);
         job.ticket
     }
 
@@ -282,16 +282,15 @@ impl SimulationHost {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => {
                     self.audience
-                        .tell_motion(now, job, TaskState::Succeeded, "");
+                        .tell_motion(now, job, TaskState::Succeeded, None);
                     let value = simulation.outcome(image, &outcome, &job.subject);
                     let done = simulation.done(image, &outcome, &value);
                     simulation.tape.note_end(job.ticket.0, done);
                     Ok(value)
                 }
                 MotionStatus::Failed(failure) => {
-                    let report = failure.to_string();
                     self.audience
-                        .tell_motion(now, job, TaskState::Failed, &report);
+                        .tell_motion(now, job, TaskState::Failed, Some(&failure));
                     if let Some(hit) = failure.hit() {
                         self.audience.tell_collision(now, hit);
                     }

@@ -58,7 +58,7 @@ pub(crate) struct Snapshots {
 
 impl Snapshot {
     /// Takes a snapshot of the present state.
-    fn take(simulation: &mut Simulation, image: &Image) -> Self {
+    pub(crate) fn take(simulation: &mut Simulation, image: &Image) -> Self {
         if simulation.tape.is_playing() {
             let number = match simulation.tape.next() {
                 Some(Entry::Snapshot(number)) => number,
@@ -329,11 +329,7 @@ impl Snapshots {
     ) -> Result<(), Box<Raise>> {
         check_idle(simulation)?;
         match self.named.get(name).cloned() {
-            Some(snapshot) => {
-                snapshot.restore(simulation, image);
-                self.touch();
-                Ok(())
-            }
+            Some(snapshot) => self.go_to(simulation, image, &snapshot),
             None => {
                 let known: Vec<&str> = self.named.keys().map(String::as_str).collect();
                 let remedy = if known.is_empty() {
@@ -346,6 +342,19 @@ impl Snapshots {
                 )))
             }
         }
+    }
+
+    /// Restores a snapshot of the world.
+    pub(crate) fn go_to(
+        &mut self,
+        simulation: &mut Simulation,
+        image: &mut Image,
+        snapshot: &Snapshot,
+    ) -> Result<(), Box<Raise>> {
+        check_idle(simulation)?;
+        snapshot.restore(simulation, image);
+        self.touch();
+        Ok(())
     }
 
     /// The names of the named snapshots.
