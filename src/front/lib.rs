@@ -34,7 +34,8 @@
 //! A [`Session`] stays in the thread that made it: it is neither `Send` nor `Sync`, because its
 //! values share memory by counts that are not atomic (`Rc`). So are what refers to one:
 //! [`Snapshot`], [`TaskLog`], [`Within`]. A program may have any number of sessions, each in a
-//! thread of its own with 16 MB of stack or more, and exchange data with them through channels.
+//! thread with 2 MB of stack or more, and exchange data with them through channels. When a thread
+//! with a session ends, all its memory is free again.
 //!
 //! ```compile_fail,E0277
 //! fn sent<T: Send>() {}

@@ -76,7 +76,8 @@ impl Bounds {
             let end = self.end.get();
             self.end.set(end.map(|end| end.max(now + CLEANUP_TIME)));
             let left = self.steps_left.get();
-            self.steps_left.set(left.map(|left| left.max(CLEANUP_STEPS)));
+            self.steps_left
+                .set(left.map(|left| left.max(CLEANUP_STEPS)));
         }
     }
 }

@@ -64,7 +64,9 @@ impl Unhandled {
         };
         let class = instance.class();
         let classes = class.precedence.borrow();
-        let classes = classes.iter().map(|class| image.name(class.name).to_owned());
+        let classes = classes
+            .iter()
+            .map(|class| image.name(class.name).to_owned());
         let classes = classes.collect();
         let names: Vec<_> = class.slots.borrow().iter().map(|slot| slot.name).collect();
         let slots = names.into_iter().filter_map(|name| {

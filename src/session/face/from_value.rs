@@ -140,9 +140,7 @@ impl Reading<'_> {
         }
         let is_object = as_class(value, Class::Object).is_some();
         let name = is_object.then(|| property(self.image, &current(value), "NAME"));
-        let name = name
-            .flatten()
-            .and_then(|name| name_text(self.image, &name));
+        let name = name.flatten().and_then(|name| name_text(self.image, &name));
         name.map_or_else(|| self.other(value), Datum::Object)
     }
 

@@ -64,7 +64,10 @@ impl Follower for Observer {
             return;
         };
         let time = observation.time;
-        for (side, object) in before.iter().filter(|held_before| !held.contains(held_before)) {
+        for (side, object) in before
+            .iter()
+            .filter(|held_before| !held.contains(held_before))
+        {
             let (side, object) = (*side, object.clone());
             self.tell(time, PlanEventKind::Released { object, side });
         }

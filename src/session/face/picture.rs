@@ -9,11 +9,7 @@ const MOST_PIXELS: usize = 4096;
 impl Session {
     /// A picture of the world as it is, width × height pixels. Writes no file: that is done by
     /// [`Picture::to_png`](Image::to_png) and the program.
-    pub fn picture(
-        &self,
-        view: &View,
-        [width, height]: [usize; 2],
-    ) -> Result<Image, ViewError> {
+    pub fn picture(&self, view: &View, [width, height]: [usize; 2]) -> Result<Image, ViewError> {
         for side in [width, height] {
             if !(1..=MOST_PIXELS).contains(&side) {
                 return Err(ViewError::Impossible(side as f64));

@@ -24,10 +24,9 @@ pub struct Within<'s> {
 impl Within<'_> {
     /// As [`Session::run`].
     pub fn run(&mut self, source_name: &str, text: &str) -> Result<Vec<Datum>, Failure> {
-        self.session
-            .evaluate_within(&self.limits, |session, sink| {
-                session.evaluate_forms(source_name, text, sink)
-            })
+        self.session.evaluate_within(&self.limits, |session, sink| {
+            session.evaluate_forms(source_name, text, sink)
+        })
     }
 
     /// As [`Session::run_file`].
@@ -201,11 +200,7 @@ impl Session {
     }
 
     /// Evaluates a form.
-    fn evaluate_one(
-        &mut self,
-        form: &Value,
-        sink: &mut dyn FnMut(Event),
-    ) -> (Outcome, Vec<Value>) {
+    fn evaluate_one(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> (Outcome, Vec<Value>) {
         let values = match self.evaluate_form(form, sink) {
             Ended::Values(values) => values,
             Ended::Aborted(abort) => {

@@ -243,7 +243,8 @@ impl SimulationHost {
         let job = simulation
             .jobs
             .add(motion, subject, self.asking, name, told);
-        self.audience.tell_motion(now, job, TaskState::Running, None);
+        self.audience
+            .tell_motion(now, job, TaskState::Running, None);
         job.ticket
     }
 
