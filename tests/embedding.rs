@@ -92,7 +92,7 @@ fn session() -> Session {
 fn values_are_data_in_both_directions() {
     let mut session = session();
     let symbol = Datum::Symbol {
-        package: Some("PP-TUT".to_owned()),
+        package: Some("CRAM-PICK-PLACE-TUTORIAL".to_owned()),
         name: "BOTTLE-1".to_owned(),
     };
     let turned = planwright::pose::from_xy_yaw(1.0, 2.0, 0.5);
@@ -193,7 +193,7 @@ fn functions_are_called_and_variables_read_without_text() {
     for (name, report) in [
         (
             "no-such-function",
-            "There is no symbol NO-SUCH-FUNCTION in package CRAM-PR2-TUTORIAL.",
+            "There is no symbol NO-SUCH-FUNCTION in package CRAM-PICK-PLACE-TUTORIAL.",
         ),
         ("no-such-package:f", "There is no package no-such-package."),
     ] {
@@ -438,9 +438,7 @@ fn observers_are_told_of_tasks_motions_and_hands() {
     );
     let about = picking.about.as_ref().unwrap();
     assert!(
-        about
-            .keys
-            .contains(&("arm".to_owned(), ":RIGHT".to_owned())),
+        about.keys.contains(&("arm".to_owned(), "RIGHT".to_owned())),
         "{about:?}"
     );
     let inner = picking
@@ -470,7 +468,7 @@ fn observers_are_told_of_tasks_motions_and_hands() {
         "{failed:?}"
     );
     for (_, (class, report)) in failed {
-        assert_eq!(class, "TORSO-GOAL-UNREACHABLE", "{report}");
+        assert_eq!(class, "TORSO-GOAL-NOT-REACHED", "{report}");
         assert!(!report.is_empty());
     }
 }
@@ -507,7 +505,9 @@ fn worlds_are_edited_and_taken_back() {
         (vec!["BOTTLE-1"], before)
     );
     // The plan finds the object by its symbol.
-    let found = session.run("find", "(object-exists 'bottle-1)").unwrap();
+    let found = session
+        .run("find", "(btr-utils:object-exists 'bottle-1)")
+        .unwrap();
     assert_eq!(found, [Datum::True]);
 
     let mut other = self::session();

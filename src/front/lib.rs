@@ -12,7 +12,7 @@
 //! session.spawn("bottle", "bottle-1", Pose::translation(-1.6, -0.9, 0.82))?;
 //! let plan = "(with-simulated-robot
 //!               (perform (a motion (type moving-torso) (joint-angle 0.3))))
-//!             (list (object-exists 'bottle-1) 0.3)";
+//!             (list (btr-utils:object-exists 'bottle-1) 0.3)";
 //! let limits = Limits { simulated_time: Some(60.0), ..Limits::NONE };
 //! let values = session.within(limits).run("my plan", plan)?;
 //! assert_eq!(values, [Datum::list([Datum::True, Datum::Single(0.3)])]);
