@@ -131,10 +131,9 @@ fn values_are_data_in_both_directions() {
             Datum::Object("BOTTLE-1".to_owned()),
         ),
     ] {
-        let values = session.run("value", text).unwrap();
-        assert_eq!(values, [datum.clone()], "{text}");
-        let same = session.call("identity", &[datum.clone()]).unwrap();
-        assert_eq!(same, [datum], "{text}");
+        let data = [datum];
+        assert_eq!(session.run("value", text).unwrap(), data, "{text}");
+        assert_eq!(session.call("identity", &data).unwrap(), data, "{text}");
     }
     let values = session.run("value", "1 (values) (values 2 3)");
     assert_eq!(values.unwrap(), [Datum::from(2), Datum::from(3)]);

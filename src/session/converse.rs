@@ -58,6 +58,10 @@ impl Converse for Session {
         self.host.simulation.world().hash()
     }
 
+    fn set_hurried(&mut self, is_hurried: bool) {
+        self.host.audience.set_hurried(is_hurried);
+    }
+
     fn finish(&mut self) -> Result<(), String> {
         self.end_recording().map_err(|error| error.to_string())
     }

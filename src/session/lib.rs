@@ -29,8 +29,6 @@ mod serving;
 pub mod simulation;
 pub mod sweeping;
 mod tabulated;
-pub mod tape;
-mod taping;
 mod text;
 
 use std::path::Path;
@@ -266,7 +264,7 @@ impl Session {
         self.host
             .person
             .snapshots
-            .begin_form(&mut self.host.simulation, &self.image, form);
+            .begin_form(&self.host.simulation, form);
         let now = self.host.simulation.now();
         self.host.audience.tell_resumed(now);
         let tells_progress = self.console.is_interactive;

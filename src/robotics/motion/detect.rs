@@ -1,7 +1,5 @@
 //! Looking for objects with the camera. Nothing moves.
 
-use serde::{Deserialize, Serialize};
-
 use super::failure::MotionFailure;
 use super::job::{
     Activity, DetectedObject, Job, MotionOutcome, MotionStatus, ProcessModule, Progress,
@@ -11,7 +9,7 @@ use crate::world::noise::Perceived;
 use crate::world::{Object, World};
 
 /// Which objects are looked for.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DetectQuery {
     /// Name in the world; any if absent.
     pub name: Option<String>,

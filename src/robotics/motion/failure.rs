@@ -5,7 +5,7 @@
 //! `Display` alone: a first line as in CRAM, or a sentence that says what and why, and
 //! where it can be computed, a second sentence that says what would work.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use thiserror::Error;
 
 use super::base_path::BasePlace;
@@ -22,7 +22,7 @@ use crate::robot::{LimitViolation, Side};
 use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial};
 
 /// Why a motion did not reach its goal.
-#[derive(Clone, Debug, Error, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Error, PartialEq, Serialize)]
 pub enum MotionFailure {
     /// The goal of the base is occupied.
     #[error("the robot cannot stand at {}: {}{}", place(.goal), touch(.hit), nearest(.nearest_free))]

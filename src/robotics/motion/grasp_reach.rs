@@ -5,7 +5,7 @@
 
 use std::cell::Cell;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
@@ -73,7 +73,7 @@ pub struct Station {
 }
 
 /// The parts of a grasp for which the hand has to be somewhere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum GraspPart {
     /// Beside the object, touching nothing.
     Approach,
@@ -84,7 +84,7 @@ pub enum GraspPart {
 }
 
 /// Why a hand cannot grasp an object in some way.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum GraspObstacle {
     /// The hand holds something else.
     HandFull {

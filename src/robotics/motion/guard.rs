@@ -7,7 +7,7 @@
 //! bodies already overlap that much, steps that separate them or slide along are still taken,
 //! or the robot could never get away; but no step may exceed [`GREATEST_DEPTH`].
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::failure::MotionFailure;
 use super::payload::overload;
@@ -126,7 +126,7 @@ pub(super) fn trouble_with_held(
 
 /// An object that the robot presses onto what carries it, harder than [`GREATEST_FORCE`] and than
 /// its own weight does.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PinnedObject {
     /// Name of the object.
     pub object: String,
@@ -169,7 +169,7 @@ fn stopped_part(world: &World, is_hand: impl Fn(Side) -> bool) -> Option<Stopped
 }
 
 /// A held object that does not follow the hand as it should.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StuckObject {
     /// Name of the object.
     pub object: String,

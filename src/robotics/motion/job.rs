@@ -1,7 +1,5 @@
 //! What all motions have in common: a job that is polled once per simulation step.
 
-use serde::{Deserialize, Serialize};
-
 use super::failure::MotionFailure;
 pub use super::process_module::ProcessModule;
 use super::trajectory::Trajectory;
@@ -39,7 +37,7 @@ pub enum MotionOutcome {
 }
 
 /// An object that a camera sees.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DetectedObject {
     /// Name in the world.
     pub name: String,

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use indexmap::IndexMap;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::grasp_reach::{GraspObstacle, GraspPart};
 use crate::robot::{Side, Unreachable};
@@ -12,7 +12,7 @@ use crate::robot::{Side, Unreachable};
 const MOST_CAUSES: usize = 3;
 
 /// An object that no hand can grasp as wanted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NoGrasp {
     /// Name of the object.
     pub object: String,
@@ -29,7 +29,7 @@ pub struct NoGrasp {
 }
 
 /// A grasp that does not work.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TriedGrasp {
     /// The hand.
     pub side: Side,

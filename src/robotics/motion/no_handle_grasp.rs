@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::Side;
 use crate::world::CollisionHit;
 
 /// Why one way to take a handle does not work.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum HandleObstacle {
     /// The drawer or door itself, or what is in it, would run into something.
     Part(Box<CollisionHit>),
@@ -23,7 +23,7 @@ pub enum HandleObstacle {
 }
 
 /// What has been tried, and why nothing of it works.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NoHandleGrasp {
     /// Name of the handle.
     pub handle: String,

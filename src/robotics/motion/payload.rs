@@ -7,14 +7,14 @@
 use std::fmt;
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::{JointKind, LinkId, Side};
 use crate::world::physics::GRAVITY;
 use crate::world::{Object, World};
 
 /// An object that is too heavy for the arm that lifts it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overload {
     /// Name of the object.
     pub object: String,
@@ -27,7 +27,7 @@ pub struct Overload {
 }
 
 /// What limits the load of an arm.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum PayloadLimit {
     /// The mass (kg) that its maker allows.
     Maker(f64),

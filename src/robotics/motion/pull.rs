@@ -5,7 +5,7 @@
 //! hand (`world::handle_hold`). The motion does not begin if the arm is too short, or if something
 //! is in the way of the drawer or door, and stops when something turns out to be.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::axis_group::AxisGroup;
 use super::failure::MotionFailure;
@@ -47,7 +47,7 @@ impl Pull {
 }
 
 /// A drawer or door that was stopped, or would be.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StoppedPart {
     /// Name of the joint.
     pub joint: String,
@@ -60,7 +60,7 @@ pub struct StoppedPart {
 }
 
 /// An arm that cannot move a drawer or door as far as wanted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShortArm {
     /// The arm.
     pub side: Side,

@@ -3,7 +3,7 @@
 //! [`guard`] refuses steps into what does not give way. What gives way never gets deep into the
 //! robot, so it is watched here.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::guard::{self, PinnedObject};
 use crate::world::physics::STEP_SECONDS;
@@ -18,7 +18,7 @@ const PINNED: f64 = 0.03;
 const PUSHED: f64 = 0.005;
 
 /// An object that the robot has pushed along.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PushedObject {
     /// Name of the object.
     pub object: String,

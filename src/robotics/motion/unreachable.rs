@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::{self, Side};
 use crate::world::CollisionHit;
 use spatial::Pose;
 
 /// A pose to which the arm cannot bring its hand at any height of the torso.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnreachablePose {
     /// The arm.
     pub side: Side,
@@ -26,7 +26,7 @@ pub struct UnreachablePose {
 }
 
 /// Why no configuration will do.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum UnreachableReason {
     /// The arm is too short, or joints would have to exceed their ranges.
     Arm {

@@ -35,7 +35,7 @@ impl Audience {
         mut follower: Box<dyn Follower>,
     ) -> FollowerId {
         Plan::of(image).keep_journal();
-        let trajectories = simulation.shown().jobs.trajectories();
+        let trajectories = simulation.jobs.trajectories();
         follower.see(&observation(simulation, &trajectories), Cause::Rest);
         let now = simulation.now();
         for news in &self.followers.stopped {
@@ -62,12 +62,11 @@ impl Audience {
 
     /// Shows the followers the present state of the world.
     pub fn show(&mut self, simulation: &Simulation, cause: Cause) {
-        // A state that is an old one is not shown.
-        if self.followers.all.is_empty() || simulation.tape.is_stale() {
+        if self.followers.all.is_empty() {
             return;
         }
         let mut followers = std::mem::take(&mut self.followers.all);
-        let trajectories = simulation.shown().jobs.trajectories();
+        let trajectories = simulation.jobs.trajectories();
         let observation = observation(simulation, &trajectories);
         for (_, follower) in &mut followers {
             follower.see(&observation, cause);
@@ -176,17 +175,12 @@ fn observation<'a>(
 ) -> Observation<'a> {
     Observation {
         time: simulation.now,
-        world: &simulation.shown().world,
-        axes: simulation
-            .shown()
-            .axes
-            .as_ref()
-            .map(|axes| (axes.pose, axes.size)),
+        world: &simulation.world,
+        axes: simulation.axes.as_ref().map(|axes| (axes.pose, axes.size)),
         location: simulation
-            .shown()
             .location_map
             .as_ref()
-            .or(simulation.shown().resolved_map.as_ref()),
+            .or(simulation.resolved_map.as_ref()),
         trajectories,
     }
 }

@@ -38,9 +38,9 @@ impl fmt::Debug for Snapshot {
 
 impl Session {
     /// The present state of the world.
-    pub fn snapshot(&mut self) -> Snapshot {
+    pub fn snapshot(&self) -> Snapshot {
         Snapshot {
-            state: person::Snapshot::take(&mut self.host.simulation, &self.image),
+            state: person::Snapshot::take(&self.host.simulation),
             session: Rc::clone(&self.objects),
         }
     }
@@ -53,7 +53,7 @@ impl Session {
         let host = &mut self.host;
         let snapshots = &mut host.person.snapshots;
         snapshots
-            .go_to(&mut host.simulation, &mut self.image, &snapshot.state)
+            .go_to(&mut host.simulation, &snapshot.state)
             .map_err(|_| RestoreError::Moving)?;
         host.audience.show(&host.simulation, Cause::Edit);
         Ok(())

@@ -99,7 +99,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "name arm",
         "Lets go of an object and waits until it rests.",
         &[],
-        host!(answered detach_object),
+        host!(detach_object),
     ),
     control(
         "OBJECT-TO-PLACE",

@@ -8,7 +8,6 @@
 pub(crate) mod call;
 pub(super) mod parts;
 mod request;
-mod taped;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -50,13 +49,13 @@ impl SimulationHost {
 
     /// Puts limits in force for an evaluation with an interrupt flag.
     pub(crate) fn begin_bounds(&self, limits: &Limits, flag: &Arc<AtomicBool>) {
-        let step = self.simulation.shown().world.steps();
+        let step = self.simulation.world().steps();
         self.bounds.begin(limits, flag, self.simulation.now(), step);
     }
 
     /// Interrupts the evaluation if it has reached a limit. To be called when time may have passed.
     pub(crate) fn check_bounds(&self) {
-        let step = self.simulation.shown().world.steps();
+        let step = self.simulation.world().steps();
         self.bounds.check(self.simulation.now(), step);
     }
 }
