@@ -10,6 +10,7 @@ mod converse;
 mod copy;
 pub mod defect;
 pub mod dialogue;
+mod face;
 pub mod functions;
 mod halting;
 mod host;
@@ -53,6 +54,11 @@ use view::picture::animation::Shot;
 use view::watch::Cause;
 
 pub use audience::{Audience, Filming, WatchError};
+pub use face::{
+    Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
+    PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
+    Within,
+};
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions};
 
@@ -71,6 +77,8 @@ pub struct Session {
     told_names: assist::ToldNames,
     /// What an editor refers to.
     objects: Rc<objects::Objects>,
+    /// The condition that has ended the evaluation of a form last.
+    failed_with: Option<Value>,
     /// The last to be dropped: what has been put off is freed.
     _rest: FreesAll,
 }
@@ -118,6 +126,7 @@ impl Session {
             console: console::Console::default(),
             told_names: assist::ToldNames::default(),
             objects,
+            failed_with: None,
             _rest: FreesAll,
         };
         session.image.limits.heap.set_limit(options.heap);
@@ -226,10 +235,14 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
+        self.host
+            .begin_bounds(&Limits::NONE, self.image.interrupt());
+        let outcome = match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
             Ok(outcome) => outcome,
             Err(defect) => self.recover(&defect, sink),
-        }
+        };
+        self.host.bounds.end();
+        outcome
     }
 
     /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
@@ -270,6 +283,7 @@ impl Session {
             }
             Evaluation::Unhandled(condition) => {
                 let abort = printing::describe(&mut self.image, &condition);
+                self.failed_with = Some(condition);
                 self.abort(sink);
                 Ended::Aborted(Box::new(abort))
             }

@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use crate::simulation::jobs::Job;
 use cram::Plan;
 use lisp::image::Image;
-use robotics::motion::PlannedTrajectory;
+use robotics::motion::{MotionFailure, PlannedTrajectory};
 use robotics::world::CollisionHit;
 use view::watch::{
     About, Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent,
@@ -91,6 +91,7 @@ impl Audience {
             let goes_on = TaskNews {
                 state: TaskState::Running,
                 failure: String::new(),
+                class: String::new(),
                 ..news.clone()
             };
             self.tell(now, &WatchEvent::Task(goes_on));
@@ -127,7 +128,13 @@ impl Audience {
     }
 
     /// Notifies the followers of a change in the state of a motion.
-    pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
+    pub(crate) fn tell_motion(
+        &mut self,
+        now: f64,
+        job: &Job,
+        state: TaskState,
+        failure: Option<&MotionFailure>,
+    ) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -146,7 +153,8 @@ impl Audience {
                 parent: job.told.parent.or(Some(TaskId::Task(job.task.0))),
                 name: job.name.clone(),
                 state,
-                failure: failure.to_owned(),
+                failure: failure.map(ToString::to_string).unwrap_or_default(),
+                class: failure.map_or("", MotionFailure::class_name).to_owned(),
                 result: String::new(),
                 about: about.filter(|_| state == TaskState::Running),
             }),

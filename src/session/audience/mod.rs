@@ -14,6 +14,7 @@ use crate::dialogue::Swept;
 use crate::simulation::Simulation;
 use film::Film;
 pub use film::Filming;
+pub(crate) use following::FollowerId;
 use following::Followers;
 use pace::Pace;
 use robotics::world::World;

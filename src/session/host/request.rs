@@ -65,7 +65,7 @@ impl Host for SimulationHost {
         if let Some(job) = self.simulation.jobs.cancel(ticket) {
             let now = self.simulation.now;
             self.audience
-                .tell_motion(now, &job, TaskState::Evaporated, "");
+                .tell_motion(now, &job, TaskState::Evaporated, None);
             self.simulation.jobs.leave(job);
         }
     }
@@ -189,7 +189,8 @@ impl SimulationHost {
         let job = simulation
             .jobs
             .add(motion, subject, self.asking, name, told);
-        self.audience.tell_motion(now, job, TaskState::Running, "");
+        self.audience
+            .tell_motion(now, job, TaskState::Running, None);
         job.ticket
     }
 
@@ -228,13 +229,12 @@ impl SimulationHost {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => {
                     self.audience
-                        .tell_motion(now, job, TaskState::Succeeded, "");
+                        .tell_motion(now, job, TaskState::Succeeded, None);
                     Ok(simulation.outcome(image, &outcome, &job.subject))
                 }
                 MotionStatus::Failed(failure) => {
-                    let report = failure.to_string();
                     self.audience
-                        .tell_motion(now, job, TaskState::Failed, &report);
+                        .tell_motion(now, job, TaskState::Failed, Some(&failure));
                     if let Some(hit) = failure.hit() {
                         self.audience.tell_collision(now, hit);
                     }

@@ -60,7 +60,7 @@ pub(crate) struct Snapshots {
 
 impl Snapshot {
     /// Takes a snapshot of the present state.
-    fn take(simulation: &Simulation) -> Self {
+    pub(crate) fn take(simulation: &Simulation) -> Self {
         Self(Rc::new(State {
             world: simulation.world.snapshot(),
             names: simulation.names.clone(),
@@ -260,12 +260,8 @@ impl Snapshots {
         name: &str,
     ) -> Result<(), Box<Raise>> {
         check_idle(simulation)?;
-        match self.named.get(name) {
-            Some(snapshot) => {
-                snapshot.restore(simulation);
-                self.touch();
-                Ok(())
-            }
+        match self.named.get(name).cloned() {
+            Some(snapshot) => self.go_to(simulation, &snapshot),
             None => {
                 let known: Vec<&str> = self.named.keys().map(String::as_str).collect();
                 let remedy = if known.is_empty() {
@@ -278,6 +274,18 @@ impl Snapshots {
                 )))
             }
         }
+    }
+
+    /// Restores a snapshot of the world.
+    pub(crate) fn go_to(
+        &mut self,
+        simulation: &mut Simulation,
+        snapshot: &Snapshot,
+    ) -> Result<(), Box<Raise>> {
+        check_idle(simulation)?;
+        snapshot.restore(simulation);
+        self.touch();
+        Ok(())
     }
 
     /// The names of the named snapshots.
