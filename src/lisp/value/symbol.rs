@@ -289,6 +289,7 @@ impl SymbolTable {
     }
 
     /// Number of symbols.
+    #[cfg(test)]
     pub fn len(&self) -> usize {
         self.entries.len() + self.passing.len()
     }
