@@ -1,7 +1,19 @@
 //! A program that embeds planwright, through nothing but what the library offers: it runs a
 //! plan, listens to what happens, and asks where things are in the end.
 
+#[cfg(target_os = "linux")]
+#[path = "embedding/memory.rs"]
+mod memory;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use planwright::{Evaluate, Event, Outcome, Session, SessionOptions, Side};
+
+/// One test at a time: some measure the memory of the process.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 const PICKING_UP: &str = include_str!("../plans/tutorial/picking-up.plan");
 
@@ -18,6 +30,7 @@ fn run(session: &mut Session, text: &str) -> (Outcome, String) {
 
 #[test]
 fn a_plan_picks_up_a_bottle_and_the_world_tells_where_it_is() {
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     assert_eq!((session.time(), session.objects().len()), (0.0, 0));
     let (outcome, printed) = run(&mut session, PICKING_UP);
@@ -43,6 +56,7 @@ fn a_plan_picks_up_a_bottle_and_the_world_tells_where_it_is() {
 
 #[test]
 fn a_condition_that_nobody_handled_tells_where_and_why() {
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut aborts = Vec::new();
     let outcome = session.evaluate("embedding", "(+ 1\n   (car 5))", &mut |event| {
@@ -58,6 +72,7 @@ fn a_condition_that_nobody_handled_tells_where_and_why() {
 
 #[test]
 fn the_same_texts_leave_the_same_world() {
+    let _alone = alone();
     let hash = |seed: u64| {
         let options = SessionOptions {
             seed,
