@@ -520,3 +520,23 @@ fn only_one_module_names_the_physics_engine() {
     }
     assert_eq!(named, ["world::physics", "world::physics::raw_contact"]);
 }
+
+#[test]
+fn only_the_library_itself_has_examples_in_rust() {
+    let mut found = Vec::new();
+    // `cargo test` runs the examples of no other crate.
+    for folder in CRATES.iter().filter(|folder| **folder != "src/front") {
+        for (module, text) in Sources::of(folder).texts {
+            let fences = text.lines().map(str::trim_start).filter_map(|line| {
+                let comment = line.strip_prefix("///").or(line.strip_prefix("//!"))?;
+                comment.trim_start().strip_prefix("```")
+            });
+            let languages = fences.step_by(2);
+            let rust = |language: &str| !matches!(language, "lisp" | "text");
+            if languages.into_iter().any(rust) {
+                found.push(format!("{folder}: {}", module.join("::")));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{found:?}");
+}

@@ -1,14 +1,8 @@
-//! Tasks that have ended leave nothing behind, nor do values that hold each other. In a process of
-//! its own, whose memory nobody else uses.
-
-#![cfg(target_os = "linux")]
-
-use std::sync::Mutex;
+//! Tasks that have ended leave nothing behind, nor do values that hold each other.
 
 use planwright::{Evaluate, Outcome, Session, SessionOptions};
 
-/// One test at a time: they measure the memory of the process.
-static MEMORY: Mutex<()> = Mutex::new(());
+use super::alone;
 
 /// Kilobytes of memory that this process holds.
 fn resident() -> u64 {
@@ -27,7 +21,7 @@ fn resident_after(session: &mut Session, text: &str) -> u64 {
 
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defun many (n)
@@ -43,7 +37,7 @@ fn memory_stays_flat_over_a_million_tasks() {
 
 #[test]
 fn memory_stays_flat_over_a_million_circles_of_each_kind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defstruct node next) (defclass thing () ((part :accessor part)))");
@@ -78,7 +72,7 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
 
 #[test]
 fn sessions_that_have_ended_leave_nothing_behind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let transport = "(in-package :pp-tut)
         (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
         (with-simulated-robot
@@ -114,7 +108,7 @@ fn sessions_that_have_ended_leave_nothing_behind() {
 
 #[test]
 fn threads_that_had_a_session_leave_nothing_behind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let threads = |count: usize| {
         for _ in 0..count {
             let session = std::thread::spawn(|| {
