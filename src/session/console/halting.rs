@@ -1,12 +1,11 @@
 //! What the followers of a session learn when an evaluation does not go on.
 
-use super::Session;
-use super::dialogue::{Abort, Event};
+use super::evaluator::Evaluator;
 use lisp::image::identity::aside;
 use lisp::print::report::report;
-use view::watch::{Cause, Halt, HaltKind, TaskId, TaskNews, TaskState};
+use view::watch::{Cause, Halt, TaskId, TaskNews, TaskState};
 
-impl Session {
+impl Evaluator {
     /// Tells the followers whether the session goes on. Call when an input has been dealt with;
     /// `aborted` is what has ended it, and `was_stopped` tells whether an evaluation was stopped
     /// before it.
@@ -35,23 +34,5 @@ impl Session {
         if was_stopped || is_stopped {
             self.host.audience.show(&self.host.simulation, Cause::Rest);
         }
-    }
-}
-
-/// What an event says about the end of an input.
-pub(super) fn end_of(event: &Event) -> Option<Halt> {
-    match event {
-        Event::Aborted(abort) => Some(halt_of(HaltKind::Aborted, abort)),
-        _ => None,
-    }
-}
-
-/// The halt at a condition or an interrupt.
-pub(super) fn halt_of(kind: HaltKind, abort: &Abort) -> Halt {
-    let place = abort.main_place();
-    Halt {
-        class: abort.class.clone(),
-        place: place.map_or_else(String::new, ToString::to_string),
-        ..Halt::new(kind, abort.report.clone())
     }
 }
