@@ -93,7 +93,7 @@ impl Evaluator {
     }
 
     /// Evaluates an input; a panic ends it, but not the session.
-    pub(crate) fn evaluate_or_recover(
+    fn evaluate_or_recover(
         &mut self,
         source_name: &str,
         text: &str,
@@ -106,7 +106,7 @@ impl Evaluator {
     }
 
     /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
-    pub(crate) fn evaluate_input(
+    fn evaluate_input(
         &mut self,
         source_name: &str,
         text: &str,
@@ -166,13 +166,13 @@ impl Evaluator {
     }
 
     /// Unwinds a stopped evaluation, running its cleanup forms.
-    pub(crate) fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
+    pub(super) fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
         let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         self.scheduler.abort(&mut self.image, &mut host);
     }
 
     /// Reports what was written to standard output.
-    pub(crate) fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
+    pub(super) fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
         live_host::flush(&mut self.image, &mut self.host, sink);
     }
 
@@ -182,7 +182,7 @@ impl Evaluator {
     }
 
     /// `+`, `++` and `+++`: the forms evaluated last.
-    pub(crate) fn shift_forms(&mut self, form: &Value) {
+    pub(super) fn shift_forms(&mut self, form: &Value) {
         let image = &mut self.image;
         let (one, two) = (
             image.special(known::PLUS).clone(),
@@ -194,7 +194,7 @@ impl Evaluator {
     }
 
     /// `*`, `**`, `***` and `/`, `//`, `///`.
-    pub(crate) fn shift_values(&mut self, values: &[Value]) {
+    pub(super) fn shift_values(&mut self, values: &[Value]) {
         let image = &mut self.image;
         let first = values.first().cloned().unwrap_or(Value::NIL);
         for (names, newest) in [
