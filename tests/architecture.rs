@@ -488,9 +488,9 @@ fn circles(sources: &Sources, wrong: &mut Vec<String>) {
     }
 }
 
-/// Whatever a part needs of the session, it is given; the console evaluates, as the session does.
+/// Whatever a part needs of the session, it is given.
 #[test]
-fn of_the_folders_of_the_session_only_the_console_names_the_session() {
+fn no_folder_of_the_session_names_the_session() {
     let sources = Sources::of("src/session");
     let folders: BTreeSet<&String> = (sources.names.keys())
         .filter(|module| module.len() > 1)
@@ -506,7 +506,7 @@ fn of_the_folders_of_the_session_only_the_console_names_the_session() {
         }
     }
     let naming: Vec<&str> = naming.into_iter().map(String::as_str).collect();
-    assert_eq!(naming, ["console"]);
+    assert_eq!(naming, [""; 0]);
 }
 
 #[test]

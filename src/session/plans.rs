@@ -3,7 +3,8 @@
 
 use plan_files::{DEMOS, LIBRARY};
 
-use super::{Ended, Session, SessionError};
+use super::SessionError;
+use super::console::{Ended, Evaluator};
 use lisp::reader::Reader;
 use lisp::value::Value;
 use lisp::value::known;
@@ -21,30 +22,31 @@ pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
     Some(text)
 }
 
-impl Session {
-    /// Loads the built-in plans. The current package stays the same.
-    pub(super) fn load_plans(&mut self) -> Result<(), SessionError> {
-        for (name, text) in LIBRARY {
-            let failed = |report: String| SessionError::Plan {
-                name: (*name).to_owned(),
-                report,
+/// Loads the built-in plans. The current package stays the same.
+pub(super) fn load(evaluator: &mut Evaluator) -> Result<(), SessionError> {
+    for (name, text) in LIBRARY {
+        let failed = |report: String| SessionError::Plan {
+            name: (*name).to_owned(),
+            report,
+        };
+        let source = evaluator
+            .image
+            .sources
+            .add(&format!("plans/lib/{name}"), text);
+        let mut reader = Reader::new(&evaluator.image, source);
+        loop {
+            let form = match reader.next_form(&mut evaluator.image) {
+                Ok(Some((form, _))) => form,
+                Ok(None) => break,
+                Err(error) => return Err(failed(error.to_string())),
             };
-            let source = self.image.sources.add(&format!("plans/lib/{name}"), text);
-            let mut reader = Reader::new(&self.image, source);
-            loop {
-                let form = match reader.next_form(&mut self.image) {
-                    Ok(Some((form, _))) => form,
-                    Ok(None) => break,
-                    Err(error) => return Err(failed(error.to_string())),
-                };
-                if let Ended::Aborted(abort) = self.evaluate_form(&form, &mut |_| {}) {
-                    let place = abort.place.map(|p| format!("{p}: ")).unwrap_or_default();
-                    return Err(failed(format!("{place}{}", abort.report)));
-                }
+            if let Ended::Aborted(abort) = evaluator.evaluate_form(&form, &mut |_| {}) {
+                let place = abort.place.map(|p| format!("{p}: ")).unwrap_or_default();
+                return Err(failed(format!("{place}{}", abort.report)));
             }
         }
-        let user = Value::Package(PackageTable::USER);
-        self.image.set_special(known::V_PACKAGE, user);
-        Ok(())
     }
+    let user = Value::Package(PackageTable::USER);
+    evaluator.image.set_special(known::V_PACKAGE, user);
+    Ok(())
 }

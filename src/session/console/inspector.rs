@@ -1,6 +1,7 @@
 //! The inspector: descending into the parts of a value, and back.
 
-use super::{Asking, Session};
+use super::evaluator::Evaluator;
+use super::stopped::Asking;
 use crate::dialogue::{Event, Outcome};
 use crate::host::parts::View;
 use lisp::value::Value;
@@ -10,7 +11,7 @@ use lisp::value::known;
 const REMARK: &str =
     "; A number inspects a part, b goes back, q leaves; * is the value being inspected.";
 
-impl Session {
+impl Evaluator {
     /// Handles an input for the inspector; `None` if it is not for the inspector, or if nothing
     /// is being inspected.
     pub(crate) fn inspector_input(
