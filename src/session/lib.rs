@@ -10,6 +10,7 @@ mod converse;
 mod copy;
 pub mod defect;
 pub mod dialogue;
+mod facts;
 pub mod functions;
 mod halting;
 mod host;
@@ -103,6 +104,7 @@ impl Session {
         cram::designator::install(&mut image);
         functions::install(&mut image);
         functions::name_system_folders(&mut image, &options.systems);
+        facts::install(&mut image, &models);
         functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed)
             .map_err(|error| SessionError::Models(error.to_string()))?;

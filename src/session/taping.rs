@@ -14,12 +14,17 @@ impl Taping for Session {
         let mut sum = crc32fast::Hasher::new();
         sum.update(&options.seed.to_le_bytes());
         sum.update(&[options.log_level as u8]);
-        let files = [&options.robot, &options.robot_description, &options.world];
+        let files = [
+            &options.robot,
+            &options.robot_description,
+            &options.world,
+            &options.world_description,
+        ];
         if let Some(noise) = &options.noise {
             sum.update(&[3]);
             sum.update(noise.as_bytes());
         }
-        for (number, file) in (0_u8..).zip(files) {
+        for (number, file) in [0, 1, 2, 4_u8].into_iter().zip(files) {
             if let Some((name, text)) = file {
                 for part in [&[number], name.as_bytes(), text.as_bytes()] {
                     sum.update(&part.len().to_le_bytes());

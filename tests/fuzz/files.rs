@@ -232,7 +232,14 @@ fn urdf() -> Taker {
         read += 1;
         if read % 100 == 0 {
             let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp").unwrap();
-            let models = Models::new(PR2.tree.clone(), PR2.description.clone(), kitchen, objects);
+            let furnishing = KitchenDescription::built_in(&kitchen).unwrap();
+            let models = Models::new(
+                PR2.tree.clone(),
+                PR2.description.clone(),
+                kitchen,
+                furnishing,
+                objects,
+            );
             let joints = models.description.start_positions(&models.robot);
             let base = spatial::Pose::identity();
             let mut world = World::new(Arc::new(models), RobotConfiguration { base, joints });

@@ -106,7 +106,7 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         choice.poses.lift,
         choice.poses.second_lift,
     ];
-    let poses = poses.map(|pose| pose_stamped("base_footprint", &pose));
+    let poses = poses.map(|pose| simulation.in_base(&pose));
     done(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, &choice.grasp),

@@ -152,7 +152,8 @@ impl SimulationHost {
                 advance.now = reached;
                 for (ticket, done) in done {
                     let subject = simulation.tape.end_motion(ticket);
-                    match subject.and_then(|s| outcome::of_done(image, &done, &s)) {
+                    let base = simulation.base_frame();
+                    match subject.and_then(|s| outcome::of_done(image, &done, &s, base)) {
                         Some(outcome) => advance.done.push((Ticket(ticket), outcome)),
                         None => simulation.tape.fail(),
                     }

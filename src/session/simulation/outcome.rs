@@ -11,11 +11,13 @@ use lisp::value::package::PackageTable;
 use lisp::value::raise::Raise;
 use robotics::motion::{DetectedObject, MotionFailure, MotionOutcome};
 
-/// The outcome of a motion that the tape tells; `None` if that does not fit what is known.
+/// The outcome of a motion that the tape tells; `None` if that does not fit what is known. `base` is
+/// the frame of the robot's base.
 pub(crate) fn of_done(
     image: &mut Image,
     done: &Done,
     subject: &Value,
+    base: &str,
 ) -> Option<Result<Value, Box<Raise>>> {
     let given = std::slice::from_ref(subject);
     Some(match done {
@@ -26,14 +28,19 @@ pub(crate) fn of_done(
                 .iter()
                 .map(|(name, o)| (name.symbol(image).into(), o));
             let named: Vec<(Value, &DetectedObject)> = named.collect();
-            Ok(detected(image, &named, subject))
+            Ok(detected(image, &named, subject, base))
         }
     })
 }
 
 /// Designators of detected objects, each with the name by which users know it: the first one, or
 /// a list of all if all were requested.
-fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Value) -> Value {
+fn detected(
+    image: &mut Image,
+    objects: &[(Value, &DetectedObject)],
+    query: &Value,
+    base: &str,
+) -> Value {
     let found: Vec<Value> = objects
         .iter()
         .map(|(name, object)| {
@@ -43,6 +50,7 @@ fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Val
                 query,
                 name.clone(),
                 kind,
+                base,
                 &object.pose_in_base,
                 &object.pose_in_map,
             )
@@ -72,7 +80,7 @@ impl Simulation {
             MotionOutcome::Detected(objects) => {
                 let named = objects.iter().map(|o| (self.symbol_of(&o.name), o));
                 let named: Vec<(Value, &DetectedObject)> = named.collect();
-                detected(image, &named, subject)
+                detected(image, &named, subject, self.base_frame())
             }
         }
     }
