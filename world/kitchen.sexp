@@ -35,7 +35,7 @@
 
 ; Where things of a type usually are, by what they are needed for: on the sink counter in the context
 ; table-setting-counter, in drawers and the fridge in table-setting, on the set table in
-; table-cleaning. The first record that fits counts.
+; table-cleaning. Of several records with a type, the first counts.
 (usually cutlery-drawer
          :contexts (table-setting-counter table-setting) :types (spoon knife fork cutlery))
 (usually bowl-drawer :contexts (table-setting) :types (bowl))
@@ -50,13 +50,13 @@
          :contexts (table-cleaning)
          :types (plate bowl bottle mug milk cereal breakfast-cereal cup spoon knife fork cutlery))
 
-; Where things belong; without :types, all things. On the set table, cups, milk and cutlery are put
-; beside the bowl, wherever that is. What CRAM puts onto the tray of the dishwasher comes into a
+; Where things belong; without :types, all for which no record has their type. In the first two contexts,
+; cups, milk and cutlery are put beside the bowl on the table unless a record has their type. What CRAM puts onto the tray of the dishwasher comes into a
 ; drawer, since there is no tray; what it drops into the drawer for waste is kept in the fridge, since
 ; no hand gets down to the bottom of that drawer with a carton.
-(belongs setting-of-bowl :contexts (table-setting) :types (bowl))
 (belongs setting-of-bowl-from-counter :contexts (table-setting-counter) :types (bowl))
-(belongs setting :contexts (table-setting table-setting-counter))
+(belongs setting-of-bowl :contexts (table-setting) :types (bowl))
+(belongs setting :contexts (table-setting-counter table-setting))
 (belongs bowl-drawer :contexts (table-cleaning) :types (bowl cup spoon))
 (belongs fridge :contexts (table-cleaning) :types (milk bottle))
 (belongs top-board :contexts (table-cleaning) :types (cereal breakfast-cereal))

@@ -6,7 +6,9 @@ use lisp::image::Image;
 use lisp::value::Value;
 use robotics::robot::Side;
 use robotics::world::Models;
-use robotics::world::kitchen_description::{KitchenDescription, PlaceProperty, PlaceRule, PlaceValue};
+use robotics::world::kitchen_description::{
+    KitchenDescription, PlaceProperty, PlaceRule, PlaceValue,
+};
 
 /// The package of the variables that hold the descriptions.
 const PACKAGE: &str = "CRAM-ROBOT-INTERFACES";
@@ -51,11 +53,22 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         let wrist = &models.robot.link(description.arm(side).wrist).name;
         Value::list([keyword(image, side.name()), Value::string(wrist.as_str())])
     });
+    let links = Side::BOTH.map(|side| {
+        let robot = &models.robot;
+        let first = robot.joint(description.arm(side).joints()[0]).child;
+        let links = robot
+            .links()
+            .filter(|(link, _)| robot.carries(first, *link));
+        let links = links.map(|(_, link)| Value::string(link.name.as_str()));
+        let arm = std::iter::once(keyword(image, side.name()));
+        Value::list(arm.chain(links).collect::<Vec<_>>())
+    });
     let entries = [
         ("name", keyword(image, &description.name)),
         ("torso-joint", Value::string(joint.as_str())),
         ("camera-frame", Value::string(camera.as_str())),
         ("wrists", Value::list(wrists)),
+        ("arm-links", Value::list(links)),
     ];
     property_list(image, entries)
 }

@@ -41,10 +41,14 @@ pub fn link_named(models: &Models, name: &str) -> Result<LinkId, UnknownFurnitur
     let links = || kitchen.links().filter(|(_, l)| !l.collisions.is_empty());
     let found = links().find(|(_, link)| link.name.to_lowercase() == wanted);
     let alias = || kitchen.link_named(&wanted);
-    found.map(|(id, _)| id).or_else(alias).ok_or_else(|| UnknownFurniture {
-        name: name.to_owned(),
-        closest: closest_name(&wanted, links().map(|(_, l)| l.name.as_str())).map(str::to_owned),
-    })
+    found
+        .map(|(id, _)| id)
+        .or_else(alias)
+        .ok_or_else(|| UnknownFurniture {
+            name: name.to_owned(),
+            closest: closest_name(&wanted, links().map(|(_, l)| l.name.as_str()))
+                .map(str::to_owned),
+        })
 }
 
 /// The furniture on which things can be put, in the order of the kitchen, with the box around each.

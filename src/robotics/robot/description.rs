@@ -6,7 +6,8 @@
 //! uses this description and never names a link itself.
 
 use super::{
-    Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId, Side,
+    Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
+    Side,
 };
 use nalgebra::{Translation3, UnitQuaternion};
 use spatial::{Pose, trig};

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 use super::description::{Arm, Base, Camera, Gripper, Neck, RobotDescription, Speed, Torso};
 use super::{
-    Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits, LinkId,
-    Side,
+    Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
+    LinkId, Side,
 };
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use closest_name::closest_name;
@@ -405,7 +405,11 @@ pub(crate) fn aliases<'a>(
             let links = tree.links().map(|(_, link)| link.name.as_str());
             let joints = tree.joints().map(|(_, joint)| joint.name.as_str());
             let wanted = part_node.symbol().unwrap_or_default();
-            part_node.unknown("link or joint", wanted, closest_name(wanted, links.chain(joints)))
+            part_node.unknown(
+                "link or joint",
+                wanted,
+                closest_name(wanted, links.chain(joints)),
+            )
         })?;
         aliases.push(Alias {
             name: name.to_owned(),

@@ -72,13 +72,7 @@ impl Models {
         let furnishing =
             KitchenDescription::from_sexp(KITCHEN_DESCRIPTION, "kitchen.sexp", &kitchen)?;
         let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")?;
-        Ok(Self::new(
-            robot,
-            description,
-            kitchen,
-            furnishing,
-            objects,
-        ))
+        Ok(Self::new(robot, description, kitchen, furnishing, objects))
     }
 
     /// Prepares the models; the descriptions must belong to that robot and that kitchen.

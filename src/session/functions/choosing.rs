@@ -6,7 +6,6 @@ use crate::simulation::grasp_choice::PlacingTarget;
 use crate::simulation::motions::{side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
 use cram::Reply;
-use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control};
 use lisp::builtins::keywords;
 use lisp::image::Image;

@@ -269,11 +269,7 @@ impl Foreign for KitchenUrdf {
     }
 }
 
-fn get_kitchen_urdf(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    _: &[Value],
-) -> Result<Reply> {
+fn get_kitchen_urdf(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
     let symbol = image.keyword("ROBOT");
     done(Value::foreign(KitchenUrdf {
         name: simulation.models.kitchen_description.urdf_name.clone(),
