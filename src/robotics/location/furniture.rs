@@ -30,7 +30,7 @@ pub struct UnknownFurniture {
 fn hint(closest: Option<&str>) -> String {
     match closest {
         Some(name) => format!("; did you mean {}?", name.replace('_', "-")),
-        None => "; (list-surfaces) and (list-containers) tell the names.".to_owned(),
+        None => "; (list-surfaces) and (list-containers) tell the names".to_owned(),
     }
 }
 

@@ -365,10 +365,10 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let axes = &simulation.models.description.arm(side).tool_axes;
     let poses = definition
         .tool_poses(&object.in_base, axes)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     let base = simulation.base();
     let overhead = Overhead::of(&simulation.world, &object.name, &(base * object.in_base))
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     let poses = overhead.picking(&base, poses);
     done(Value::list(
         [
@@ -462,7 +462,7 @@ fn grip(simulation: &Simulation, image: &Image, args: &[Value]) -> Result<HeldGr
     let name = simulation.object_named(image, &args[0])?;
     let side = side(image, &args[1])?;
     let grip = simulation.grip_on(&name, side);
-    grip.map_err(|error| Raise::simple(format!("{error}.")))
+    grip.map_err(Raise::reporting)
 }
 
 /// A pose in the frame of the base.
@@ -500,7 +500,7 @@ fn putting_poses_at(
     let grip = grip(simulation, image, args)?;
     let base = simulation.base();
     let overhead = Overhead::of(&simulation.world, &grip.object, &(base * target))
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     let poses = overhead.putting(&base, grip.poses(&(target * about_z(heading))));
     done(Value::list(poses.map(|pose| simulation.in_base(&pose))))
 }

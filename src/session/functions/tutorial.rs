@@ -320,7 +320,7 @@ fn move_kitchen_joint(
     simulation
         .world
         .teleport_kitchen_joint(&name, angle)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     simulation.world.settle(2.0);
     done(Value::NIL)
 }
@@ -346,7 +346,7 @@ fn get_current_pose(
     let pose = simulation
         .world
         .object_pose(&name)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     done(pose_stamped("map", &pose))
 }
 
