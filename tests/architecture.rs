@@ -540,3 +540,57 @@ fn only_the_library_itself_has_examples_in_rust() {
     }
     assert!(found.is_empty(), "{found:?}");
 }
+
+/// The names of the links and joints of the built-in robot and the built-in kitchen, of several words.
+fn described_names() -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for file in ["world/pr2.urdf", "world/kitchen.urdf"] {
+        let text = fs::read_to_string(root().join(file)).expect("the file can be read");
+        for element in ["<link name=\"", "<joint name=\""] {
+            let after = text.split(element).skip(1);
+            names.extend(after.filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())));
+        }
+    }
+    // A single word, such as the link map, means other things, too.
+    names.retain(|name| name.contains('_'));
+    names
+}
+
+/// The texts in quotes, each on one line, that are among some names; comments are passed over.
+fn quoted<'a>(text: &'a str, comment: &str, names: &BTreeSet<String>) -> Vec<&'a str> {
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with(comment));
+    let parts = lines.flat_map(|line| line.split('"').skip(1).step_by(2));
+    parts.filter(|part| names.contains(*part)).collect()
+}
+
+/// What is measured is the built-in robot, and a wrong URDF is told what a right one looks like.
+const MAY_NAME_PARTS: [&str; 2] = ["measured", "urdf_schema"];
+
+#[test]
+fn only_descriptions_name_parts_of_robot_and_kitchen() {
+    let names = described_names();
+    assert!(names.contains("torso_lift_joint") && names.contains("kitchen_island_surface"));
+    let mut found = Vec::new();
+    for folder in CRATES {
+        for (module, text) in Sources::of(folder).texts {
+            if module
+                .iter()
+                .any(|part| MAY_NAME_PARTS.contains(&part.as_str()))
+            {
+                continue;
+            }
+            let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let named = quoted(text, "//", &names).into_iter();
+            found.extend(named.map(|name| format!("{folder} {}: {name}", module.join("::"))));
+        }
+    }
+    for entry in fs::read_dir(root().join("plans/lib")).expect("the folder can be read") {
+        let path = entry.expect("the folder can be listed").path();
+        let text = fs::read_to_string(&path).expect("the file can be read");
+        let named = quoted(&text, ";", &names).into_iter();
+        found.extend(named.map(|name| format!("{}: {name}", path.display())));
+    }
+    assert_eq!(found, Vec::<String>::new());
+}

@@ -11,6 +11,7 @@ mod copy;
 pub mod defect;
 pub mod dialogue;
 mod face;
+mod facts;
 pub mod functions;
 mod host;
 mod illustrate;
@@ -84,6 +85,7 @@ impl Session {
         cram::designator::install(&mut image);
         functions::install(&mut image);
         functions::name_system_folders(&mut image, &options.systems);
+        facts::install(&mut image, &models);
         functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed)
             .map_err(|error| SessionError::Models(error.to_string()))?;

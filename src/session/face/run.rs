@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::{Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value};
 use super::{FramedPose, names};
+use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};
-use crate::console::{Ended, end_of, recovery};
 use crate::{Session, defect};
 use lisp::reader::Reader;
 use lisp::value::Value;

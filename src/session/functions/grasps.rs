@@ -147,7 +147,7 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         for arm in &arms {
             Arc::make_mut(&mut simulation.grasps)
                 .define(&kind, *arm, &grasp, definition.clone())
-                .map_err(|error| Raise::simple(format!("{error}.")))?;
+                .map_err(Raise::reporting)?;
         }
     }
     done(args[2].clone())
