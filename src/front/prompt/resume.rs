@@ -48,7 +48,7 @@ impl<W: Write> Progress<W> {
     fn show(&mut self, at: usize, what: &str) -> io::Result<()> {
         if self.is_shown {
             let (erase, count) = (self.erase(), self.count);
-            write!(self.out, "{erase}; Input {} of {count} … {what}", at + 1)?;
+            write!(self.out, "{erase}; Input {} of {count} {what}", at + 1)?;
             self.out.flush()?;
         }
         Ok(())
@@ -172,7 +172,7 @@ fn evaluate_again(
     at: usize,
     progress: &mut Progress<impl Write>,
 ) -> io::Result<Option<u64>> {
-    progress.show(at, "")?;
+    progress.show(at, "…")?;
     evaluator.set_interactive(input.stops);
     if let Some(at) = input.interrupted_at {
         evaluator.interrupt_next_at(at);

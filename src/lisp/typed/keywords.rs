@@ -13,7 +13,16 @@ pub fn parse<const N: usize>(
     args: &[Value],
     names: [Sym; N],
 ) -> Result<[Option<Value>; N], Box<Raise>> {
-    let mut values = [const { None }; N];
+    Ok(given(image, args, names)?.map(Option::<&Value>::cloned))
+}
+
+/// The same, borrowed.
+pub(crate) fn given<'a, const N: usize>(
+    image: &Image,
+    args: &'a [Value],
+    names: [Sym; N],
+) -> Result<[Option<&'a Value>; N], Box<Raise>> {
+    let mut values = [None; N];
     if args.is_empty() {
         return Ok(values);
     }
@@ -29,7 +38,7 @@ pub fn parse<const N: usize>(
             .position(|known| sym == Some(*known))
             .and_then(|i| values.get_mut(i));
         match slot {
-            Some(slot @ None) => *slot = Some(value.clone()),
+            Some(slot @ None) => *slot = Some(value),
             Some(Some(_)) => {}
             None if sym == Some(known::K_ALLOW_OTHER_KEYS) => {
                 others_allowed.get_or_insert(value.is_true());
@@ -41,7 +50,7 @@ pub fn parse<const N: usize>(
     }
     match unknown {
         Some(name) if others_allowed != Some(true) => {
-            let shown = super::shown::shown(image, name);
+            let shown = crate::print::to_string(image, name, true);
             Err(Raise::unknown_key(
                 &shown,
                 names.map(|known| image.name(known)),
