@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::{Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value};
-use super::{FramedPose, names};
+use super::{
+    Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value, names,
+};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};
 use crate::halting::end_of;
@@ -111,12 +112,6 @@ impl Session {
     /// Interrupts what this session evaluates, from any thread.
     pub fn interrupter(&self) -> InterruptHandle {
         self.host.bounds.handle()
-    }
-
-    /// The pose in the map frame of a pose in any frame; `None` if there is no such frame.
-    pub fn in_map(&self, placed: &FramedPose) -> Option<spatial::Pose> {
-        let frame = self.simulation().frame_in_map(&self.image, &placed.frame);
-        frame.ok().map(|frame| frame * placed.pose)
     }
 
     fn value_of(&mut self, datum: &Datum) -> Result<Value, Failure> {
