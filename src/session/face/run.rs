@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::{Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value};
-use super::{FramedPose, names};
+use super::{
+    Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value, names,
+};
 use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};
@@ -111,14 +112,6 @@ impl Session {
     /// Interrupts what this session evaluates, from any thread.
     pub fn interrupter(&self) -> InterruptHandle {
         self.evaluator.host.bounds.handle()
-    }
-
-    /// The pose in the map frame of a pose in any frame; `None` if there is no such frame.
-    pub fn in_map(&self, placed: &FramedPose) -> Option<spatial::Pose> {
-        let frame = self
-            .simulation()
-            .frame_in_map(&self.evaluator.image, &placed.frame);
-        frame.ok().map(|frame| frame * placed.pose)
     }
 
     fn value_of(&mut self, datum: &Datum) -> Result<Value, Failure> {
