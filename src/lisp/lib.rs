@@ -18,6 +18,7 @@ mod setup;
 pub mod source;
 pub mod stream;
 pub mod structure;
+pub mod typed;
 pub mod types;
 pub mod value;
 pub mod vm;

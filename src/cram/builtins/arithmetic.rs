@@ -4,9 +4,10 @@
 use crate::builtins::networks::operate;
 use crate::fluent::Operation;
 use crate::request::Request;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::native::{NativeCall, PureFn};
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::function::Body;
 use lisp::value::known;
@@ -18,89 +19,94 @@ use lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "+",
-        "&rest numbers",
-        "The sum; a fluent of the sum if a number is a fluent.",
-        &[
-            "(cpl:+ 1 2) => 3",
-            "(cpl:value (cpl:+ 1 (cpl:make-fluent :value 2))) => 3",
-        ],
-        |m, args| apply(m, "FN-FL+", known::PLUS, args),
-    ),
-    control(
-        "-",
-        "number &rest numbers",
-        "The difference, or the negated number; a fluent if a number is one.",
-        &["(cpl:value (cpl:- (cpl:make-fluent :value 2))) => -2"],
-        |m, args| apply(m, "FN-FL-", known::MINUS, args),
-    ),
-    control(
-        "*",
-        "&rest numbers",
-        "The product; a fluent if a number is one.",
-        &["(cpl:value (cpl:* 2 (cpl:make-fluent :value 2))) => 4"],
-        |m, args| apply(m, "FN-FL*", known::TIMES, args),
-    ),
-    control(
-        "/",
-        "number &rest numbers",
-        "The quotient, or the reciprocal; a fluent if a number is one.",
-        &["(cpl:value (cpl:/ (cpl:make-fluent :value 5) 2)) => 5/2"],
-        |m, args| apply(m, "FN-FL/", known::DIVIDE, args),
-    ),
-    control(
-        "<",
-        "number &rest numbers",
-        "Do the numbers grow? A fluent if a number is one.",
-        &["(cpl:value (cpl:< (cpl:make-fluent :value 1) 2)) => T"],
-        |m, args| apply(m, "FN-FL<", known::LESS, args),
-    ),
-    control(
-        ">",
-        "number &rest numbers",
-        "Do the numbers fall? A fluent if a number is one.",
-        &["(cpl:value (cpl:> (cpl:make-fluent :value 1) 2)) => NIL"],
-        |m, args| apply(m, "FN-FL>", known::GREATER, args),
-    ),
-    control(
-        "=",
-        "number &rest numbers",
-        "Are the numbers equal? A fluent if a number is one.",
-        &["(cpl:value (cpl:= (cpl:make-fluent :value 1) 1)) => T"],
-        |m, args| apply(m, "FN-FL=", known::NUM_EQUAL, args),
-    ),
-    control(
-        "EQ",
-        "a b",
-        "Are the objects identical? A fluent if one is a fluent.",
-        &["(cpl:value (cpl:eq (cpl:make-fluent :value :x) :x)) => T"],
-        |m, args| apply(m, "FN-FL-EQ", known::EQ, args),
-    ),
-    control(
-        "EQL",
-        "a b",
-        "Are the objects identical or equal numbers of one type? A fluent if one is a fluent.",
-        &["(cpl:value (cpl:eql (cpl:make-fluent :value 1) 1)) => T"],
-        |m, args| apply(m, "FN-FL-EQL", known::EQL, args),
-    ),
-    control(
-        "NOT",
-        "object",
-        "T for NIL; a fluent of that if the object is a fluent.",
-        &["(cpl:value (cpl:not (cpl:make-fluent))) => T"],
-        |m, args| apply(m, "FN-FL-NOT", known::NOT, args),
-    ),
-    control(
-        "SLEEP",
-        "seconds",
-        "Waits for so many simulated seconds.",
-        &["(cpl:sleep 3600) => NIL"],
-        |_, args| sleep(&args),
-    ),
-];
+/// The sum; a fluent of the sum if a number is a fluent.
+///
+/// `(cpl:+ 1 2)` => `3`
+/// `(cpl:value (cpl:+ 1 (cpl:make-fluent :value 2)))` => `3`
+#[builtin("+")]
+fn add(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL+", known::PLUS, numbers)
+}
+
+/// The difference, or the negated number; a fluent if a number is one.
+///
+/// `(cpl:value (cpl:- (cpl:make-fluent :value 2)))` => `-2`
+#[builtin("-", "number &rest numbers")]
+fn subtract(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL-", known::MINUS, numbers)
+}
+
+/// The product; a fluent if a number is one.
+///
+/// `(cpl:value (cpl:* 2 (cpl:make-fluent :value 2)))` => `4`
+#[builtin("*")]
+fn multiply(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL*", known::TIMES, numbers)
+}
+
+/// The quotient, or the reciprocal; a fluent if a number is one.
+///
+/// `(cpl:value (cpl:/ (cpl:make-fluent :value 5) 2))` => `5/2`
+#[builtin("/", "number &rest numbers")]
+fn divide(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL/", known::DIVIDE, numbers)
+}
+
+/// Do the numbers grow? A fluent if a number is one.
+///
+/// `(cpl:value (cpl:< (cpl:make-fluent :value 1) 2))` => `T`
+#[builtin("<", "number &rest numbers")]
+fn less(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL<", known::LESS, numbers)
+}
+
+/// Do the numbers fall? A fluent if a number is one.
+///
+/// `(cpl:value (cpl:> (cpl:make-fluent :value 1) 2))` => `NIL`
+#[builtin(">", "number &rest numbers")]
+fn greater(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL>", known::GREATER, numbers)
+}
+
+/// Are the numbers equal? A fluent if a number is one.
+///
+/// `(cpl:value (cpl:= (cpl:make-fluent :value 1) 1))` => `T`
+#[builtin("=", "number &rest numbers")]
+fn equal_numbers(machine: &mut Machine<'_>, numbers: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL=", known::NUM_EQUAL, numbers)
+}
+
+/// Are the objects identical? A fluent if one is a fluent.
+///
+/// `(cpl:value (cpl:eq (cpl:make-fluent :value :x) :x))` => `T`
+#[builtin(_, "a b")]
+fn eq(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL-EQ", known::EQ, args)
+}
+
+/// Are the objects identical or equal numbers of one type? A fluent if one is a fluent.
+///
+/// `(cpl:value (cpl:eql (cpl:make-fluent :value 1) 1))` => `T`
+#[builtin(_, "a b")]
+fn eql(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL-EQL", known::EQL, args)
+}
+
+/// T for NIL; a fluent of that if the object is a fluent.
+///
+/// `(cpl:value (cpl:not (cpl:make-fluent)))` => `T`
+#[builtin(_, "object")]
+fn not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    apply(machine, "FN-FL-NOT", known::NOT, args)
+}
+
+/// Waits for so many simulated seconds.
+///
+/// `(cpl:sleep 3600)` => `NIL`
+#[builtin("SLEEP", "seconds")]
+fn sleep_builtin(args: Vec<Value>) -> Result<Step> {
+    sleep(&args)
+}
 
 /// The step that sleeps for the given time.
 pub(super) fn sleep(args: &[Value]) -> Result<Step> {
@@ -144,3 +150,18 @@ fn pure_function(image: &Image, name: Sym) -> Result<PureFn> {
     }
     Err(Raise::undefined_function(name.into()))
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    add,
+    subtract,
+    multiply,
+    divide,
+    less,
+    greater,
+    equal_numbers,
+    eq,
+    eql,
+    not,
+    sleep_builtin,
+];

@@ -6,35 +6,33 @@
 //! nor a nested `with-tags`, which binds its own.
 
 use crate::state::Plan;
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::compile;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
+use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
-/// Builtins of package `PLAN-SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "FIND-TAGS",
-        "forms",
-        "The names of the tags in forms, in order.",
-        &["(plan-system:find-tags '((:tag a 1) (list (:tag b 2)) '(:tag c 3))) => (A B)"],
-        |image, args| {
-            let tags = find_tags(image, &args[0]);
-            Ok(Value::list(
-                tags.into_iter().map(Value::from).collect::<Vec<_>>(),
-            ))
-        },
-    ),
-    pure(
-        "MENTIONS-FUNCTION",
-        "name form",
-        "Does (FUNCTION NAME) occur in a form?",
-        &["(plan-system:mentions-function 'f '(mapc #'f list)) => T"],
-        |_, args| Ok(Value::bool(mentions_function(&args[1], &args[0]))),
-    ),
-];
+/// The names of the tags in forms, in order.
+///
+/// `(plan-system:find-tags '((:tag a 1) (list (:tag b 2)) '(:tag c 3)))` => `(A B)`
+#[builtin("FIND-TAGS")]
+fn find_tags_builtin(image: &mut Image, forms: &Value) -> Result<Value, Box<Raise>> {
+    let tags = find_tags(image, forms);
+    Ok(Value::list(
+        tags.into_iter().map(Value::from).collect::<Vec<_>>(),
+    ))
+}
+
+/// Does (FUNCTION NAME) occur in a form?
+///
+/// `(plan-system:mentions-function 'f '(mapc #'f list))` => `T`
+#[builtin("MENTIONS-FUNCTION")]
+fn mentions_function_builtin(name: &Value, form: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::bool(mentions_function(form, name)))
+}
 
 /// Maximum number of macro expansions in one search for tags.
 const MOST_EXPANSIONS: usize = 10_000;
@@ -117,3 +115,7 @@ fn mentions_function(form: &Value, name: &Value) -> bool {
     }
     false
 }
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![find_tags_builtin, mentions_function_builtin,];

@@ -6,80 +6,47 @@ use crate::request::{Call, GroupKind, Request};
 use crate::scheduler;
 use crate::state::Plan;
 use crate::task::TaskRef;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::evaluator::signal::Declined;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "START",
-        "name function",
-        "Runs a function in the outermost task of a plan.",
-        &[],
-        start,
-    ),
-    control(
-        "PAR",
-        "&rest functions",
-        "Calls functions in parallel; the values of the first.",
-        &[],
-        |m, args| group(m, "PAR", GroupKind::All, thunks(args)),
-    ),
-    control(
-        "PURSUE",
-        "&rest functions",
-        "Calls functions in parallel until one returns.",
-        &[],
-        |m, args| group(m, "PURSUE", GroupKind::First, thunks(args)),
-    ),
-    control(
-        "TRY-ALL",
-        "&rest functions",
-        "Calls functions in parallel until one succeeds.",
-        &[],
-        |m, args| group(m, "TRY-ALL", GroupKind::Any, thunks(args)),
-    ),
-    control(
-        "PAR-LOOP",
-        "function list",
-        "Calls a function on each element in parallel.",
-        &[],
-        par_loop,
-    ),
-    control(
-        "PARTIAL-ORDER",
-        "orders &rest functions",
-        "Calls functions in parallel; tasks begin as lists of two tasks, the earlier one first, say.",
-        &[],
-        partial_order,
-    ),
-    control(
-        "CHECK-PLAN",
-        "name",
-        "Signals an error unless inside a plan.",
-        &[],
-        |m, args| {
-            check_plan(m, &args[0].as_text().unwrap_or_default())?;
-            Ok(Step::Return(Value::NIL))
-        },
-    ),
-    control(
-        "ALL-FAILED",
-        "failures",
-        "Fails with a failure that holds others.",
-        &[],
-        |m, args| {
-            let plan = Plan::of(m.image);
-            let failures = args[0].iter_list().collect();
-            let failure = scheduler::composite(&plan, m.image, failures)?;
-            m.signal(failure, Declined::Stop)
-        },
-    ),
-];
+/// Calls functions in parallel; the values of the first.
+#[builtin]
+fn par(machine: &mut Machine<'_>, functions: Vec<Value>) -> Result<Step> {
+    group(machine, "PAR", GroupKind::All, thunks(functions))
+}
+
+/// Calls functions in parallel until one returns.
+#[builtin]
+fn pursue(machine: &mut Machine<'_>, functions: Vec<Value>) -> Result<Step> {
+    group(machine, "PURSUE", GroupKind::First, thunks(functions))
+}
+
+/// Calls functions in parallel until one succeeds.
+#[builtin]
+fn try_all(machine: &mut Machine<'_>, functions: Vec<Value>) -> Result<Step> {
+    group(machine, "TRY-ALL", GroupKind::Any, thunks(functions))
+}
+
+/// Signals an error unless inside a plan.
+#[builtin("CHECK-PLAN")]
+fn check_plan_builtin(machine: &mut Machine<'_>, name: &Value) -> Result<Step> {
+    check_plan(machine, &name.as_text().unwrap_or_default())?;
+    Ok(Step::Return(Value::NIL))
+}
+
+/// Fails with a failure that holds others.
+#[builtin]
+fn all_failed(machine: &mut Machine<'_>, failures: &Value) -> Result<Step> {
+    let plan = Plan::of(machine.image);
+    let failures = failures.iter_list().collect();
+    let failure = scheduler::composite(&plan, machine.image, failures)?;
+    machine.signal(failure, Declined::Stop)
+}
 
 fn thunks(functions: Vec<Value>) -> Vec<Call> {
     functions.into_iter().map(|f| (f, Vec::new())).collect()
@@ -111,34 +78,39 @@ fn group(
 /// The report of a plan that is begun in a plan.
 pub const NESTED: &str = "top-level calls cannot be nested.";
 
-fn start(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+/// Runs a function in the outermost task of a plan.
+#[builtin(_, "name function")]
+fn start(machine: &mut Machine<'_>, name_value: &Value, function_value: Value) -> Result<Step> {
     let current = Plan::of(machine.image).names.current_task;
     if machine.image.special(current).is_true() {
         return Err(Raise::simple(NESTED));
     }
     Ok(Step::request(Request::TopLevel {
-        name: args[0].as_symbol().filter(|_| args[0].is_true()),
-        function: args[1].clone(),
+        name: name_value.as_symbol().filter(|_| name_value.is_true()),
+        function: function_value,
     }))
 }
 
-fn par_loop(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+/// Calls a function on each element in parallel.
+#[builtin]
+fn par_loop(machine: &mut Machine<'_>, function: Value, list: &Value) -> Result<Step> {
     check_plan(machine, "PAR-LOOP")?;
-    let Some(items) = args[1].list_to_vec() else {
-        return Err(Raise::type_error(&args[1], lisp::value::known::LIST));
+    let Some(items) = list.list_to_vec() else {
+        return Err(Raise::type_error(list, lisp::value::known::LIST));
     };
     if items.is_empty() {
         return Ok(Step::Return(Value::NIL));
     }
-    let calls = items.into_iter().map(|i| (args[0].clone(), vec![i]));
+    let calls = items.into_iter().map(|i| (function.clone(), vec![i]));
     let calls = calls.collect();
     group(machine, "PAR-LOOP", GroupKind::All, calls)
 }
 
-fn partial_order(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step> {
+/// Calls functions in parallel; tasks begin as lists of two tasks, the earlier one first, say.
+#[builtin]
+fn partial_order(machine: &mut Machine<'_>, orders: &Value, functions: Vec<Value>) -> Result<Step> {
     check_plan(machine, "PARTIAL-ORDER")?;
     let plan = Plan::of(machine.image);
-    let orders = args.remove(0);
     let mut edges: Vec<(TaskRef, TaskRef)> = Vec::new();
     for order in orders.iter_list() {
         let (first, second) = (order.car_or_nil(), order.cdr_or_nil().car_or_nil());
@@ -166,7 +138,7 @@ fn partial_order(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step
         }
         return Err(Raise::simple(format!("The order is circular: {circle}.")));
     }
-    group(machine, "PARTIAL-ORDER", GroupKind::All, thunks(args))
+    group(machine, "PARTIAL-ORDER", GroupKind::All, thunks(functions))
 }
 
 /// A cycle among the orderings, in words, if there is one.
@@ -203,3 +175,15 @@ fn circle(edges: &[(TaskRef, TaskRef)]) -> Option<String> {
     }
     None
 }
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    start,
+    par,
+    pursue,
+    try_all,
+    par_loop,
+    partial_order,
+    check_plan_builtin,
+    all_failed,
+];

@@ -2,12 +2,13 @@
 
 use crate::Result;
 use crate::state::Plan;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::builtins::signalling;
 use lisp::condition;
 use lisp::evaluator::signal::Declined;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::class::ClassKind;
 use lisp::value::known;
@@ -15,21 +16,15 @@ use lisp::value::raise::Raise;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "FAIL",
-    "&rest failure",
-    "Fails: with a text and its arguments, with the name of a condition class and initargs, with a condition object, or just so.",
-    &[
-        "(cpl:with-failure-handling ((cpl:plan-failure (e) (return (princ-to-string e)))) (cpl:fail \"no ~a\" 'cup)) => \"no CUP\"",
-    ],
-    fail,
-)];
-
-fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+/// Fails: with a text and its arguments, with the name of a condition class and initargs, with a
+/// condition object, or just so.
+///
+/// `(cpl:with-failure-handling ((cpl:plan-failure (e) (return (princ-to-string e)))) (cpl:fail "no ~a" 'cup))` => `"no CUP"`
+#[builtin]
+fn fail(machine: &mut Machine<'_>, failure: Vec<Value>) -> Result<Step> {
     let plan = Plan::of(machine.image);
     let simple = plan.names.simple_plan_failure;
-    let condition = match args.first() {
+    let condition = match failure.first() {
         None => {
             let initargs = [known::K_FORMAT_CONTROL.into(), "Plan failure.".into()];
             condition::make_condition(machine.image, simple, &initargs)?
@@ -37,9 +32,9 @@ fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         Some(Value::Str(_)) => {
             let initargs = [
                 known::K_FORMAT_CONTROL.into(),
-                args[0].clone(),
+                failure[0].clone(),
                 known::K_FORMAT_ARGUMENTS.into(),
-                Value::list(args[1..].iter().cloned()),
+                Value::list(failure[1..].iter().cloned()),
             ];
             condition::make_condition(machine.image, simple, &initargs)?
         }
@@ -49,27 +44,27 @@ fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
                 .class(*class)
                 .is_some_and(|c| c.kind == ClassKind::Condition);
             if !is_condition {
-                return Err(no_condition_class(machine.image, &args[0]));
+                return Err(no_condition_class(machine.image, &failure[0]));
             }
-            let draft = condition::draft(machine.image, *class, &args[1..])?;
+            let draft = condition::draft(machine.image, *class, &failure[1..])?;
             if !draft.pending.is_empty() {
                 // An initial value must be computed.
-                return signalling::signal_with(machine, args, simple, Declined::Stop);
+                return signalling::signal_with(machine, failure, simple, Declined::Stop);
             }
             Value::Instance(draft.condition)
         }
         Some(Value::Instance(instance)) if instance.is_a(known::CONDITION) => {
-            if args.len() > 1 {
+            if failure.len() > 1 {
                 return Err(Raise::simple(
                     "The assertion (NULL CRAM-LANGUAGE-IMPLEMENTATION::ARGUMENTS) failed: a condition object takes no arguments.",
                 ));
             }
-            args[0].clone()
+            failure[0].clone()
         }
         Some(Value::Class(class)) => {
-            let mut args = args.clone();
-            args[0] = class.name.into();
-            return fail(machine, args);
+            let mut failure = failure.clone();
+            failure[0] = class.name.into();
+            return fail(machine, failure);
         }
         Some(other) => return Err(no_failure(machine.image, other)),
     };
@@ -109,3 +104,6 @@ fn no_failure(image: &Image, value: &Value) -> Box<Raise> {
     .with(known::K_DATUM, value.clone())
     .with(known::K_EXPECTED_TYPE, expected)
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![fail,];

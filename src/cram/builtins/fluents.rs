@@ -7,10 +7,11 @@ use crate::fluent::{self, FluentRef};
 use crate::request::Request;
 use crate::state::Plan;
 use crate::task::TaskRef;
-use lisp::builtin::{Builtin, control, pure};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::equality;
 use lisp::value::known;
@@ -20,103 +21,56 @@ use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-FLUENT",
-        "&key name value test",
-        "A fluent that holds a value; TEST (EQL) tells whether a new value is a change.",
-        &["(cpl:make-fluent :name 'door :value :open) => #<FLUENT DOOR [:OPEN]>"],
-        make_fluent,
-    ),
-    control(
-        "VALUE",
-        "fluent",
-        "The value of a fluent; anything else is its own value. It can be set with SETF.",
-        &[
-            "(let ((f (cpl:make-fluent :value 1))) (incf (cpl:value f)) (cpl:value f)) => 2",
-            "(cpl:value 5) => 5",
-        ],
-        |m, args| value(m, &args, false),
-    ),
-    control(
-        "PEEK-VALUE",
-        "fluent",
-        "The value of a fluent without taking notice of a pulse.",
-        &[
-            "(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:peek-value p) (cpl:value p) (cpl:value p))) => (T T NIL)",
-        ],
-        |m, args| value(m, &args, true),
-    ),
-    control(
-        "PULSE",
-        "fluent",
-        "Wakes those who wait for pulses of the fluent; its value stays.",
-        &["(cpl:pulse (cpl:make-fluent)) => NIL"],
-        |m, args| {
-            let fluent = fluent_argument(m, &args[0])?;
-            fluent::pulse(m, &fluent)
-        },
-    ),
-    control(
-        "WAIT-FOR",
-        "fluent &key timeout",
-        "Waits until the fluent's value is not NIL and returns it; NIL after so many simulated seconds.",
-        &[
-            "(cpl:wait-for (cpl:make-fluent :value 7)) => 7",
-            "(cpl:wait-for (cpl:make-fluent) :timeout 10) => NIL",
-        ],
-        wait_for,
-    ),
-    control(
-        "REGISTER-UPDATE-CALLBACK",
-        "fluent name function",
-        "Calls the function with the value at each change and pulse of the fluent.",
-        &[
-            "(let ((f (cpl:make-fluent)) (seen nil)) (cpl:register-update-callback f 'see (lambda (v) (push v seen))) (setf (cpl:value f) 1) seen) => (1)",
-        ],
-        register_callback,
-    ),
-    control(
-        "REMOVE-UPDATE-CALLBACK",
-        "fluent name",
-        "Forgets the callback of that name; was there one?",
-        &["(cpl:remove-update-callback (cpl:make-fluent) 'see) => NIL"],
-        |m, args| {
-            let fluent = fluent_argument(m, &args[0])?;
-            let removed = fluent.get().remove_callback(&args[1]);
-            Ok(Step::Return(Value::bool(removed)))
-        },
-    ),
-    control(
-        "GET-UPDATE-CALLBACK",
-        "fluent name",
-        "The callback of that name, or NIL.",
-        &["(cpl:get-update-callback (cpl:make-fluent) 'see) => NIL"],
-        |m, args| {
-            let fluent = fluent_argument(m, &args[0])?;
-            let callback = fluent.get().callback(&args[1]);
-            Ok(Step::Return(callback.unwrap_or(Value::NIL)))
-        },
-    ),
-    pure(
-        "NAME",
-        "object",
-        "The name of a fluent, a task or a policy.",
-        &["(cpl-impl:name (cpl:make-fluent :name 'door)) => DOOR"],
-        name,
-    ),
-];
+/// The value of a fluent; anything else is its own value. It can be set with SETF.
+///
+/// `(let ((f (cpl:make-fluent :value 1))) (incf (cpl:value f)) (cpl:value f))` => `2`
+/// `(cpl:value 5)` => `5`
+#[builtin("VALUE", "fluent")]
+fn value_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    value(machine, &args, false)
+}
 
-/// Places.
-pub(crate) static SETTERS: &[Builtin] = &[control(
-    "VALUE",
-    "new-value fluent",
-    "Stores a value in a fluent.",
-    &[],
-    set_value,
-)];
+/// The value of a fluent without taking notice of a pulse.
+///
+/// `(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:peek-value p) (cpl:value p) (cpl:value p)))` => `(T T NIL)`
+#[builtin(_, "fluent")]
+fn peek_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    value(machine, &args, true)
+}
 
+/// Wakes those who wait for pulses of the fluent; its value stays.
+///
+/// `(cpl:pulse (cpl:make-fluent))` => `NIL`
+#[builtin]
+fn pulse(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
+    fluent::pulse(machine, &fluent)
+}
+
+/// Forgets the callback of that name; was there one?
+///
+/// `(cpl:remove-update-callback (cpl:make-fluent) 'see)` => `NIL`
+#[builtin]
+fn remove_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
+    let removed = fluent.get().remove_callback(name);
+    Ok(Step::Return(Value::bool(removed)))
+}
+
+/// The callback of that name, or NIL.
+///
+/// `(cpl:get-update-callback (cpl:make-fluent) 'see)` => `NIL`
+#[builtin]
+fn get_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
+    let fluent = fluent_argument(machine, fluent)?;
+    let callback = fluent.get().callback(name);
+    Ok(Step::Return(callback.unwrap_or(Value::NIL)))
+}
+
+/// A fluent that holds a value; TEST (EQL) tells whether a new value is a change.
+///
+/// `(cpl:make-fluent :name 'door :value :open)` => `#<FLUENT DOOR [:OPEN]>`
+#[builtin(_, "&key name value test")]
 fn make_fluent(image: &mut Image, args: &[Value]) -> Result<Value> {
     let plan = Plan::of(image);
     let names = &plan.names;
@@ -142,12 +96,14 @@ fn value(machine: &mut Machine<'_>, args: &[Value], peek: bool) -> Result<Step> 
     }
 }
 
-fn set_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let new = args[0].clone();
-    let fluent = FluentRef::from_value(&args[1]).filter(|f| f.get().is_settable());
+/// Stores a value in a fluent.
+#[builtin("VALUE", "new-value fluent")]
+fn set_value(machine: &mut Machine<'_>, new_value: Value, fluent_value: Value) -> Result<Step> {
+    let new = new_value;
+    let fluent = FluentRef::from_value(&fluent_value).filter(|f| f.get().is_settable());
     let Some(fluent) = fluent else {
         let expected = Plan::of(machine.image).names.value_fluent;
-        return Err(Raise::type_error(&args[1], expected));
+        return Err(Raise::type_error(&fluent_value, expected));
     };
     let old = fluent.get().known_value().unwrap_or(Value::NIL);
     let test = fluent.get().test();
@@ -174,6 +130,11 @@ fn set_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     fluent::store(machine, &fluent, new)
 }
 
+/// Waits until the fluent's value is not NIL and returns it; NIL after so many simulated seconds.
+///
+/// `(cpl:wait-for (cpl:make-fluent :value 7))` => `7`
+/// `(cpl:wait-for (cpl:make-fluent) :timeout 10)` => `NIL`
+#[builtin(_, "fluent &key timeout")]
 fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let plan = Plan::of(machine.image);
     let names = [plan.names.timeout, plan.names.wait_status];
@@ -226,15 +187,24 @@ fn wait_until_true(
     })
 }
 
-fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let fluent = fluent_argument(machine, &args[0])?;
+/// Calls the function with the value at each change and pulse of the fluent.
+///
+/// `(let ((f (cpl:make-fluent)) (seen nil)) (cpl:register-update-callback f 'see (lambda (v) (push v seen))) (setf (cpl:value f) 1) seen)` => `(1)`
+#[builtin("REGISTER-UPDATE-CALLBACK", "fluent name function")]
+fn register_callback(
+    machine: &mut Machine<'_>,
+    fluent_value: Value,
+    name_value: Value,
+    function: Value,
+) -> Result<Step> {
+    let fluent = fluent_argument(machine, &fluent_value)?;
     run(machine, "VALUE", |calls| async move {
         // Changes of a network are relative to its present value.
         fluent::value(&calls, &fluent).await?;
-        if fluent.add_callback(&args[1], &args[2]) {
-            return Ok(args[2].clone());
+        if fluent.add_callback(&name_value, &function) {
+            return Ok(function.clone());
         }
-        let name = args[1].clone();
+        let name = name_value.clone();
         let name = calls.with(move |machine| print::to_string(machine.image, &name, false));
         Err(Raise::simple(format!(
             "Callback with name {} is already registered.",
@@ -243,8 +213,12 @@ fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
     })
 }
 
-fn name(image: &mut Image, args: &[Value]) -> Result<Value> {
-    if let Some(fluent) = FluentRef::from_value(&args[0]) {
+/// The name of a fluent, a task or a policy.
+///
+/// `(cpl-impl:name (cpl:make-fluent :name 'door))` => `DOOR`
+#[builtin]
+fn name(image: &mut Image, object: &Value) -> Result<Value> {
+    if let Some(fluent) = FluentRef::from_value(object) {
         return Ok(match fluent.get().given_name() {
             Some(name) => name,
             None => {
@@ -253,11 +227,27 @@ fn name(image: &mut Image, args: &[Value]) -> Result<Value> {
             }
         });
     }
-    if let Some(task) = TaskRef::from_value(&args[0]) {
+    if let Some(task) = TaskRef::from_value(object) {
         return Ok(Value::string(task.get().name.to_string()));
     }
-    if let Some(name) = super::policies::policy_name(&args[0]) {
+    if let Some(name) = super::policies::policy_name(object) {
         return Ok(name);
     }
-    Err(Raise::type_error(&args[0], Plan::of(image).names.fluent))
+    Err(Raise::type_error(object, Plan::of(image).names.fluent))
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    make_fluent,
+    value_builtin,
+    peek_value,
+    pulse,
+    wait_for,
+    register_callback,
+    remove_update_callback,
+    get_update_callback,
+    name,
+];
+
+/// Places.
+pub(crate) static SETTERS: &[Builtin] = builtins![set_value,];

@@ -3,8 +3,9 @@
 use crate::Result;
 use crate::fluent::{self, FluentRef, Missed, Operation};
 use crate::state::Plan;
-use lisp::builtin::{Builtin, control};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -12,78 +13,45 @@ use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "FL-AND",
-        "&rest values",
-        "The last value, or NIL if one is NIL; a fluent if a value is one.",
-        &["(cpl:fl-and) => T", "(cpl:fl-and 1 2 3) => 3"],
-        |m, args| operate(m, "FN-FL-AND", Operation::And, args),
-    ),
-    control(
-        "FL-OR",
-        "&rest values",
-        "The first value that is not NIL; a fluent if a value is one.",
-        &["(cpl:fl-or nil 2) => 2", "(cpl:fl-or) => NIL"],
-        |m, args| operate(m, "FN-FL-OR", Operation::Or, args),
-    ),
-    control(
-        "FL-FUNCALL",
-        "function &rest arguments",
-        "Calls the function; with a fluent among the arguments, a fluent of its value.",
-        &["(cpl:value (cpl:fl-funcall #'list (cpl:make-fluent :value 1) 2)) => (1 2)"],
-        fl_funcall,
-    ),
-    control(
-        "FL-APPLY",
-        "function &rest arguments",
-        "Applies the function to arguments and a list at the end, fluents among which make the result a fluent.",
-        &["(cpl:value (cpl-impl:fl-apply #'list 1 (list (cpl:make-fluent :value 2)))) => (1 (2))"],
-        fl_apply,
-    ),
-    control(
-        "FL-PULSED",
-        "fluent &key handle-missed-pulses",
-        "A fluent that is true once per pulse: per pulse since its creation (:NEVER), once for all missed ones (:ONCE), or for each (:ALWAYS).",
-        &[
-            "(let* ((f (cpl:make-fluent)) (p (cpl-impl:fl-pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p))) => (T NIL)",
-        ],
-        pulsed,
-    ),
-    control(
-        "PULSED",
-        "fluent &key handle-missed-pulses",
-        "A fluent that is true once per pulse: per pulse since its creation (:NEVER), once for all missed ones (:ONCE), or for each (:ALWAYS).",
-        &[
-            "(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p))) => (T NIL)",
-        ],
-        pulsed,
-    ),
-    control(
-        "FL-VALUE-CHANGED",
-        "fluent &key test key",
-        "A fluent that is true once after each change of the other's value.",
-        &[
-            "(let* ((f (cpl:make-fluent :value 1)) (c (cpl:fl-value-changed f))) (list (cpl:value c) (setf (cpl:value f) 2) (cpl:value c) (cpl:value c))) => (NIL 2 T NIL)",
-        ],
-        value_changed,
-    ),
-    control(
-        "FL-MEMBER",
-        "item list",
-        "The tail of a list that begins with the item; a fluent if an argument is one.",
-        &["(cpl:value (cpl-impl:fl-member (cpl:make-fluent :value 2) '(1 2 3))) => (2 3)"],
-        |m, args| {
-            operate(
-                m,
-                "FN-FL-MEMBER",
-                Operation::Call(known::MEMBER.into()),
-                args,
-            )
-        },
-    ),
-];
+/// The last value, or NIL if one is NIL; a fluent if a value is one.
+///
+/// `(cpl:fl-and)` => `T`
+/// `(cpl:fl-and 1 2 3)` => `3`
+#[builtin]
+fn fl_and(machine: &mut Machine<'_>, values: Vec<Value>) -> Result<Step> {
+    operate(machine, "FN-FL-AND", Operation::And, values)
+}
+
+/// The first value that is not NIL; a fluent if a value is one.
+///
+/// `(cpl:fl-or nil 2)` => `2`
+/// `(cpl:fl-or)` => `NIL`
+#[builtin]
+fn fl_or(machine: &mut Machine<'_>, values: Vec<Value>) -> Result<Step> {
+    operate(machine, "FN-FL-OR", Operation::Or, values)
+}
+
+/// A fluent that is true once per pulse: per pulse since its creation (:NEVER), once for all missed
+/// ones (:ONCE), or for each (:ALWAYS).
+///
+/// `(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p)))` => `(T NIL)`
+#[builtin("PULSED", "fluent &key handle-missed-pulses")]
+fn pulsed_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    pulsed(machine, args)
+}
+
+/// The tail of a list that begins with the item; a fluent if an argument is one.
+///
+/// `(cpl:value (cpl-impl:fl-member (cpl:make-fluent :value 2) '(1 2 3)))` => `(2 3)`
+#[builtin(_, "item list")]
+fn fl_member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    operate(
+        machine,
+        "FN-FL-MEMBER",
+        Operation::Call(known::MEMBER.into()),
+        args,
+    )
+}
 
 /// Whether there is a fluent among the values.
 fn has_fluent(args: &[Value]) -> bool {
@@ -132,21 +100,41 @@ fn make(
     })
 }
 
-fn fl_funcall(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step> {
-    let function = args.remove(0);
-    operate(machine, "FN-FL-FUNCALL", Operation::Call(function), args)
+/// Calls the function; with a fluent among the arguments, a fluent of its value.
+///
+/// `(cpl:value (cpl:fl-funcall #'list (cpl:make-fluent :value 1) 2))` => `(1 2)`
+#[builtin]
+fn fl_funcall(machine: &mut Machine<'_>, function: Value, arguments: Vec<Value>) -> Result<Step> {
+    operate(
+        machine,
+        "FN-FL-FUNCALL",
+        Operation::Call(function),
+        arguments,
+    )
 }
 
-fn fl_apply(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step> {
-    let function = args.remove(0);
-    let last: Vec<Value> = args
+/// Applies the function to arguments and a list at the end, fluents among which make the result a
+/// fluent.
+///
+/// `(cpl:value (cpl-impl:fl-apply #'list 1 (list (cpl:make-fluent :value 2))))` => `(1 (2))`
+#[builtin]
+fn fl_apply(machine: &mut Machine<'_>, function: Value, arguments: Vec<Value>) -> Result<Step> {
+    let last: Vec<Value> = arguments
         .last()
         .map(|l| l.iter_list().collect())
         .unwrap_or_default();
-    if has_fluent(&args) || has_fluent(&last) {
-        return make(machine, "FN-FL-APPLY", Operation::Apply(function), args);
+    if has_fluent(&arguments) || has_fluent(&last) {
+        return make(
+            machine,
+            "FN-FL-APPLY",
+            Operation::Apply(function),
+            arguments,
+        );
     }
-    Ok(Step::TailCall { function, args })
+    Ok(Step::TailCall {
+        function,
+        args: arguments,
+    })
 }
 
 /// The fluent given as an argument, or a type error.
@@ -155,6 +143,11 @@ pub(super) fn fluent_argument(machine: &Machine<'_>, value: &Value) -> Result<Fl
         .ok_or_else(|| Raise::type_error(value, Plan::of(machine.image).names.fluent))
 }
 
+/// A fluent that is true once per pulse: per pulse since its creation (:NEVER), once for all missed
+/// ones (:ONCE), or for each (:ALWAYS).
+///
+/// `(let* ((f (cpl:make-fluent)) (p (cpl-impl:fl-pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p)))` => `(T NIL)`
+#[builtin("FL-PULSED", "fluent &key handle-missed-pulses")]
 fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let source = fluent_argument(machine, &args[0])?;
     let plan = Plan::of(machine.image);
@@ -182,6 +175,10 @@ fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     })
 }
 
+/// A fluent that is true once after each change of the other's value.
+///
+/// `(let* ((f (cpl:make-fluent :value 1)) (c (cpl:fl-value-changed f))) (list (cpl:value c) (setf (cpl:value f) 2) (cpl:value c) (cpl:value c)))` => `(NIL 2 T NIL)`
+#[builtin("FL-VALUE-CHANGED", "fluent &key test key")]
 fn value_changed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let source = fluent_argument(machine, &args[0])?;
     let plan = Plan::of(machine.image);
@@ -196,3 +193,15 @@ fn value_changed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         Ok(FluentRef::change(&plan, &source, test, key, old).value())
     })
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    fl_and,
+    fl_or,
+    fl_funcall,
+    fl_apply,
+    pulsed,
+    pulsed_builtin,
+    value_changed,
+    fl_member,
+];

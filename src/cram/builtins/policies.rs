@@ -2,8 +2,10 @@
 
 use crate::Result;
 use crate::state::Plan;
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::FromValue;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
@@ -41,49 +43,47 @@ impl Foreign for Policy {
     }
 }
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "PARAMETERS",
-        "policy",
-        "The names of a policy's parameters.",
-        &[],
-        |image, args| Ok(policy(image, &args[0])?.parameters.clone()),
-    ),
-    pure(
-        "DESCRIPTION",
-        "policy",
-        "The documentation of a policy.",
-        &[],
-        |image, args| Ok(policy(image, &args[0])?.doc.clone()),
-    ),
-];
+/// The names of a policy's parameters.
+#[builtin]
+fn parameters(policy: &Policy) -> Result<Value> {
+    Ok(policy.parameters.clone())
+}
 
-/// Builtins of package `PLAN-SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-POLICY",
-        "name parameters doc parts",
-        "A policy with a property list of functions.",
-        &[],
-        |image, args| {
-            Ok(Value::foreign(Policy {
-                name: args[0].clone(),
-                parameters: args[1].clone(),
-                doc: args[2].clone(),
-                parts: args[3].clone(),
-                type_symbol: Plan::of(image).names.policy,
-            }))
-        },
-    ),
-    pure(
-        "POLICY-PARTS",
-        "policy",
-        "The functions of a policy by the names of its parts.",
-        &[],
-        |image, args| Ok(policy(image, &args[0])?.parts.clone()),
-    ),
-];
+/// The documentation of a policy.
+#[builtin]
+fn description(policy: &Policy) -> Result<Value> {
+    Ok(policy.doc.clone())
+}
+
+/// A policy with a property list of functions.
+#[builtin(_, "name parameters doc parts")]
+fn make_policy(
+    image: &mut Image,
+    name_value: Value,
+    parameters_value: Value,
+    doc_value: Value,
+    parts_value: Value,
+) -> Result<Value> {
+    Ok(Value::foreign(Policy {
+        name: name_value,
+        parameters: parameters_value,
+        doc: doc_value,
+        parts: parts_value,
+        type_symbol: Plan::of(image).names.policy,
+    }))
+}
+
+/// The functions of a policy by the names of its parts.
+#[builtin]
+fn policy_parts(policy: &Policy) -> Result<Value> {
+    Ok(policy.parts.clone())
+}
+
+impl<'a> FromValue<'a> for &'a Policy {
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self> {
+        policy(image, value)
+    }
+}
 
 fn policy<'a>(image: &Image, value: &'a Value) -> Result<&'a Policy> {
     value
@@ -95,3 +95,9 @@ fn policy<'a>(image: &Image, value: &'a Value) -> Result<&'a Policy> {
 pub(super) fn policy_name(value: &Value) -> Option<Value> {
     value.as_foreign::<Policy>().map(|p| p.name.clone())
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![parameters, description,];
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![make_policy, policy_parts,];

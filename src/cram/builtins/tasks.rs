@@ -5,9 +5,11 @@ use crate::fluent::{FluentRef, Operation};
 use crate::request::Request;
 use crate::state::Plan;
 use crate::task::{Status, TaskRef};
-use lisp::builtin::{Builtin, control, pure};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::FromValue;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -16,195 +18,153 @@ use lisp::vm::calls::run;
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "STATUS",
-        "task",
-        "The fluent of a task's status: :CREATED, :RUNNING, :SUSPENDED, :SUCCEEDED, :FAILED or :EVAPORATED.",
-        &["(cpl:top-level (cpl:value (cpl:status cpl:*current-task*))) => :RUNNING"],
-        |image, args| {
-            let task = task(image, &args[0])?;
-            Ok(task.get().fluent(&Plan::of(image)).value())
-        },
-    ),
-    pure(
-        "RESULT",
-        "task",
-        "The values that a task ended with, its failure, or NIL.",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:result a))) => 5"],
-        |image, args| Ok(task(image, &args[0])?.get().result.borrow().clone()),
-    ),
-    pure(
-        "TASK-PATH",
-        "task",
-        "A task's path in the task tree, innermost part first.",
-        &[
-            "(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-path a))) => ((CRAM-LANGUAGE-IMPLEMENTATION:TAGGED A))",
-        ],
-        |image, args| Ok(task(image, &args[0])?.get().node.path.clone()),
-    ),
-    pure(
-        "TASK-ALIVE",
-        "task",
-        "A fluent that is true while the task has not ended.",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:value (cpl:task-alive a)))) => NIL"],
-        |image, args| {
-            let plan = Plan::of(image);
-            let task = task(image, &args[0])?;
-            Ok(status_net(image, &plan, &task, plan.names.alive).value())
-        },
-    ),
-    pure(
-        "TASK-DEAD",
-        "task",
-        "A fluent that is true when the task has ended.",
-        &[
-            "(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:wait-for (cpl:task-dead a)) :ended)) => :ENDED",
-        ],
-        |image, args| {
-            let plan = Plan::of(image);
-            let task = task(image, &args[0])?;
-            Ok(status_net(image, &plan, &task, plan.names.dead).value())
-        },
-    ),
-    pure(
-        "TASK-RUNNING-P",
-        "task",
-        "Has the task not ended?",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-running-p a))) => NIL"],
-        |image, args| status_in(image, &args[0], |plan| plan.names.alive),
-    ),
-    pure(
-        "TASK-DEAD-P",
-        "task",
-        "Has the task ended?",
-        &[
-            "(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-dead-p a))) => (:SUCCEEDED :EVAPORATED)",
-        ],
-        |image, args| status_in(image, &args[0], |plan| plan.names.dead),
-    ),
-    pure(
-        "TASK-DONE-P",
-        "task",
-        "Has the task ended without a failure?",
-        &[
-            "(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-done-p a))) => (:SUCCEEDED :EVAPORATED)",
-        ],
-        |image, args| status_in(image, &args[0], |plan| plan.names.done),
-    ),
-    pure(
-        "TASK-FAILED-P",
-        "task",
-        "Has the task ended with a failure?",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-failed-p a))) => NIL"],
-        |image, args| {
-            let status = task(image, &args[0])?.get().status();
-            Ok(Value::bool(status == Status::Failed))
-        },
-    ),
-    control(
-        "EVAPORATE",
-        "task &key reason sync",
-        "Ends a task and all below it, running their cleanup forms; waits for that unless SYNC is NIL.",
-        &[
-            "(cpl:top-level (cpl:with-tags (cpl:par (:tag a (cpl:sleep 9) :a) (cpl:evaporate a)) (cpl:value (cpl:status a)))) => :EVAPORATED",
-        ],
-        evaporate,
-    ),
-    control(
-        "SUSPEND",
-        "task &key reason sync",
-        "Lets a task and all below it hold still.",
-        &[],
-        |m, args| {
-            let task = told(m, &args)?;
-            Ok(Step::request(Request::Suspend(task)))
-        },
-    ),
-    control(
-        "WAKE-UP",
-        "task &key reason sync",
-        "Lets a suspended task and all below it go on.",
-        &[],
-        |m, args| {
-            let task = told(m, &args)?;
-            Ok(Step::request(Request::WakeUp(task)))
-        },
-    ),
-    control(
-        "JOIN-TASK",
-        "task",
-        "Waits for a task's end; returns its values or fails with its failure.",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:join-task a))) => 5"],
-        |m, args| {
-            let task = task(m.image, &args[0])?;
-            Ok(Step::request(Request::Join(task)))
-        },
-    ),
-    pure(
-        "CURRENT-TASK",
-        "",
-        "The task that runs; NIL at the prompt.",
-        &["(cpl:current-task) => NIL"],
-        |image, _| Ok(image.special(Plan::of(image).names.current_task).clone()),
-    ),
-    control(
-        "SLEEP*",
-        "seconds",
-        "Waits for so many simulated seconds.",
-        &["(cpl:sleep* 1) => NIL"],
-        |_, args| super::arithmetic::sleep(&args),
-    ),
-];
+/// The fluent of a task's status: :CREATED, :RUNNING, :SUSPENDED, :SUCCEEDED, :FAILED or
+/// :EVAPORATED.
+///
+/// `(cpl:top-level (cpl:value (cpl:status cpl:*current-task*)))` => `:RUNNING`
+#[builtin]
+fn status(image: &mut Image, task: TaskRef) -> Result<Value> {
+    Ok(task.get().fluent(&Plan::of(image)).value())
+}
 
-/// Builtins of package `PLAN-SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "PUSH-SUSPENSION-HOOK",
-        "function",
-        "Calls the function when the current task is suspended.",
-        &[],
-        |_, args| Ok(Step::request(Request::Hook(args.into_iter().next()))),
-    ),
-    control(
-        "POP-SUSPENSION-HOOK",
-        "",
-        "Forgets the last hook.",
-        &[],
-        |_, _| Ok(Step::request(Request::Hook(None))),
-    ),
-    control(
-        "ALLOW-SCHEDULING",
-        "change",
-        "Allows (1) or forbids (-1) that the current task is disturbed while it waits.",
-        &[],
-        |_, args| {
-            let change = match args[0] {
-                Value::Int(n) if n < 0 => -1,
-                _ => 1,
-            };
-            Ok(Step::request(Request::Scheduling(change)))
-        },
-    ),
-    control(
-        "WAIT-UNTIL-SUSPENDED",
-        "task",
-        "Waits until a task is suspended or has ended.",
-        &[],
-        |m, args| {
-            let task = task(m.image, &args[0])?;
-            wait_until_suspended(m, task)
-        },
-    ),
-    pure(
-        "DEFINE-TASK-VARIABLE",
-        "name function",
-        "Makes a variable one that each task binds anew.",
-        &[],
-        define_task_variable,
-    ),
-];
+/// The values that a task ended with, its failure, or NIL.
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:result a)))` => `5`
+#[builtin]
+fn result(task: TaskRef) -> Result<Value> {
+    Ok(task.get().result.borrow().clone())
+}
+
+/// A task's path in the task tree, innermost part first.
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-path a)))` => `((CRAM-LANGUAGE-IMPLEMENTATION:TAGGED A))`
+#[builtin]
+fn task_path(task: TaskRef) -> Result<Value> {
+    Ok(task.get().node.path.clone())
+}
+
+/// A fluent that is true while the task has not ended.
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:value (cpl:task-alive a))))` => `NIL`
+#[builtin]
+fn task_alive(image: &mut Image, task: TaskRef) -> Result<Value> {
+    let plan = Plan::of(image);
+    Ok(status_net(image, &plan, &task, plan.names.alive).value())
+}
+
+/// A fluent that is true when the task has ended.
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:wait-for (cpl:task-dead a)) :ended))` => `:ENDED`
+#[builtin]
+fn task_dead(image: &mut Image, task: TaskRef) -> Result<Value> {
+    let plan = Plan::of(image);
+    Ok(status_net(image, &plan, &task, plan.names.dead).value())
+}
+
+/// Has the task not ended?
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-running-p a)))` => `NIL`
+#[builtin]
+fn task_running_p(image: &mut Image, task: &Value) -> Result<Value> {
+    status_in(image, task, |plan| plan.names.alive)
+}
+
+/// Has the task ended?
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-dead-p a)))` => `(:SUCCEEDED :EVAPORATED)`
+#[builtin]
+fn task_dead_p(image: &mut Image, task: &Value) -> Result<Value> {
+    status_in(image, task, |plan| plan.names.dead)
+}
+
+/// Has the task ended without a failure?
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-done-p a)))` => `(:SUCCEEDED :EVAPORATED)`
+#[builtin]
+fn task_done_p(image: &mut Image, task: &Value) -> Result<Value> {
+    status_in(image, task, |plan| plan.names.done)
+}
+
+/// Has the task ended with a failure?
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-failed-p a)))` => `NIL`
+#[builtin]
+fn task_failed_p(task: TaskRef) -> bool {
+    let status = task.get().status();
+    status == Status::Failed
+}
+
+/// Lets a task and all below it hold still.
+#[builtin(_, "task &key reason sync")]
+fn suspend(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let task = told(machine, &args)?;
+    Ok(Step::request(Request::Suspend(task)))
+}
+
+/// Lets a suspended task and all below it go on.
+#[builtin(_, "task &key reason sync")]
+fn wake_up(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let task = told(machine, &args)?;
+    Ok(Step::request(Request::WakeUp(task)))
+}
+
+/// Waits for a task's end; returns its values or fails with its failure.
+///
+/// `(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:join-task a)))` => `5`
+#[builtin]
+fn join_task(task: TaskRef) -> Result<Step> {
+    Ok(Step::request(Request::Join(task)))
+}
+
+/// The task that runs; NIL at the prompt.
+///
+/// `(cpl:current-task)` => `NIL`
+#[builtin(_, "")]
+fn current_task(image: &mut Image) -> Result<Value> {
+    Ok(image.special(Plan::of(image).names.current_task).clone())
+}
+
+/// Waits for so many simulated seconds.
+///
+/// `(cpl:sleep* 1)` => `NIL`
+#[builtin("SLEEP*", "seconds")]
+fn sleep(args: Vec<Value>) -> Result<Step> {
+    super::arithmetic::sleep(&args)
+}
+
+/// Calls the function when the current task is suspended.
+#[builtin(_, "function")]
+fn push_suspension_hook(args: Vec<Value>) -> Result<Step> {
+    Ok(Step::request(Request::Hook(args.into_iter().next())))
+}
+
+/// Forgets the last hook.
+#[builtin(_, "")]
+fn pop_suspension_hook() -> Result<Step> {
+    Ok(Step::request(Request::Hook(None)))
+}
+
+/// Allows (1) or forbids (-1) that the current task is disturbed while it waits.
+#[builtin]
+fn allow_scheduling(change: &Value) -> Result<Step> {
+    let change = match change {
+        Value::Int(n) if *n < 0 => -1,
+        _ => 1,
+    };
+    Ok(Step::request(Request::Scheduling(change)))
+}
+
+/// Waits until a task is suspended or has ended.
+#[builtin("WAIT-UNTIL-SUSPENDED")]
+fn wait_until_suspended_builtin(machine: &mut Machine<'_>, task: TaskRef) -> Result<Step> {
+    wait_until_suspended(machine, task)
+}
+
+impl FromValue<'_> for TaskRef {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        task(image, value)
+    }
+}
 
 /// The task given as an argument, or a type error.
 pub(super) fn task(image: &Image, value: &Value) -> Result<TaskRef> {
@@ -243,6 +203,10 @@ fn told(machine: &Machine<'_>, args: &[Value]) -> Result<TaskRef> {
     task(machine.image, &args[0])
 }
 
+/// Ends a task and all below it, running their cleanup forms; waits for that unless SYNC is NIL.
+///
+/// `(cpl:top-level (cpl:with-tags (cpl:par (:tag a (cpl:sleep 9) :a) (cpl:evaporate a)) (cpl:value (cpl:status a))))` => `:EVAPORATED`
+#[builtin(_, "task &key reason sync")]
 fn evaporate(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let names = Plan::of(machine.image).names;
     let [_, sync] = keywords::parse(machine.image, &args[1..], [names.reason, names.sync])?;
@@ -266,15 +230,45 @@ fn wait_until_suspended(machine: &mut Machine<'_>, task: TaskRef) -> Result<Step
     })
 }
 
-fn define_task_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+/// Makes a variable one that each task binds anew.
+#[builtin]
+fn define_task_variable(image: &mut Image, name: &Value, function: Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let plan = Plan::of(image);
-    let init = Some(args[1].clone()).filter(Value::is_true);
+    let init = Some(function).filter(Value::is_true);
     let mut variables = plan.task_variables.borrow_mut();
     variables.retain(|(other, _)| *other != name);
     variables.push((name, init.clone()));
     let inherit = image.function(plan.names.inherit_parent_value).cloned();
     Ok(init.or(inherit.map(Value::Function)).unwrap_or(Value::NIL))
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    status,
+    result,
+    task_path,
+    task_alive,
+    task_dead,
+    task_running_p,
+    task_dead_p,
+    task_done_p,
+    task_failed_p,
+    evaporate,
+    suspend,
+    wake_up,
+    join_task,
+    current_task,
+    sleep,
+];
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    push_suspension_hook,
+    pop_suspension_hook,
+    allow_scheduling,
+    wait_until_suspended_builtin,
+    define_task_variable,
+];

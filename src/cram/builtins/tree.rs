@@ -5,137 +5,103 @@ use crate::request::Request;
 use crate::state::Plan;
 use crate::task::{Status, TaskName, TaskRef};
 use crate::tree::{NodeObject, TreeNode};
-use lisp::builtin::{Builtin, control, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
+use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 use std::rc::Rc;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "GET-TOP-LEVEL-TASK-TREE",
-        "name",
-        "The task tree of a plan defined by DEF-TOP-LEVEL-CRAM-FUNCTION.",
-        &[],
-        top_level_tree,
-    ),
-    pure(
-        "REMOVE-TOP-LEVEL-TASK-TREE",
-        "name",
-        "Forgets the task tree of a named plan.",
-        &[],
-        |image, args| {
-            let Some(name) = args[0].as_symbol() else {
-                return Err(Raise::type_error(&args[0], known::SYMBOL));
-            };
-            let plan = Plan::of(image);
-            let removed = plan.trees.borrow_mut().shift_remove(&name);
-            Ok(Value::bool(removed.is_some()))
-        },
-    ),
-    pure(
-        "TASK-TREE-NODE-PATH",
-        "node",
-        "The path of a node, innermost part first.",
-        &[],
-        |image, args| Ok(node(image, &args[0])?.path.clone()),
-    ),
-    pure(
-        "TASK-TREE-NODE-CHILDREN",
-        "node",
-        "The nodes below a node, as an association list by path part.",
-        &[],
-        |image, args| {
-            let names = Plan::of(image).names;
-            let children = node(image, &args[0])?.children();
-            Ok(Value::list(
-                children
-                    .iter()
-                    .map(|child| {
-                        Value::cons(child.path.car_or_nil(), child.value(names.task_tree_node))
-                    })
-                    .collect::<Vec<_>>(),
-            ))
-        },
-    ),
-];
+/// Forgets the task tree of a named plan.
+#[builtin]
+fn remove_top_level_task_tree(image: &mut Image, name: &Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
+    };
+    let plan = Plan::of(image);
+    let removed = plan.trees.borrow_mut().shift_remove(&name);
+    Ok(Value::bool(removed.is_some()))
+}
 
-/// Builtins of package `PLAN-SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "MAKE-TAG",
-        "name",
-        "A task for a tagged form, which has not begun.",
-        &[],
-        |m, args| {
-            let name = args[0].as_symbol().unwrap_or(known::NIL);
-            let name = TaskName::Given(m.image.name(name).into());
-            let part = Value::list([tagged(m.image), args[0].clone()]);
-            let task = task_at(m.image, name, &part)?;
-            Ok(Step::Return(task.value()))
-        },
-    ),
-    pure(
-        "TAG-OUTSIDE",
-        "name",
-        "The error of a tag outside WITH-TAGS.",
-        &[],
-        |image, args| {
-            let shown = print::to_string(image, &args[0], true);
-            let text = format!("(:TAG {shown} ..) used outside of WITH-TAGS.");
-            let current = Plan::of(image).names.current_task;
-            // Inside a plan, the form has been compiled.
-            Err(if image.special(current).is_nil() {
-                Raise::simple(text)
-            } else {
-                Raise::new(known::COMPILED_PROGRAM_ERROR, text)
-            })
-        },
-    ),
-    control(
-        "FRESH-TAG",
-        "task name",
-        "The task for the next run of a tagged form.",
-        &[],
-        |m, args| {
-            let task = super::tasks::task(m.image, &args[0])?;
-            if task.get().status() == Status::Created {
-                return Ok(Step::Return(args[0].clone()));
-            }
-            let part = Value::list([tagged(m.image), args[1].clone()]);
-            let task = task_at(m.image, task.get().name.clone(), &part)?;
-            Ok(Step::Return(task.value()))
-        },
-    ),
-    control(
-        "RUN-TAG",
-        "task function",
-        "Runs a function as a task and returns its values.",
-        &[],
-        |m, args| {
-            let task = super::tasks::task(m.image, &args[0])?;
-            let function = args[1].clone();
-            Ok(Step::request(Request::Run { task, function }))
-        },
-    ),
-    control(
-        "CALL-IN-NODE",
-        "part name function",
-        "Runs a function in a task at a node below the current one.",
-        &[],
-        |m, args| {
-            let what = args[1].as_text().unwrap_or_default();
-            let number = Plan::of(m.image).fresh_number();
-            let task = task_at(m.image, TaskName::Numbered(what.into(), number), &args[0])?;
-            let function = args[2].clone();
-            Ok(Step::request(Request::Run { task, function }))
-        },
-    ),
-];
+/// The path of a node, innermost part first.
+#[builtin(_, "node")]
+fn task_tree_node_path(image: &mut Image, node_value: &Value) -> Result<Value> {
+    Ok(node(image, node_value)?.path.clone())
+}
+
+/// The nodes below a node, as an association list by path part.
+#[builtin(_, "node")]
+fn task_tree_node_children(image: &mut Image, node_value: &Value) -> Result<Value> {
+    let names = Plan::of(image).names;
+    let children = node(image, node_value)?.children();
+    Ok(Value::list(
+        children
+            .iter()
+            .map(|child| Value::cons(child.path.car_or_nil(), child.value(names.task_tree_node)))
+            .collect::<Vec<_>>(),
+    ))
+}
+
+/// A task for a tagged form, which has not begun.
+#[builtin(_, "name")]
+fn make_tag(machine: &mut Machine<'_>, name_value: &Value) -> Result<Step> {
+    let name = name_value.as_symbol().unwrap_or(known::NIL);
+    let name = TaskName::Given(machine.image.name(name).into());
+    let part = Value::list([tagged(machine.image), name_value.clone()]);
+    let task = task_at(machine.image, name, &part)?;
+    Ok(Step::Return(task.value()))
+}
+
+/// The error of a tag outside WITH-TAGS.
+#[builtin]
+fn tag_outside(image: &mut Image, name: &Value) -> Result<Value> {
+    let shown = print::to_string(image, name, true);
+    let text = format!("(:TAG {shown} ..) used outside of WITH-TAGS.");
+    let current = Plan::of(image).names.current_task;
+    // Inside a plan, the form has been compiled.
+    Err(if image.special(current).is_nil() {
+        Raise::simple(text)
+    } else {
+        Raise::new(known::COMPILED_PROGRAM_ERROR, text)
+    })
+}
+
+/// The task for the next run of a tagged form.
+#[builtin(_, "task name")]
+fn fresh_tag(machine: &mut Machine<'_>, task_value: &Value, name: Value) -> Result<Step> {
+    let task = super::tasks::task(machine.image, task_value)?;
+    if task.get().status() == Status::Created {
+        return Ok(Step::Return(task_value.clone()));
+    }
+    let part = Value::list([tagged(machine.image), name]);
+    let task = task_at(machine.image, task.get().name.clone(), &part)?;
+    Ok(Step::Return(task.value()))
+}
+
+/// Runs a function as a task and returns its values.
+#[builtin]
+fn run_tag(machine: &mut Machine<'_>, task: &Value, function: Value) -> Result<Step> {
+    let task = super::tasks::task(machine.image, task)?;
+    Ok(Step::request(Request::Run { task, function }))
+}
+
+/// Runs a function in a task at a node below the current one.
+#[builtin]
+fn call_in_node(
+    machine: &mut Machine<'_>,
+    part: &Value,
+    name: &Value,
+    function: Value,
+) -> Result<Step> {
+    let what = name.as_text().unwrap_or_default();
+    let number = Plan::of(machine.image).fresh_number();
+    let task = task_at(machine.image, TaskName::Numbered(what.into(), number), part)?;
+    Ok(Step::request(Request::Run { task, function }))
+}
 
 fn tagged(image: &Image) -> Value {
     Plan::of(image).names.tagged.into()
@@ -162,9 +128,11 @@ fn node(image: &Image, value: &Value) -> Result<Rc<TreeNode>> {
     }
 }
 
-fn top_level_tree(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+/// The task tree of a plan defined by DEF-TOP-LEVEL-CRAM-FUNCTION.
+#[builtin("GET-TOP-LEVEL-TASK-TREE")]
+fn top_level_tree(image: &mut Image, name: &Value) -> Result<Value> {
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let plan = Plan::of(image);
     let mut trees = plan.trees.borrow_mut();
@@ -173,3 +141,15 @@ fn top_level_tree(image: &mut Image, args: &[Value]) -> Result<Value> {
         .or_insert_with(|| TreeNode::new(Value::NIL));
     Ok(tree.value(plan.names.task_tree_node))
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    top_level_tree,
+    remove_top_level_task_tree,
+    task_tree_node_path,
+    task_tree_node_children,
+];
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![make_tag, tag_outside, fresh_tag, run_tag, call_in_node,];

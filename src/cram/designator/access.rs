@@ -3,10 +3,11 @@
 use super::value;
 use super::value::{Class, Designator, Quantifier};
 use crate::packages;
-use lisp::builtin::{Builtin, Operator, pure};
-use lisp::builtins::keywords;
+use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -14,206 +15,101 @@ use lisp::value::symbol::Sym;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "DESIGNATOR-OF-FORM",
-        "quantifier class properties",
-        "What (a TYPE …) expands into; NIL among the properties is left out.",
-        &[],
-        designator_of_form,
-    ),
-    pure(
-        "MAKE-DESIGNATOR",
-        "class description &optional parent",
-        "A designator from a list of properties; a parent is equated with it.",
-        &[
-            "(desig:desig-prop-value (desig:make-designator :object '((:type :bottle))) :type) => :BOTTLE",
-        ],
-        make_designator,
-    ),
-    pure(
-        "DESCRIPTION",
-        "designator",
-        "The list of properties.",
-        &["(desig:description (desig:an object (type bottle))) => ((:TYPE :BOTTLE))"],
-        description,
-    ),
-    pure(
-        "PROPERTIES",
-        "designator",
-        "The list of properties.",
-        &["(desig:properties (desig:an object (type bottle))) => ((:TYPE :BOTTLE))"],
-        description,
-    ),
-    pure(
-        "DESIG-PROP-VALUE",
-        "designator key",
-        "The first value of a property, or NIL.",
-        &["(desig:desig-prop-value (desig:an object (type bottle)) :type) => :BOTTLE"],
-        prop_value,
-    ),
-    pure(
-        "DESIG-PROP-VALUES",
-        "designator key",
-        "The first values of all properties of a key.",
-        &["(desig:desig-prop-values (desig:an action (tool a) (tool b)) :tool) => (:A :B)"],
-        prop_values,
-    ),
-    pure(
-        "QUANTIFIER",
-        "designator",
-        ":A or :ALL.",
-        &["(desig:quantifier (desig:an object)) => :A"],
-        |image, args| {
-            let name = value::designator(image, &args[0])?.quantifier.name();
-            Ok(image.keyword(name).into())
-        },
-    ),
-    pure(
-        "EQUATE",
-        "parent successor",
-        "Says that two designators describe the same thing, the second knowing better; the second.",
-        &[
-            "(let ((a (desig:an object (type cup))) (b (desig:an object (type cup) (color red)))) (desig:equate a b) (eq (desig:current-desig a) b)) => T",
-        ],
-        equate,
-    ),
-    pure(
-        "CURRENT-DESIG",
-        "designator",
-        "The newest designator that was equated with this one.",
-        &["(desig:current-desig nil) => NIL"],
-        |_, args| Ok(value::current(&args[0])),
-    ),
-    pure(
-        "FIRST-DESIG",
-        "designator",
-        "The oldest designator that was equated with this one.",
-        &["(desig:first-desig nil) => NIL"],
-        |_, args| Ok(value::first(&args[0])),
-    ),
-    pure(
-        "PARENT",
-        "designator",
-        "The designator that this one was equated to, or NIL.",
-        &["(desig:parent (desig:an object)) => NIL"],
-        |image, args| {
-            let link = value::designator(image, &args[0])?.parent.borrow().clone();
-            Ok(link.unwrap_or(Value::NIL))
-        },
-    ),
-    pure(
-        "SUCCESSOR",
-        "designator",
-        "The designator that was equated to this one, or NIL.",
-        &["(desig:successor (desig:an object)) => NIL"],
-        |image, args| {
-            let link = value::designator(image, &args[0])?
-                .successor
-                .borrow()
-                .clone();
-            Ok(link.unwrap_or(Value::NIL))
-        },
-    ),
-    pure(
-        "DESIG-EQUAL",
-        "designator other",
-        "Were two designators equated?",
-        &["(desig:desig-equal (desig:an object) (desig:an object)) => NIL"],
-        |_, args| Ok(Value::bool(value::equal(&args[0], &args[1]))),
-    ),
-    pure(
-        "COPY-DESIGNATOR",
-        "designator &key new-description",
-        "A designator of its own; the new properties take the place of those with the same keys.",
-        &[
-            "(desig:properties (desig:copy-designator (desig:an object (type a)) :new-description '((:type :b)))) => ((:TYPE :B))",
-        ],
-        copy,
-    ),
-    pure(
-        "EXTEND-DESIGNATOR-PROPERTIES",
-        "designator properties",
-        "A designator with more properties.",
-        &[
-            "(desig:properties (desig:extend-designator-properties (desig:an object (type a)) '((:name :b)))) => ((:TYPE :A) (:NAME :B))",
-        ],
-        extend,
-    ),
-    pure(
-        "RENAME-DESIGNATOR-PROPERTY-KEY",
-        "designator old new",
-        "A designator in which a property has another key.",
-        &[
-            "(desig:properties (desig:rename-designator-property-key (desig:an object (type a)) :type :kind)) => ((:KIND :A))",
-        ],
-        rename,
-    ),
-    pure(
-        "MERGE-DESIGNATORS",
-        "designator other &rest others",
-        "A designator with the properties of all; those of the first win.",
-        &[
-            "(desig:desig-prop-value (desig:merge-designators (desig:an object (type cup)) (desig:an object (color red))) :color) => :RED",
-        ],
-        merge,
-    ),
-    pure(
-        "DESIG-DESCR-INCLUDED",
-        "description other",
-        "Are all properties of the first list among those of the second?",
-        &["(desig:desig-descr-included '((:a 1)) '((:b 2) (:a 1))) => T"],
-        |_, args| {
-            let other: Vec<Value> = args[1].iter_list().collect();
-            let included = args[0]
-                .iter_list()
-                .all(|p| other.iter().any(|q| lisp::value::equality::equal(&p, q)));
-            Ok(Value::bool(included))
-        },
-    ),
-    pure(
-        "EFFECTIVE",
-        "designator",
-        "Does the designator refer to something known by effect, such as a perceived object?",
-        &["(desig:effective (desig:an object)) => NIL"],
-        |image, args| {
-            let designator = value::designator(image, &args[0])?;
-            Ok(Value::bool(designator.is_effective.get()))
-        },
-    ),
-    pure(
-        "DATA",
-        "designator",
-        "What the designator refers to, as far as it is known; else NIL.",
-        &["(desig:data (desig:an object)) => NIL"],
-        |image, args| {
-            let data = value::designator(image, &args[0])?.data.borrow().clone();
-            Ok(data.unwrap_or(Value::NIL))
-        },
-    ),
-    pure(
-        "MAKE-EFFECTIVE-DESIGNATOR",
-        "parent &key new-properties data-object timestamp",
-        "A designator equated to the parent that refers to the data object.",
-        &[],
-        make_effective,
-    ),
-    pure(
-        "NEWEST-EFFECTIVE-DESIGNATOR",
-        "designator",
-        "The newest designator of the chain that refers to something known by effect, or NIL.",
-        &["(desig:newest-effective-designator (desig:an object)) => NIL"],
-        newest_effective,
-    ),
-    pure(
-        "DESIGNATOR-P",
-        "object",
-        "Is this a designator?",
-        &["(desig:designator-p 1) => NIL"],
-        |_, args| Ok(Value::bool(value::as_designator(&args[0]).is_some())),
-    ),
-];
+/// The list of properties.
+///
+/// `(desig:properties (desig:an object (type bottle)))` => `((:TYPE :BOTTLE))`
+#[builtin]
+fn properties(designator: &Designator) -> Result<Value> {
+    description(designator)
+}
+
+/// :A or :ALL.
+///
+/// `(desig:quantifier (desig:an object))` => `:A`
+#[builtin]
+fn quantifier(image: &mut Image, designator: &Designator) -> Result<Value> {
+    let name = designator.quantifier.name();
+    Ok(image.keyword(name).into())
+}
+
+/// The newest designator that was equated with this one.
+///
+/// `(desig:current-desig nil)` => `NIL`
+#[builtin]
+fn current_desig(designator: &Value) -> Result<Value> {
+    Ok(value::current(designator))
+}
+
+/// The oldest designator that was equated with this one.
+///
+/// `(desig:first-desig nil)` => `NIL`
+#[builtin]
+fn first_desig(designator: &Value) -> Result<Value> {
+    Ok(value::first(designator))
+}
+
+/// The designator that this one was equated to, or NIL.
+///
+/// `(desig:parent (desig:an object))` => `NIL`
+#[builtin]
+fn parent(designator: &Designator) -> Result<Value> {
+    let link = designator.parent.borrow().clone();
+    Ok(link.unwrap_or(Value::NIL))
+}
+
+/// The designator that was equated to this one, or NIL.
+///
+/// `(desig:successor (desig:an object))` => `NIL`
+#[builtin]
+fn successor(designator: &Designator) -> Result<Value> {
+    let link = designator.successor.borrow().clone();
+    Ok(link.unwrap_or(Value::NIL))
+}
+
+/// Were two designators equated?
+///
+/// `(desig:desig-equal (desig:an object) (desig:an object))` => `NIL`
+#[builtin]
+fn desig_equal(designator: &Value, other: &Value) -> bool {
+    value::equal(designator, other)
+}
+
+/// Are all properties of the first list among those of the second?
+///
+/// `(desig:desig-descr-included '((:a 1)) '((:b 2) (:a 1)))` => `T`
+#[builtin(_, "description other")]
+fn desig_descr_included(description: &Value, other_value: &Value) -> bool {
+    let other: Vec<Value> = other_value.iter_list().collect();
+    let included = description
+        .iter_list()
+        .all(|p| other.iter().any(|q| lisp::value::equality::equal(&p, q)));
+    included
+}
+
+/// Does the designator refer to something known by effect, such as a perceived object?
+///
+/// `(desig:effective (desig:an object))` => `NIL`
+#[builtin]
+fn effective(designator: &Designator) -> bool {
+    designator.is_effective.get()
+}
+
+/// What the designator refers to, as far as it is known; else NIL.
+///
+/// `(desig:data (desig:an object))` => `NIL`
+#[builtin]
+fn data(designator: &Designator) -> Result<Value> {
+    let data = designator.data.borrow().clone();
+    Ok(data.unwrap_or(Value::NIL))
+}
+
+/// Is this a designator?
+///
+/// `(desig:designator-p 1)` => `NIL`
+#[builtin]
+fn designator_p(object: &Value) -> bool {
+    value::as_designator(object).is_some()
+}
 
 /// Macros of package `CRAM-DESIGNATORS`.
 pub(crate) static OPERATORS: &[Operator] = &[
@@ -251,17 +147,28 @@ fn class(image: &Image, argument: &Value) -> Result<Class> {
     Class::named(&name).ok_or_else(|| Raise::simple(format!("Designator type `{name}' undefined")))
 }
 
-fn designator_of_form(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let class = class(image, &args[1])?;
-    let quantifier = match args[0].as_symbol().map(|s| image.name(s)) {
+/// What (a TYPE …) expands into; NIL among the properties is left out.
+#[builtin(_, "quantifier class properties")]
+fn designator_of_form(
+    image: &mut Image,
+    quantifier: &Value,
+    class_value: &Value,
+    properties: &Value,
+) -> Result<Value> {
+    let class = class(image, class_value)?;
+    let quantifier = match quantifier.as_symbol().map(|s| image.name(s)) {
         Some("ALL") => Quantifier::All,
         _ => Quantifier::A,
     };
-    let properties: Vec<Value> = args[2].iter_list().filter(Value::is_true).collect();
+    let properties: Vec<Value> = properties.iter_list().filter(Value::is_true).collect();
     let designator = Designator::new(image, class, quantifier, list(properties));
     Ok(Value::foreign(designator))
 }
 
+/// A designator from a list of properties; a parent is equated with it.
+///
+/// `(desig:desig-prop-value (desig:make-designator :object '((:type :bottle))) :type)` => `:BOTTLE`
+#[builtin(_, "class description &optional parent")]
 fn make_designator(image: &mut Image, args: &[Value]) -> Result<Value> {
     let class = class(image, &args[0])?;
     let description = checked_description(image, &args[1])?;
@@ -289,36 +196,48 @@ fn checked_description(image: &Image, description: &Value) -> Result<Value> {
     Ok(list(items.into_iter().filter(Value::is_true).collect()))
 }
 
-fn description(image: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(value::designator(image, &args[0])?
-        .description
-        .borrow()
-        .clone())
+/// The list of properties.
+///
+/// `(desig:description (desig:an object (type bottle)))` => `((:TYPE :BOTTLE))`
+#[builtin]
+fn description(designator: &Designator) -> Result<Value> {
+    Ok(designator.description.borrow().clone())
 }
 
-fn prop_value(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let values = prop_values(image, args)?;
-    Ok(values.car_or_nil())
+/// The first value of a property, or NIL.
+///
+/// `(desig:desig-prop-value (desig:an object (type bottle)) :type)` => `:BOTTLE`
+#[builtin("DESIG-PROP-VALUE")]
+fn prop_value(designator: &Value, key: &Value) -> Result<Value> {
+    Ok(prop_values(designator, key)?.car_or_nil())
 }
 
-fn prop_values(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(designator) = value::as_designator(&args[0]) else {
+/// The first values of all properties of a key.
+///
+/// `(desig:desig-prop-values (desig:an action (tool a) (tool b)) :tool)` => `(:A :B)`
+#[builtin("DESIG-PROP-VALUES")]
+fn prop_values(designator: &Value, key: &Value) -> Result<Value> {
+    let Some(designator) = value::as_designator(designator) else {
         return Ok(Value::NIL);
     };
     let values = designator
         .properties()
         .into_iter()
-        .filter(|(k, _)| lisp::value::equality::equal(k, &args[1]))
+        .filter(|(k, _)| lisp::value::equality::equal(k, key))
         .map(|(_, values)| values.car_or_nil())
         .collect();
     Ok(list(values))
 }
 
-fn equate(image: &mut Image, args: &[Value]) -> Result<Value> {
-    value::designator(image, &args[0])?;
-    value::designator(image, &args[1])?;
-    if value::equate(&args[0], &args[1]) {
-        return Ok(args[1].clone());
+/// Says that two designators describe the same thing, the second knowing better; the second.
+///
+/// `(let ((a (desig:an object (type cup))) (b (desig:an object (type cup) (color red)))) (desig:equate a b) (eq (desig:current-desig a) b))` => `T`
+#[builtin]
+fn equate(image: &mut Image, parent: &Value, successor: &Value) -> Result<Value> {
+    value::designator(image, parent)?;
+    value::designator(image, successor)?;
+    if value::equate(parent, successor) {
+        return Ok(successor.clone());
     }
     Err(Raise::simple(
         "Cannot equate designators that are already equal.",
@@ -336,6 +255,10 @@ fn like(image: &mut Image, original: &Designator, properties: Vec<Value>) -> Val
     ))
 }
 
+/// A designator of its own; the new properties take the place of those with the same keys.
+///
+/// `(desig:properties (desig:copy-designator (desig:an object (type a)) :new-description '((:type :b))))` => `((:TYPE :B))`
+#[builtin("COPY-DESIGNATOR", "designator &key new-description")]
 fn copy(image: &mut Image, args: &[Value]) -> Result<Value> {
     let original = value::designator(image, &args[0])?;
     let name = image.keyword("NEW-DESCRIPTION");
@@ -352,30 +275,40 @@ fn copy(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(like(image, original, properties))
 }
 
-fn extend(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let original = value::designator(image, &args[0])?;
-    let new = checked_description(image, &args[1])?;
+/// A designator with more properties.
+///
+/// `(desig:properties (desig:extend-designator-properties (desig:an object (type a)) '((:name :b))))` => `((:TYPE :A) (:NAME :B))`
+#[builtin("EXTEND-DESIGNATOR-PROPERTIES")]
+fn extend(image: &mut Image, designator: &Designator, properties: &Value) -> Result<Value> {
+    let original = designator;
+    let new = checked_description(image, properties)?;
     let mut properties: Vec<Value> = original.description.borrow().iter_list().collect();
     properties.extend(new.iter_list());
     Ok(like(image, original, properties))
 }
 
-fn rename(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let original = value::designator(image, &args[0])?;
+/// A designator in which a property has another key.
+///
+/// `(desig:properties (desig:rename-designator-property-key (desig:an object (type a)) :type :kind))` => `((:KIND :A))`
+#[builtin("RENAME-DESIGNATOR-PROPERTY-KEY")]
+fn rename(image: &mut Image, designator: &Designator, old: &Value, new: Value) -> Result<Value> {
+    let original = designator;
     let properties = original
         .description
         .borrow()
         .iter_list()
         .map(|p| match &p {
-            Value::Cons(cons) if cons.car().is_eql(&args[1]) => {
-                Value::cons(args[2].clone(), cons.cdr())
-            }
+            Value::Cons(cons) if cons.car().is_eql(old) => Value::cons(new.clone(), cons.cdr()),
             _ => p,
         })
         .collect();
     Ok(like(image, original, properties))
 }
 
+/// A designator with the properties of all; those of the first win.
+///
+/// `(desig:desig-prop-value (desig:merge-designators (desig:an object (type cup)) (desig:an object (color red))) :color)` => `:RED`
+#[builtin("MERGE-DESIGNATORS", "designator other &rest others")]
 fn merge(image: &mut Image, args: &[Value]) -> Result<Value> {
     let first = value::designator(image, &args[0])?;
     let mut properties: Vec<Value> = first.description.borrow().iter_list().collect();
@@ -391,6 +324,11 @@ fn merge(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(like(image, first, properties))
 }
 
+/// A designator equated to the parent that refers to the data object.
+#[builtin(
+    "MAKE-EFFECTIVE-DESIGNATOR",
+    "parent &key new-properties data-object timestamp"
+)]
 fn make_effective(image: &mut Image, args: &[Value]) -> Result<Value> {
     let parent = value::designator(image, &args[0])?;
     let names = ["NEW-PROPERTIES", "DATA-OBJECT", "TIMESTAMP"].map(|n| image.keyword(n));
@@ -408,8 +346,12 @@ fn make_effective(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(made)
 }
 
-fn newest_effective(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let mut at = value::current(&args[0]);
+/// The newest designator of the chain that refers to something known by effect, or NIL.
+///
+/// `(desig:newest-effective-designator (desig:an object))` => `NIL`
+#[builtin("NEWEST-EFFECTIVE-DESIGNATOR")]
+fn newest_effective(designator: &Value) -> Result<Value> {
+    let mut at = value::current(designator);
     while let Some(designator) = value::as_designator(&at) {
         if designator.is_effective.get() {
             return Ok(at);
@@ -473,3 +415,30 @@ fn with_desig_props(image: &mut Image, form: &Value) -> Result<Value> {
         body,
     ))
 }
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    designator_of_form,
+    make_designator,
+    description,
+    properties,
+    prop_value,
+    prop_values,
+    quantifier,
+    equate,
+    current_desig,
+    first_desig,
+    parent,
+    successor,
+    desig_equal,
+    copy,
+    extend,
+    rename,
+    merge,
+    desig_descr_included,
+    effective,
+    data,
+    make_effective,
+    newest_effective,
+    designator_p,
+];

@@ -4,9 +4,10 @@ use super::schema::{self, Key, Kind, Text, TypeRow};
 use super::value::Class;
 use crate::packages;
 use closest_name::closest_name;
-use lisp::builtin::{Builtin, Operator, pure};
+use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::form::{form, quote, split_body};
 use lisp::value::known;
@@ -27,19 +28,14 @@ pub(crate) static OPERATORS: &[Operator] = &[Operator {
     expand: Some(def_action),
 }];
 
-/// Functions of package `CRAM-DESIGNATORS` that `def-action` expands into.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "DEFINE-ACTION-TYPE",
-    "definition",
-    "What DEF-ACTION expands into.",
-    &[],
-    |image, args| {
-        let definition = Definition::parse(image, &args[0])?;
-        let row = definition.row(image);
-        schema::define(image, row);
-        Ok(args[0].car_or_nil())
-    },
-)];
+/// What DEF-ACTION expands into.
+#[builtin(_, "definition")]
+fn define_action_type(image: &mut Image, definition_value: &Value) -> Result<Value> {
+    let definition = Definition::parse(image, definition_value)?;
+    let row = definition.row(image);
+    schema::define(image, row);
+    Ok(definition_value.car_or_nil())
+}
 
 /// The syntax of a definition, for messages.
 const SHAPE: &str =
@@ -472,3 +468,6 @@ fn def_action(image: &mut Image, form: &Value) -> Result<Value> {
     }
     Ok(form![known::PROGN, function, row, quote(parsed.name)])
 }
+
+/// Functions of package `CRAM-DESIGNATORS` that `def-action` expands into.
+pub(crate) static TABLE: &[Builtin] = builtins![define_action_type,];

@@ -1,13 +1,16 @@
 //! The generators and validators of locations, and the functions that register them.
 
 use crate::{Result, packages};
-use lisp::builtin::{Builtin, control, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 use lisp::vm::calls::run;
+use lisp::vm::machine::Machine;
+use lisp::vm::step::Step;
 
 /// The variable with the generators: a list of `(priority function documentation enabled)`.
 pub(super) const GENERATORS: &str = "*LOCATION-GENERATORS*";
@@ -22,102 +25,86 @@ const RETRIES: i64 = 30;
 const GROUNDING: &str = "LOCATION-GROUNDING-GENERATOR";
 const GROUNDING_PRIORITY: i64 = 10;
 
-/// Functions of package `SYSTEM`: what the macros that register generators and validators expand into.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "ADD-LOCATION-GENERATOR",
-        "priority function &optional documentation",
-        "Lets a function of a location designator resolve locations; low priorities come first. It returns a list of poses, or a function without arguments that returns the next pose each time, at last NIL or a text that says why there are no more.",
-        &[],
-        |image, args| register(image, GENERATORS, args),
-    ),
-    pure(
-        "ADD-LOCATION-VALIDATOR",
-        "priority function &optional documentation",
-        "Lets a function of a location designator and a pose judge solutions: :ACCEPT, :MAYBE-REJECT, :UNKNOWN, or NIL or a text that says why to reject.",
-        &[],
-        |image, args| register(image, VALIDATORS, args),
-    ),
-];
+/// Lets a function of a location designator resolve locations; low priorities come first. It
+/// returns a list of poses, or a function without arguments that returns the next pose each time,
+/// at last NIL or a text that says why there are no more.
+#[builtin(_, "priority function &optional documentation")]
+fn add_location_generator(image: &mut Image, args: &[Value]) -> Result<Value> {
+    register(image, GENERATORS, args)
+}
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "DELETE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Forgets a generator.",
-        &["(desig:delete-location-generator-function 'no-such) => NIL"],
-        |image, args| change(image, GENERATORS, &args[0], Change::Delete),
-    ),
-    pure(
-        "ENABLE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Uses a generator again.",
-        &[],
-        |image, args| change(image, GENERATORS, &args[0], Change::Enable),
-    ),
-    pure(
-        "DISABLE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Does not use a generator for the time being.",
-        &[],
-        |image, args| change(image, GENERATORS, &args[0], Change::Disable),
-    ),
-    pure(
-        "DELETE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Forgets a validator.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Delete),
-    ),
-    pure(
-        "ENABLE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Uses a validator again.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Enable),
-    ),
-    pure(
-        "DISABLE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Does not use a validator for the time being.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Disable),
-    ),
-    pure(
-        "LIST-LOCATION-GENERATOR-FUNCTIONS",
-        "",
-        "All generators: (priority function documentation enabled).",
-        &[],
-        |image, _| {
-            let list = variable(image, GENERATORS);
-            Ok(image.special(list).clone())
-        },
-    ),
-    pure(
-        "RESET",
-        "designator",
-        "Forgets what a location was resolved to and the search for it, which begins anew; returns the location.",
-        &["(let ((l (desig:a location (pose nil)))) (eq l (desig:reset l))) => T"],
-        |image, args| {
-            super::location::reset(image, &args[0])?;
-            Ok(args[0].clone())
-        },
-    ),
-];
+/// Lets a function of a location designator and a pose judge solutions: :ACCEPT, :MAYBE-REJECT,
+/// :UNKNOWN, or NIL or a text that says why to reject.
+#[builtin(_, "priority function &optional documentation")]
+fn add_location_validator(image: &mut Image, args: &[Value]) -> Result<Value> {
+    register(image, VALIDATORS, args)
+}
 
-/// Functions of package `CRAM-DESIGNATORS` that call rules.
-pub(crate) static CONTROL_TABLE: &[Builtin] = &[control(
-    GROUNDING,
-    "designator",
-    "The generator of the poses that a location lists, and of those that the rules LOCATION-GROUNDING give.",
-    &["(desig:location-grounding-generator (desig:a location (poses (1 2)))) => (1 2)"],
-    |machine, args| {
-        run(machine, GROUNDING, |calls| async move {
-            super::location::groundings(&calls, &args[0]).await
-        })
-    },
-)];
+/// Forgets a generator.
+///
+/// `(desig:delete-location-generator-function 'no-such)` => `NIL`
+#[builtin]
+fn delete_location_generator_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, GENERATORS, function, Change::Delete)
+}
+
+/// Uses a generator again.
+#[builtin]
+fn enable_location_generator_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, GENERATORS, function, Change::Enable)
+}
+
+/// Does not use a generator for the time being.
+#[builtin]
+fn disable_location_generator_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, GENERATORS, function, Change::Disable)
+}
+
+/// Forgets a validator.
+#[builtin]
+fn delete_location_validation_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, VALIDATORS, function, Change::Delete)
+}
+
+/// Uses a validator again.
+#[builtin]
+fn enable_location_validation_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, VALIDATORS, function, Change::Enable)
+}
+
+/// Does not use a validator for the time being.
+#[builtin]
+fn disable_location_validation_function(image: &mut Image, function: &Value) -> Result<Value> {
+    change(image, VALIDATORS, function, Change::Disable)
+}
+
+/// All generators: (priority function documentation enabled).
+#[builtin(_, "")]
+fn list_location_generator_functions(image: &mut Image) -> Result<Value> {
+    let list = variable(image, GENERATORS);
+    Ok(image.special(list).clone())
+}
+
+/// Forgets what a location was resolved to and the search for it, which begins anew; returns the
+/// location.
+///
+/// `(let ((l (desig:a location (pose nil)))) (eq l (desig:reset l)))` => `T`
+#[builtin]
+fn reset(image: &mut Image, designator: &Value) -> Result<Value> {
+    super::location::reset(image, designator)?;
+    Ok(designator.clone())
+}
+
+/// The generator of the poses that a location lists, and of those that the rules LOCATION-GROUNDING
+/// give.
+///
+/// `(desig:location-grounding-generator (desig:a location (poses (1 2))))` => `(1 2)`
+#[builtin]
+fn location_grounding_generator(machine: &mut Machine<'_>, designator: Value) -> Result<Step> {
+    run(machine, GROUNDING, |calls| async move {
+        super::location::groundings(&calls, &designator).await
+    })
+}
 
 enum Change {
     Delete,
@@ -221,3 +208,22 @@ pub(super) fn most_retries(image: &mut Image) -> i64 {
         _ => RETRIES,
     }
 }
+
+/// Functions of package `SYSTEM`: what the macros that register generators and validators expand into.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![add_location_generator, add_location_validator,];
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    delete_location_generator_function,
+    enable_location_generator_function,
+    disable_location_generator_function,
+    delete_location_validation_function,
+    enable_location_validation_function,
+    disable_location_validation_function,
+    list_location_generator_functions,
+    reset,
+];
+
+/// Functions of package `CRAM-DESIGNATORS` that call rules.
+pub(crate) static CONTROL_TABLE: &[Builtin] = builtins![location_grounding_generator,];

@@ -2,59 +2,64 @@
 //!
 //! Names are compared leniently: `BOTTLE-1`, `:BOTTLE-1` and `"bottle_1"` are the same.
 
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::foreign::PrintContext;
 use lisp::value::known;
 use lisp::value::package::PackageId;
 use lisp::value::raise::Raise;
 
-/// Functions of package `ROSLISP-UTILITIES`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "ROSIFY-UNDERSCORES-LISP-NAME",
-        "name",
-        "The name of a symbol in lower case with underscores.",
-        &["(roslisp-utilities:rosify-underscores-lisp-name 'bottle-1) => \"bottle_1\""],
-        |image, args| Ok(Value::string(rosify(&text(image, &args[0])?))),
-    ),
-    pure(
-        "ROSIFY-LISP-NAME",
-        "name",
-        "The name of a symbol as in camel case: bottleOne.",
-        &["(roslisp-utilities:rosify-lisp-name 'bottle-one) => \"bottleOne\""],
-        |image, args| Ok(Value::string(camel(&text(image, &args[0])?))),
-    ),
-    pure(
-        "LISPIFY-ROS-UNDERSCORE-NAME",
-        "name &optional package",
-        "The symbol of a name with underscores; in the package, or a keyword.",
-        &["(roslisp-utilities:lispify-ros-underscore-name \"bottle_1\") => :BOTTLE-1"],
-        |image, args| {
-            let name = canonical(&text(image, &args[0])?);
-            let sym = match args.get(1).and_then(|p| package(image, p)) {
-                Some(package) => image.intern(package, &name),
-                None => image.keyword(&name),
-            };
-            Ok(sym.into())
-        },
-    ),
-    pure(
-        "LISPIFY-ROS-NAME",
-        "name &optional package",
-        "The symbol of a name in camel case; in the package, or a keyword.",
-        &["(roslisp-utilities:lispify-ros-name \"bottleOne\") => :BOTTLE-ONE"],
-        |image, args| {
-            let name = uncamel(&text(image, &args[0])?);
-            let sym = match args.get(1).and_then(|p| package(image, p)) {
-                Some(package) => image.intern(package, &name),
-                None => image.keyword(&name),
-            };
-            Ok(sym.into())
-        },
-    ),
-];
+/// The name of a symbol in lower case with underscores.
+///
+/// `(roslisp-utilities:rosify-underscores-lisp-name 'bottle-1)` => `"bottle_1"`
+#[builtin]
+fn rosify_underscores_lisp_name(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::string(rosify(&text(image, name)?)))
+}
+
+/// The name of a symbol as in camel case: bottleOne.
+///
+/// `(roslisp-utilities:rosify-lisp-name 'bottle-one)` => `"bottleOne"`
+#[builtin]
+fn rosify_lisp_name(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::string(camel(&text(image, name)?)))
+}
+
+/// The symbol of a name with underscores; in the package, or a keyword.
+///
+/// `(roslisp-utilities:lispify-ros-underscore-name "bottle_1")` => `:BOTTLE-1`
+#[builtin(_, "name &optional package")]
+fn lispify_ros_underscore_name(
+    image: &mut Image,
+    name: &Value,
+    package_value: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let name = canonical(&text(image, name)?);
+    let sym = match package_value.and_then(|p| package(image, p)) {
+        Some(package) => image.intern(package, &name),
+        None => image.keyword(&name),
+    };
+    Ok(sym.into())
+}
+
+/// The symbol of a name in camel case; in the package, or a keyword.
+///
+/// `(roslisp-utilities:lispify-ros-name "bottleOne")` => `:BOTTLE-ONE`
+#[builtin(_, "name &optional package")]
+fn lispify_ros_name(
+    image: &mut Image,
+    name: &Value,
+    package_value: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let name = uncamel(&text(image, name)?);
+    let sym = match package_value.and_then(|p| package(image, p)) {
+        Some(package) => image.intern(package, &name),
+        None => image.keyword(&name),
+    };
+    Ok(sym.into())
+}
 
 fn text(image: &Image, name: &Value) -> Result<String, Box<Raise>> {
     name_text(image, name).ok_or_else(|| Raise::type_error(name, known::SYMBOL))
@@ -114,3 +119,11 @@ fn uncamel(name: &str) -> String {
     }
     out
 }
+
+/// Functions of package `ROSLISP-UTILITIES`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    rosify_underscores_lisp_name,
+    rosify_lisp_name,
+    lispify_ros_underscore_name,
+    lispify_ros_name,
+];

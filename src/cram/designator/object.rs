@@ -5,8 +5,9 @@ use super::value;
 use super::value::{Class, Designator, Quantifier};
 use crate::packages;
 use crate::pose::value::{pose_stamped, transform_stamped};
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
@@ -14,23 +15,17 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 use spatial::Pose;
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "OBJECT-IDENTIFIER",
-        "data",
-        "The name in the world of what a perceived object's designator refers to.",
-        &[],
-        |image, args| Ok(object_data(image, &args[0])?.identifier.clone()),
-    ),
-    pure(
-        "OBJECT-POSE",
-        "data",
-        "The pose of a perceived object in the robot's base frame when it was seen.",
-        &[],
-        |image, args| Ok(object_data(image, &args[0])?.pose.clone()),
-    ),
-];
+/// The name in the world of what a perceived object's designator refers to.
+#[builtin]
+fn object_identifier(image: &mut Image, data: &Value) -> Result<Value, Box<Raise>> {
+    Ok(object_data(image, data)?.identifier.clone())
+}
+
+/// The pose of a perceived object in the robot's base frame when it was seen.
+#[builtin]
+fn object_pose(image: &mut Image, data: &Value) -> Result<Value, Box<Raise>> {
+    Ok(object_data(image, data)?.pose.clone())
+}
 
 /// The data that the designator of a perceived object refers to.
 pub(crate) struct ObjectData {
@@ -140,3 +135,6 @@ pub(crate) fn pose_property(image: &Image, object: &Value, key: &str) -> Option<
         })
         .map(|p| p.cdr_or_nil().car_or_nil())
 }
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = builtins![object_identifier, object_pose,];

@@ -15,11 +15,12 @@ use super::value;
 use super::value::{Class, Designator};
 use crate::open_action::OpenAction;
 use crate::{Result, packages};
-use lisp::builtin::{Builtin, control, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::print;
 use lisp::source::Place;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::function::Body;
@@ -30,44 +31,25 @@ use lisp::vm::calls::{Annotation, Args, Calls, run};
 use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
-/// Functions of package `CRAM-EXECUTIVE`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "PERFORM",
-        "designator",
-        "Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an action (type going) (target ?location)))).",
-        &[],
-        |machine, args| perform(machine, &args[0]),
-    ),
-    control(
-        "GENERIC-PERFORM",
-        "designator",
-        "The same as PERFORM.",
-        &[],
-        |machine, args| perform(machine, &args[0]),
-    ),
-];
+/// Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an
+/// action (type going) (target ?location)))).
+#[builtin("PERFORM")]
+fn perform_builtin(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
+    perform(machine, designator)
+}
 
-/// Functions of package `SYSTEM`, for `plan/library/tracing.lisp`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "%PERFORM",
-        "designator",
-        "PERFORM for what is not traced.",
-        &[],
-        |machine, args| {
-            let class = class_to_perform(machine.image, &args[0])?;
-            perform_untraced(machine, class, &args[0])
-        },
-    ),
-    pure(
-        "%TYPES-NAMED",
-        "name",
-        "The types of actions and motions with that name or alias, as strings.",
-        &[],
-        types_named,
-    ),
-];
+/// The same as PERFORM.
+#[builtin]
+fn generic_perform(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
+    perform(machine, designator)
+}
+
+/// PERFORM for what is not traced.
+#[builtin("%PERFORM")]
+fn perform3(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
+    let class = class_to_perform(machine.image, designator)?;
+    perform_untraced(machine, class, designator)
+}
 
 /// Whether a plan is running, that is, whether this fiber is a task.
 fn is_in_plan(image: &mut Image) -> bool {
@@ -76,8 +58,10 @@ fn is_in_plan(image: &mut Image) -> bool {
     !value.is_unbound() && value.is_true()
 }
 
-fn types_named(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
+/// The types of actions and motions with that name or alias, as strings.
+#[builtin("%TYPES-NAMED", "name")]
+fn types_named(image: &mut Image, name_value: &Value) -> Result<Value> {
+    let Some(name) = name_value.as_symbol() else {
         return Ok(Value::NIL);
     };
     let name = image.name(name).to_uppercase();
@@ -444,3 +428,9 @@ fn with_place(image: &mut Image, motion: &Designator, old: &Value, new: &Value) 
     let resolved = Designator::new(image, motion.class, motion.quantifier, description);
     Value::foreign(resolved)
 }
+
+/// Functions of package `CRAM-EXECUTIVE`.
+pub(crate) static TABLE: &[Builtin] = builtins![perform_builtin, generic_perform,];
+
+/// Functions of package `SYSTEM`, for `plan/library/tracing.lisp`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![perform3, types_named,];

@@ -14,9 +14,10 @@ use crate::prolog::builtins::solve;
 use crate::prolog::engine::Engine;
 use crate::prolog::facts;
 use crate::{Result, packages};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -28,42 +29,27 @@ use lisp::vm::step::Step;
 /// Maximum number of groundings of one designator that are searched for.
 const MOST_GROUNDINGS: usize = 64;
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "REFERENCE",
-        "designator",
-        "What the designator stands for: an action's plan with its arguments, a motion's command, a location's pose, what is known of a perceived object.",
-        &[
-            "(desig:reference (desig:an action (type parking-arms))) => (CRAM-MOBILE-PICK-PLACE-PLANS::PARKING-ARMS)",
-        ],
-        |machine, args| {
-            run(machine, "REFERENCE", |calls| async move {
-                reference(&calls, &args[0]).await
-            })
-        },
-    ),
-    control(
-        "NEXT-SOLUTION",
-        "designator",
-        "A designator like this one with the next thing that it may stand for, equated; NIL if there is none.",
-        &["(desig:next-solution (desig:an object)) => NIL"],
-        |machine, args| {
-            run(machine, "NEXT-SOLUTION", |calls| async move {
-                next_solution(&calls, &args[0]).await
-            })
-        },
-    ),
-];
+/// What the designator stands for: an action's plan with its arguments, a motion's command, a
+/// location's pose, what is known of a perceived object.
+///
+/// `(desig:reference (desig:an action (type parking-arms)))` => `(CRAM-MOBILE-PICK-PLACE-PLANS::PARKING-ARMS)`
+#[builtin("REFERENCE")]
+fn reference_builtin(machine: &mut Machine<'_>, designator: Value) -> Result<Step> {
+    run(machine, "REFERENCE", |calls| async move {
+        reference(&calls, &designator).await
+    })
+}
 
-/// Functions of package `CRAM-EXECUTIVE`.
-pub(crate) static EXECUTIVE_TABLE: &[Builtin] = &[control(
-    "TRY-REFERENCE-DESIGNATOR",
-    "designator &optional message",
-    "Like REFERENCE; a plan failure if the designator stands for nothing.",
-    &[],
-    try_reference,
-)];
+/// A designator like this one with the next thing that it may stand for, equated; NIL if there is
+/// none.
+///
+/// `(desig:next-solution (desig:an object))` => `NIL`
+#[builtin("NEXT-SOLUTION")]
+fn next_solution_builtin(machine: &mut Machine<'_>, designator: Value) -> Result<Step> {
+    run(machine, "NEXT-SOLUTION", |calls| async move {
+        next_solution(&calls, &designator).await
+    })
+}
 
 /// Resolves a designator.
 pub async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
@@ -246,10 +232,15 @@ pub(crate) fn same_description(image: &mut Image, target: &Designator) -> Value 
     Value::foreign(new)
 }
 
-/// `reference` with plan failures instead of designator errors.
-fn try_reference(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let designator = args[0].clone();
-    let message = args.get(1).and_then(Value::as_text).unwrap_or_default();
+/// Like REFERENCE; a plan failure if the designator stands for nothing.
+// `reference` with plan failures instead of designator errors.
+#[builtin("TRY-REFERENCE-DESIGNATOR", "designator &optional message")]
+fn try_reference(
+    machine: &mut Machine<'_>,
+    designator: Value,
+    message_value: Option<&Value>,
+) -> Result<Step> {
+    let message = message_value.and_then(Value::as_text).unwrap_or_default();
     let class = value::designator(machine.image, &designator)?.class;
     run(machine, "REFERENCE", |calls| async move {
         // The search for a location signals the same failure itself.
@@ -283,3 +274,9 @@ pub(crate) fn as_failure(
         _ => raise,
     }
 }
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = builtins![reference_builtin, next_solution_builtin,];
+
+/// Functions of package `CRAM-EXECUTIVE`.
+pub(crate) static EXECUTIVE_TABLE: &[Builtin] = builtins![try_reference,];

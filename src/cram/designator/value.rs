@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use crate::packages;
 use lisp::image::Image;
+use lisp::typed::FromValue;
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::cycles;
@@ -173,6 +174,12 @@ pub fn as_designator(value: &Value) -> Option<&Designator> {
 /// The designator of a class, if the value is one.
 pub fn as_class(value: &Value, class: Class) -> Option<&Designator> {
     as_designator(value).filter(|d| d.class == class)
+}
+
+impl<'a> FromValue<'a> for &'a Designator {
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        designator(image, value)
+    }
 }
 
 /// The designator, or a type error.

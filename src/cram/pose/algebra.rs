@@ -6,186 +6,156 @@ use super::argument;
 use super::argument::Result;
 use super::value;
 use super::value::{Quaternion, Vector3};
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use spatial::trig;
 
-/// Functions of package `CL-TRANSFORMS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "V+",
-        "vector &rest vectors",
-        "The sum of vectors.",
-        &[
-            "(cl-transforms:v+ (cl-transforms:make-3d-vector 1 2 3) (cl-transforms:make-3d-vector 1 0 0)) => #<3D-VECTOR (2.0d0 2.0d0 3.0d0)>",
-        ],
-        |image, args| fold(image, args, |a, b| a + b),
-    ),
-    pure(
-        "V-",
-        "vector &rest vectors",
-        "The first vector less the others; of one vector, its opposite.",
-        &[
-            "(cl-tf:v- (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 1 1)) => #<3D-VECTOR (0.0d0 1.0d0 2.0d0)>",
-        ],
-        |image, args| match args {
-            [only] => {
-                let v = column(image, only)?;
-                Ok(vector(-v))
-            }
-            _ => fold(image, args, |a, b| a - b),
-        },
-    ),
-    pure(
-        "V*",
-        "vector factor",
-        "The vector times a number.",
-        &[
-            "(cl-transforms:v* (cl-transforms:make-3d-vector 1 2 3) 2) => #<3D-VECTOR (2.0d0 4.0d0 6.0d0)>",
-        ],
-        |image, args| Ok(vector(column(image, &args[0])? * argument::real(&args[1])?)),
-    ),
-    pure(
-        "V-INV",
-        "vector",
-        "The opposite vector.",
-        &["(cl-tf:v-inv (cl-tf:make-3d-vector 1 2 3)) => #<3D-VECTOR (-1.0d0 -2.0d0 -3.0d0)>"],
-        |image, args| Ok(vector(-column(image, &args[0])?)),
-    ),
-    pure(
-        "V-NORM",
-        "vector",
-        "The length of a vector (m).",
-        &["(cl-transforms:v-norm (cl-transforms:make-3d-vector 3 4 0)) => 5.0d0"],
-        |image, args| Ok(Value::Double(column(image, &args[0])?.norm())),
-    ),
-    pure(
-        "V-DIST",
-        "vector other",
-        "The distance between two points (m).",
-        &[
-            "(cl-transforms:v-dist (cl-transforms:make-3d-vector 1 0 0) (cl-transforms:make-3d-vector 1 2 0)) => 2.0d0",
-        ],
-        |image, args| {
-            let difference = column(image, &args[0])? - column(image, &args[1])?;
-            Ok(Value::Double(difference.norm()))
-        },
-    ),
-    pure(
-        "DOT-PRODUCT",
-        "vector other",
-        "The scalar product of two vectors.",
-        &[
-            "(cl-tf:dot-product (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 2 3)) => 14.0d0",
-        ],
-        |image, args| {
-            let product = column(image, &args[0])?.dot(&column(image, &args[1])?);
-            Ok(Value::Double(product))
-        },
-    ),
-    pure(
-        "CROSS-PRODUCT",
-        "vector other",
-        "The vector product of two vectors.",
-        &[
-            "(cl-tf:cross-product (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-3d-vector 0 1 0)) => #<3D-VECTOR (0.0d0 0.0d0 1.0d0)>",
-        ],
-        |image, args| {
-            let product = column(image, &args[0])?.cross(&column(image, &args[1])?);
-            Ok(vector(product))
-        },
-    ),
-    pure(
-        "Q+",
-        "quaternion &rest quaternions",
-        "The sum of quaternions.",
-        &[
-            "(cl-tf:q+ (cl-tf:make-identity-rotation) (cl-tf:make-identity-rotation)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 2.0d0)>",
-        ],
-        |image, args| {
-            let mut sum = [0.0; 4];
-            for arg in args {
-                let Quaternion(q) = argument::quaternion(image, arg)?;
-                sum.iter_mut().zip(q).for_each(|(s, x)| *s += x);
-            }
-            Ok(value::quaternion(sum))
-        },
-    ),
-    pure(
-        "Q*",
-        "quaternion &rest quaternions",
-        "The product of quaternions: the last rotation is applied first.",
-        &[
-            "(cl-transforms:q* (cl-transforms:make-quaternion 0 0 1 0) (cl-transforms:make-quaternion 0 0 1 0)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 -1.0d0)>",
-        ],
-        |image, args| {
-            let mut product = hamilton(image, &args[0])?;
-            for arg in &args[1..] {
-                product *= hamilton(image, arg)?;
-            }
-            Ok(quaternion(&product))
-        },
-    ),
-    pure(
-        "Q-INV",
-        "quaternion",
-        "The quaternion of the opposite rotation.",
-        &[
-            "(cl-tf:q-inv (cl-tf:make-quaternion 0 0 1 0)) => #<QUATERNION (-0.0d0 -0.0d0 -1.0d0 0.0d0)>",
-        ],
-        |image, args| {
-            let q = hamilton(image, &args[0])?;
-            Ok(quaternion(&q.try_inverse().unwrap_or(q)))
-        },
-    ),
-    pure(
-        "Q-NORM",
-        "quaternion",
-        "The length of a quaternion.",
-        &["(cl-transforms:q-norm (cl-transforms:make-quaternion 0 0 3 4)) => 5.0d0"],
-        |image, args| Ok(Value::Double(hamilton(image, &args[0])?.norm())),
-    ),
-    pure(
-        "NORMALIZE",
-        "quaternion",
-        "The quaternion at length 1.",
-        &[
-            "(cl-transforms:normalize (cl-transforms:make-quaternion 0 0 0 2)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
-        ],
-        |image, args| {
-            let rotation = argument::quaternion(image, &args[0])?.rotation();
-            Ok(value::quaternion(Quaternion::of(&rotation).0))
-        },
-    ),
-    pure(
-        "ROTATE",
-        "quaternion vector",
-        "The vector rotated.",
-        &[
-            "(cl-tf:rotate (cl-tf:make-quaternion 0 0 1 0) (cl-tf:make-3d-vector 1 2 3)) => #<3D-VECTOR (-1.0d0 -2.0d0 3.0d0)>",
-        ],
-        |image, args| {
-            let rotation = argument::quaternion(image, &args[0])?.rotation();
-            Ok(vector(rotation * column(image, &args[1])?))
-        },
-    ),
-    pure(
-        "ANGLE-BETWEEN-QUATERNIONS",
-        "quaternion other",
-        "The angle between two orientations (rad, 0 to pi).",
-        &[
-            "(cl-tf:angle-between-quaternions (cl-tf:make-identity-rotation) (cl-tf:make-quaternion 0 0 1 0)) => 3.141592653589793d0",
-        ],
-        |image, args| {
-            let a = argument::quaternion(image, &args[0])?.rotation();
-            let b = argument::quaternion(image, &args[1])?.rotation();
-            let d = a.inverse() * b;
-            let angle = 2.0 * trig::atan2(d.imag().norm(), d.w.abs());
-            Ok(Value::Double(angle))
-        },
-    ),
-];
+/// The sum of vectors.
+///
+/// `(cl-transforms:v+ (cl-transforms:make-3d-vector 1 2 3) (cl-transforms:make-3d-vector 1 0 0))` => `#<3D-VECTOR (2.0d0 2.0d0 3.0d0)>`
+#[builtin("V+", "vector &rest vectors")]
+fn v_plus(image: &mut Image, vectors: &[Value]) -> Result<Value> {
+    fold(image, vectors, |a, b| a + b)
+}
+
+/// The first vector less the others; of one vector, its opposite.
+///
+/// `(cl-tf:v- (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 1 1))` => `#<3D-VECTOR (0.0d0 1.0d0 2.0d0)>`
+#[builtin("V-", "vector &rest vectors")]
+fn v(image: &mut Image, vectors: &[Value]) -> Result<Value> {
+    match vectors {
+        [only] => {
+            let v = column(image, only)?;
+            Ok(vector(-v))
+        }
+        _ => fold(image, vectors, |a, b| a - b),
+    }
+}
+
+/// The vector times a number.
+///
+/// `(cl-transforms:v* (cl-transforms:make-3d-vector 1 2 3) 2)` => `#<3D-VECTOR (2.0d0 4.0d0 6.0d0)>`
+#[builtin("V*", "vector factor")]
+fn v_builtin(image: &mut Image, vector_value: &Value, factor: f64) -> Result<Value> {
+    Ok(vector(column(image, vector_value)? * factor))
+}
+
+/// The opposite vector.
+///
+/// `(cl-tf:v-inv (cl-tf:make-3d-vector 1 2 3))` => `#<3D-VECTOR (-1.0d0 -2.0d0 -3.0d0)>`
+#[builtin(_, "vector")]
+fn v_inv(image: &mut Image, vector_value: &Value) -> Result<Value> {
+    Ok(vector(-column(image, vector_value)?))
+}
+
+/// The length of a vector (m).
+///
+/// `(cl-transforms:v-norm (cl-transforms:make-3d-vector 3 4 0))` => `5.0d0`
+#[builtin]
+fn v_norm(image: &mut Image, vector: &Value) -> Result<Value> {
+    Ok(Value::Double(column(image, vector)?.norm()))
+}
+
+/// The distance between two points (m).
+///
+/// `(cl-transforms:v-dist (cl-transforms:make-3d-vector 1 0 0) (cl-transforms:make-3d-vector 1 2 0))` => `2.0d0`
+#[builtin]
+fn v_dist(image: &mut Image, vector: &Value, other: &Value) -> Result<Value> {
+    let difference = column(image, vector)? - column(image, other)?;
+    Ok(Value::Double(difference.norm()))
+}
+
+/// The scalar product of two vectors.
+///
+/// `(cl-tf:dot-product (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 2 3))` => `14.0d0`
+#[builtin]
+fn dot_product(image: &mut Image, vector: &Value, other: &Value) -> Result<Value> {
+    let product = column(image, vector)?.dot(&column(image, other)?);
+    Ok(Value::Double(product))
+}
+
+/// The vector product of two vectors.
+///
+/// `(cl-tf:cross-product (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-3d-vector 0 1 0))` => `#<3D-VECTOR (0.0d0 0.0d0 1.0d0)>`
+#[builtin(_, "vector other")]
+fn cross_product(image: &mut Image, vector_value: &Value, other: &Value) -> Result<Value> {
+    let product = column(image, vector_value)?.cross(&column(image, other)?);
+    Ok(vector(product))
+}
+
+/// The sum of quaternions.
+///
+/// `(cl-tf:q+ (cl-tf:make-identity-rotation) (cl-tf:make-identity-rotation))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 2.0d0)>`
+#[builtin("Q+", "quaternion &rest quaternions")]
+fn q_plus(image: &mut Image, quaternions: &[Value]) -> Result<Value> {
+    let mut sum = [0.0; 4];
+    for arg in quaternions {
+        let Quaternion(q) = argument::quaternion(image, arg)?;
+        sum.iter_mut().zip(q).for_each(|(s, x)| *s += x);
+    }
+    Ok(value::quaternion(sum))
+}
+
+/// The product of quaternions: the last rotation is applied first.
+///
+/// `(cl-transforms:q* (cl-transforms:make-quaternion 0 0 1 0) (cl-transforms:make-quaternion 0 0 1 0))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 -1.0d0)>`
+#[builtin("Q*", "quaternion &rest quaternions")]
+fn q(image: &mut Image, quaternion_value: &Value, quaternions: &[Value]) -> Result<Value> {
+    let mut product = hamilton(image, quaternion_value)?;
+    for arg in quaternions {
+        product *= hamilton(image, arg)?;
+    }
+    Ok(quaternion(&product))
+}
+
+/// The quaternion of the opposite rotation.
+///
+/// `(cl-tf:q-inv (cl-tf:make-quaternion 0 0 1 0))` => `#<QUATERNION (-0.0d0 -0.0d0 -1.0d0 0.0d0)>`
+#[builtin(_, "quaternion")]
+fn q_inv(image: &mut Image, quaternion_value: &Value) -> Result<Value> {
+    let q = hamilton(image, quaternion_value)?;
+    Ok(quaternion(&q.try_inverse().unwrap_or(q)))
+}
+
+/// The length of a quaternion.
+///
+/// `(cl-transforms:q-norm (cl-transforms:make-quaternion 0 0 3 4))` => `5.0d0`
+#[builtin]
+fn q_norm(image: &mut Image, quaternion: &Value) -> Result<Value> {
+    Ok(Value::Double(hamilton(image, quaternion)?.norm()))
+}
+
+/// The quaternion at length 1.
+///
+/// `(cl-transforms:normalize (cl-transforms:make-quaternion 0 0 0 2))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin]
+fn normalize(quaternion: Quaternion) -> Result<Value> {
+    let rotation = quaternion.rotation();
+    Ok(value::quaternion(Quaternion::of(&rotation).0))
+}
+
+/// The vector rotated.
+///
+/// `(cl-tf:rotate (cl-tf:make-quaternion 0 0 1 0) (cl-tf:make-3d-vector 1 2 3))` => `#<3D-VECTOR (-1.0d0 -2.0d0 3.0d0)>`
+#[builtin(_, "quaternion vector")]
+fn rotate(image: &mut Image, quaternion: Quaternion, vector_value: &Value) -> Result<Value> {
+    let rotation = quaternion.rotation();
+    Ok(vector(rotation * column(image, vector_value)?))
+}
+
+/// The angle between two orientations (rad, 0 to pi).
+///
+/// `(cl-tf:angle-between-quaternions (cl-tf:make-identity-rotation) (cl-tf:make-quaternion 0 0 1 0))` => `3.141592653589793d0`
+#[builtin]
+fn angle_between_quaternions(quaternion: Quaternion, other: Quaternion) -> Result<Value> {
+    let a = quaternion.rotation();
+    let b = other.rotation();
+    let d = a.inverse() * b;
+    let angle = 2.0 * trig::atan2(d.imag().norm(), d.w.abs());
+    Ok(Value::Double(angle))
+}
 
 fn column(image: &Image, argument: &Value) -> Result<Column<f64>> {
     let Vector3(xyz) = argument::vector(image, argument)?;
@@ -216,3 +186,22 @@ fn fold(
     }
     Ok(vector(result))
 }
+
+/// Functions of package `CL-TRANSFORMS`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    v_plus,
+    v,
+    v_builtin,
+    v_inv,
+    v_norm,
+    v_dist,
+    dot_product,
+    cross_product,
+    q_plus,
+    q,
+    q_inv,
+    q_norm,
+    normalize,
+    rotate,
+    angle_between_quaternions,
+];

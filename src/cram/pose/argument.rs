@@ -5,6 +5,7 @@ use super::value;
 use super::value::{Placement, Quaternion, Vector3};
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::FromValue;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
@@ -12,6 +13,33 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
 pub type Result<T> = std::result::Result<T, Box<Raise>>;
+
+impl FromValue<'_> for Vector3 {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        vector(image, value)
+    }
+}
+
+impl FromValue<'_> for Quaternion {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        quaternion(image, value)
+    }
+}
+
+impl FromValue<'_> for Placement {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        placement(image, value)
+    }
+}
+
+/// The name of a frame.
+pub(crate) struct FrameName(pub(crate) String);
+
+impl FromValue<'_> for FrameName {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
+        frame(value).map(FrameName)
+    }
+}
 
 /// A real number.
 pub fn real(value: &Value) -> Result<f64> {

@@ -5,203 +5,163 @@ use super::argument::Result;
 use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
-use lisp::builtin::{Builtin, pure};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
-/// Functions of package `CL-TRANSFORMS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-3D-VECTOR",
-        "x y z",
-        "A vector (m).",
-        &["(cl-transforms:make-3d-vector 1 0.5 0) => #<3D-VECTOR (1.0d0 0.5d0 0.0d0)>"],
-        |_, args| {
-            let xyz = [
-                argument::real(&args[0])?,
-                argument::real(&args[1])?,
-                argument::real(&args[2])?,
-            ];
-            Ok(value::vector(xyz))
-        },
-    ),
-    pure(
-        "MAKE-IDENTITY-VECTOR",
-        "",
-        "The vector of three zeros.",
-        &["(cl-transforms:make-identity-vector) => #<3D-VECTOR (0.0d0 0.0d0 0.0d0)>"],
-        |_, _| Ok(value::vector([0.0; 3])),
-    ),
-    pure(
-        "MAKE-QUATERNION",
-        "x y z w",
-        "A quaternion; it is kept as given and normalised when it is computed with.",
-        &["(cl-transforms:make-quaternion 0 0 0 1) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>"],
-        |_, args| {
-            let xyzw = [
-                argument::real(&args[0])?,
-                argument::real(&args[1])?,
-                argument::real(&args[2])?,
-                argument::real(&args[3])?,
-            ];
-            Ok(value::quaternion(xyzw))
-        },
-    ),
-    pure(
-        "MAKE-IDENTITY-ROTATION",
-        "",
-        "The quaternion of no rotation.",
-        &["(cl-transforms:make-identity-rotation) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>"],
-        |_, _| Ok(value::quaternion(Quaternion::IDENTITY.0)),
-    ),
-    pure(
-        "MAKE-POSE",
-        "origin orientation",
-        "A pose in no frame.",
-        &[
-            "(cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |image, args| Ok(value::pose(parts(image, args)?)),
-    ),
-    pure(
-        "MAKE-IDENTITY-POSE",
-        "",
-        "The pose at the origin.",
-        &[
-            "(cl-tf:make-identity-pose) => #<POSE #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |_, _| Ok(value::pose(Placement::IDENTITY)),
-    ),
-    pure(
-        "MAKE-TRANSFORM",
-        "translation rotation",
-        "A transform between frames that it does not name.",
-        &[
-            "(cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) => #<TRANSFORM #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |image, args| Ok(value::transform(parts(image, args)?)),
-    ),
-    pure(
-        "MAKE-IDENTITY-TRANSFORM",
-        "",
-        "The transform that changes nothing.",
-        &[
-            "(cl-tf:make-identity-transform) => #<TRANSFORM #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |_, _| Ok(value::transform(Placement::IDENTITY)),
-    ),
-    pure(
-        "X",
-        "object",
-        "The x of a vector or quaternion.",
-        &["(cl-transforms:x (cl-transforms:make-3d-vector 1 2 3)) => 1.0d0"],
-        |image, args| component(image, &args[0], 0),
-    ),
-    pure(
-        "Y",
-        "object",
-        "The y of a vector or quaternion.",
-        &["(cl-transforms:y (cl-transforms:make-3d-vector 1 2 3)) => 2.0d0"],
-        |image, args| component(image, &args[0], 1),
-    ),
-    pure(
-        "Z",
-        "object",
-        "The z of a vector or quaternion.",
-        &["(cl-transforms:z (cl-transforms:make-3d-vector 1 2 3)) => 3.0d0"],
-        |image, args| component(image, &args[0], 2),
-    ),
-    pure(
-        "W",
-        "quaternion",
-        "The w of a quaternion.",
-        &["(cl-transforms:w (cl-transforms:make-quaternion 0 0 0 1)) => 1.0d0"],
-        |image, args| component(image, &args[0], 3),
-    ),
-    pure(
-        "ORIGIN",
-        "pose",
-        "The position of a pose (m).",
-        &[
-            "(cl-transforms:origin (cl-transforms:make-identity-pose)) => #<3D-VECTOR (0.0d0 0.0d0 0.0d0)>",
-        ],
-        |_, args| position(&args[0], names::POSE),
-    ),
-    pure(
-        "ORIENTATION",
-        "pose",
-        "The orientation of a pose.",
-        &[
-            "(cl-transforms:orientation (cl-transforms:make-identity-pose)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
-        ],
-        |_, args| orientation(&args[0], names::POSE),
-    ),
-    pure(
-        "TRANSLATION",
-        "transform",
-        "The translation of a transform (m).",
-        &[
-            "(cl-transforms:translation (cl-transforms:make-identity-transform)) => #<3D-VECTOR (0.0d0 0.0d0 0.0d0)>",
-        ],
-        |_, args| position(&args[0], names::TRANSFORM),
-    ),
-    pure(
-        "ROTATION",
-        "transform",
-        "The rotation of a transform.",
-        &[
-            "(cl-transforms:rotation (cl-transforms:make-identity-transform)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
-        ],
-        |_, args| orientation(&args[0], names::TRANSFORM),
-    ),
-    pure(
-        "COPY-3D-VECTOR",
-        "vector &key x y z",
-        "A vector with some numbers changed.",
-        &[
-            "(cl-transforms:copy-3d-vector (cl-transforms:make-3d-vector 1 2 3) :z 0) => #<3D-VECTOR (1.0d0 2.0d0 0.0d0)>",
-        ],
-        copy_vector,
-    ),
-    pure(
-        "COPY-QUATERNION",
-        "quaternion &key x y z w",
-        "A quaternion with some numbers changed.",
-        &[
-            "(cl-tf:copy-quaternion (cl-tf:make-quaternion 0 0 1 0) :x 1 :z 0) => #<QUATERNION (1.0d0 0.0d0 0.0d0 0.0d0)>",
-        ],
-        copy_quaternion,
-    ),
-    pure(
-        "COPY-POSE",
-        "pose &key origin orientation",
-        "A pose with another position or orientation.",
-        &[
-            "(cl-tf:copy-pose (cl-tf:make-identity-pose) :origin (cl-tf:make-3d-vector 1 2 3)) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |image, args| {
-            let old = argument::placement(image, &args[0])?;
-            let names = [image.keyword("ORIGIN"), image.keyword("ORIENTATION")];
-            Ok(value::pose(changed(image, old, &args[1..], names)?))
-        },
-    ),
-    pure(
-        "COPY-TRANSFORM",
-        "transform &key translation rotation",
-        "A transform with another translation or rotation.",
-        &[
-            "(cl-tf:copy-transform (cl-tf:make-identity-transform) :translation (cl-tf:make-3d-vector 1 2 3)) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
-        ],
-        |image, args| {
-            let old = argument::as_kind(&args[0], names::TRANSFORM)?;
-            let names = [image.keyword("TRANSLATION"), image.keyword("ROTATION")];
-            Ok(value::transform(changed(image, old, &args[1..], names)?))
-        },
-    ),
-];
+/// A vector (m).
+///
+/// `(cl-transforms:make-3d-vector 1 0.5 0)` => `#<3D-VECTOR (1.0d0 0.5d0 0.0d0)>`
+#[builtin]
+fn make_3d_vector(x: f64, y: f64, z: f64) -> Result<Value> {
+    let xyz = [x, y, z];
+    Ok(value::vector(xyz))
+}
+
+/// The vector of three zeros.
+///
+/// `(cl-transforms:make-identity-vector)` => `#<3D-VECTOR (0.0d0 0.0d0 0.0d0)>`
+#[builtin(_, "")]
+fn make_identity_vector() -> Result<Value> {
+    Ok(value::vector([0.0; 3]))
+}
+
+/// A quaternion; it is kept as given and normalised when it is computed with.
+///
+/// `(cl-transforms:make-quaternion 0 0 0 1)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin]
+fn make_quaternion(x: f64, y: f64, z: f64, w: f64) -> Result<Value> {
+    let xyzw = [x, y, z, w];
+    Ok(value::quaternion(xyzw))
+}
+
+/// The quaternion of no rotation.
+///
+/// `(cl-transforms:make-identity-rotation)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin(_, "")]
+fn make_identity_rotation() -> Result<Value> {
+    Ok(value::quaternion(Quaternion::IDENTITY.0))
+}
+
+/// A pose in no frame.
+///
+/// `(cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))` => `#<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "origin orientation")]
+fn make_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
+    Ok(value::pose(parts(image, args)?))
+}
+
+/// The pose at the origin.
+///
+/// `(cl-tf:make-identity-pose)` => `#<POSE #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "")]
+fn make_identity_pose() -> Result<Value> {
+    Ok(value::pose(Placement::IDENTITY))
+}
+
+/// A transform between frames that it does not name.
+///
+/// `(cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))` => `#<TRANSFORM #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "translation rotation")]
+fn make_transform(image: &mut Image, args: &[Value]) -> Result<Value> {
+    Ok(value::transform(parts(image, args)?))
+}
+
+/// The transform that changes nothing.
+///
+/// `(cl-tf:make-identity-transform)` => `#<TRANSFORM #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "")]
+fn make_identity_transform() -> Result<Value> {
+    Ok(value::transform(Placement::IDENTITY))
+}
+
+/// The x of a vector or quaternion.
+///
+/// `(cl-transforms:x (cl-transforms:make-3d-vector 1 2 3))` => `1.0d0`
+#[builtin]
+fn x(image: &mut Image, object: &Value) -> Result<Value> {
+    component(image, object, 0)
+}
+
+/// The y of a vector or quaternion.
+///
+/// `(cl-transforms:y (cl-transforms:make-3d-vector 1 2 3))` => `2.0d0`
+#[builtin]
+fn y(image: &mut Image, object: &Value) -> Result<Value> {
+    component(image, object, 1)
+}
+
+/// The z of a vector or quaternion.
+///
+/// `(cl-transforms:z (cl-transforms:make-3d-vector 1 2 3))` => `3.0d0`
+#[builtin]
+fn z(image: &mut Image, object: &Value) -> Result<Value> {
+    component(image, object, 2)
+}
+
+/// The w of a quaternion.
+///
+/// `(cl-transforms:w (cl-transforms:make-quaternion 0 0 0 1))` => `1.0d0`
+#[builtin]
+fn w(image: &mut Image, quaternion: &Value) -> Result<Value> {
+    component(image, quaternion, 3)
+}
+
+/// The position of a pose (m).
+///
+/// `(cl-transforms:origin (cl-transforms:make-identity-pose))` => `#<3D-VECTOR (0.0d0 0.0d0 0.0d0)>`
+#[builtin]
+fn origin(pose: &Value) -> Result<Value> {
+    position(pose, names::POSE)
+}
+
+/// The orientation of a pose.
+///
+/// `(cl-transforms:orientation (cl-transforms:make-identity-pose))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin("ORIENTATION")]
+fn orientation_builtin(pose: &Value) -> Result<Value> {
+    orientation(pose, names::POSE)
+}
+
+/// The translation of a transform (m).
+///
+/// `(cl-transforms:translation (cl-transforms:make-identity-transform))` => `#<3D-VECTOR (0.0d0 0.0d0 0.0d0)>`
+#[builtin]
+fn translation(transform: &Value) -> Result<Value> {
+    position(transform, names::TRANSFORM)
+}
+
+/// The rotation of a transform.
+///
+/// `(cl-transforms:rotation (cl-transforms:make-identity-transform))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin]
+fn rotation(transform: &Value) -> Result<Value> {
+    orientation(transform, names::TRANSFORM)
+}
+
+/// A pose with another position or orientation.
+///
+/// `(cl-tf:copy-pose (cl-tf:make-identity-pose) :origin (cl-tf:make-3d-vector 1 2 3))` => `#<POSE #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "pose &key origin orientation")]
+fn copy_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let old = argument::placement(image, &args[0])?;
+    let names = [image.keyword("ORIGIN"), image.keyword("ORIENTATION")];
+    Ok(value::pose(changed(image, old, &args[1..], names)?))
+}
+
+/// A transform with another translation or rotation.
+///
+/// `(cl-tf:copy-transform (cl-tf:make-identity-transform) :translation (cl-tf:make-3d-vector 1 2 3))` => `#<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
+#[builtin(_, "transform &key translation rotation")]
+fn copy_transform(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let old = argument::as_kind(&args[0], names::TRANSFORM)?;
+    let names = [image.keyword("TRANSLATION"), image.keyword("ROTATION")];
+    Ok(value::transform(changed(image, old, &args[1..], names)?))
+}
 
 /// The placement given by two arguments: position and orientation.
 fn parts(image: &Image, args: &[Value]) -> Result<Placement> {
@@ -255,6 +215,10 @@ fn orientation(argument: &Value, expected: Sym) -> Result<Value> {
     Ok(value::quaternion(xyzw))
 }
 
+/// A vector with some numbers changed.
+///
+/// `(cl-transforms:copy-3d-vector (cl-transforms:make-3d-vector 1 2 3) :z 0)` => `#<3D-VECTOR (1.0d0 2.0d0 0.0d0)>`
+#[builtin("COPY-3D-VECTOR", "vector &key x y z")]
 fn copy_vector(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Vector3(mut xyz) = argument::vector(image, &args[0])?;
     let names = ["X", "Y", "Z"].map(|n| image.keyword(n));
@@ -267,6 +231,10 @@ fn copy_vector(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(value::vector(xyz))
 }
 
+/// A quaternion with some numbers changed.
+///
+/// `(cl-tf:copy-quaternion (cl-tf:make-quaternion 0 0 1 0) :x 1 :z 0)` => `#<QUATERNION (1.0d0 0.0d0 0.0d0 0.0d0)>`
+#[builtin(_, "quaternion &key x y z w")]
 fn copy_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Quaternion(mut xyzw) = argument::quaternion(image, &args[0])?;
     let names = ["X", "Y", "Z", "W"].map(|n| image.keyword(n));
@@ -278,3 +246,27 @@ fn copy_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
     }
     Ok(value::quaternion(xyzw))
 }
+
+/// Functions of package `CL-TRANSFORMS`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    make_3d_vector,
+    make_identity_vector,
+    make_quaternion,
+    make_identity_rotation,
+    make_pose,
+    make_identity_pose,
+    make_transform,
+    make_identity_transform,
+    x,
+    y,
+    z,
+    w,
+    origin,
+    orientation_builtin,
+    translation,
+    rotation,
+    copy_vector,
+    copy_quaternion,
+    copy_pose,
+    copy_transform,
+];

@@ -1,139 +1,102 @@
 //! Quaternions from and to angles, axes and matrices.
 
+use crate::pose::value::Vector3;
 use nalgebra::{Matrix3, Quaternion as Hamilton, Rotation3, UnitQuaternion, Vector3 as Column};
 
 use super::argument;
 use super::argument::Result;
 use super::value;
 use super::value::Quaternion;
-use lisp::builtin::{Builtin, pure};
-use lisp::builtins::keywords;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use spatial::{pose, trig};
 
-/// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "EULER->QUATERNION",
-        "&key ax ay az",
-        "The quaternion of rotations about the fixed axes x, then y, then z (rad).",
-        &["(cl-transforms:euler->quaternion :az 0) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>"],
-        euler_to_quaternion,
-    ),
-    pure(
-        "QUATERNION->EULER",
-        "quaternion &key just-values",
-        "The angles (rad) about x, y and z of a quaternion: a list (:AX x :AY y :AZ z), or three values.",
-        &[
-            "(cl-tf:quaternion->euler (cl-tf:make-identity-rotation)) => (:AX 0.0d0 :AY 0.0d0 :AZ 0.0d0)",
-        ],
-        quaternion_to_euler,
-    ),
-    pure(
-        "AXIS-ANGLE->QUATERNION",
-        "axis angle",
-        "The quaternion of a rotation by an angle (rad) about an axis.",
-        &[
-            "(cl-transforms:axis-angle->quaternion (cl-transforms:make-3d-vector 0 0 1) 0) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
-        ],
-        axis_angle_to_quaternion,
-    ),
-    pure(
-        "QUATERNION->AXIS-ANGLE",
-        "quaternion",
-        "The axis and the angle (rad) of a quaternion, as two values.",
-        &[
-            "(cl-tf:quaternion->axis-angle (cl-tf:make-quaternion 0 0 1 0)) => #<3D-VECTOR (0.0d0 0.0d0 1.0d0)> ; 3.141592653589793d0",
-        ],
-        |image, args| {
-            let q = argument::quaternion(image, &args[0])?.rotation();
-            let length = q.imag().norm();
-            let angle = 2.0 * trig::atan2(length, q.w);
-            let axis = if length > 0.0 {
-                q.imag() / length
-            } else {
-                Column::x()
-            };
-            Ok(Value::values(vec![
-                value::vector([axis.x, axis.y, axis.z]),
-                Value::Double(angle),
-            ]))
-        },
-    ),
-    pure(
-        "MATRIX->QUATERNION",
-        "matrix",
-        "The quaternion of a 3 × 3 rotation matrix: an array, or a list of three rows.",
-        &[
-            "(cl-transforms:matrix->quaternion '((1 0 0) (0 1 0) (0 0 1))) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
-        ],
-        matrix_to_quaternion,
-    ),
-    pure(
-        "QUATERNION->MATRIX",
-        "quaternion",
-        "The rotation matrix of a quaternion as a list of three rows.",
-        &[
-            "(cl-tf:quaternion->matrix (cl-tf:make-identity-rotation)) => ((1.0d0 0.0d0 0.0d0) (0.0d0 1.0d0 0.0d0) (0.0d0 0.0d0 1.0d0))",
-        ],
-        |image, args| {
-            let q = argument::quaternion(image, &args[0])?.rotation();
-            let m = q.to_rotation_matrix();
-            let rows = m
-                .matrix()
-                .row_iter()
-                .map(|row| Value::list([row[0], row[1], row[2]].map(Value::Double)));
-            Ok(Value::list(rows.collect::<Vec<_>>()))
-        },
-    ),
-    pure(
-        "GET-YAW",
-        "quaternion",
-        "The heading of an orientation (rad, -pi to pi).",
-        &["(cl-transforms:get-yaw (cl-transforms:make-identity-rotation)) => 0.0d0"],
-        |image, args| {
-            let rotation = argument::quaternion(image, &args[0])?.rotation();
-            let turned = spatial::Pose::from_parts(Default::default(), rotation);
-            Ok(Value::Double(pose::yaw(&turned)))
-        },
-    ),
-    pure(
-        "NORMALIZE-ANGLE",
-        "angle",
-        "The angle brought into -pi to pi (rad).",
-        &["(cl-transforms:normalize-angle 0) => 0.0d0"],
-        |_, args| Ok(Value::Double(trig::wrap(argument::real(&args[0])?))),
-    ),
-    pure(
-        "SHORTEST-ANGULAR-DISTANCE",
-        "from to",
-        "The shortest turn from one angle to another (rad, -pi to pi).",
-        &["(cl-transforms:shortest-angular-distance 1 1) => 0.0d0"],
-        |_, args| {
-            let difference = argument::real(&args[1])? - argument::real(&args[0])?;
-            Ok(Value::Double(trig::wrap(difference)))
-        },
-    ),
-    pure(
-        "DEGREES->RADIANS",
-        "degrees",
-        "The angle in radians.",
-        &["(cl-transforms:degrees->radians 0) => 0.0d0"],
-        |_, args| Ok(Value::Double(argument::real(&args[0])?.to_radians())),
-    ),
-    pure(
-        "RADIANS->DEGREES",
-        "radians",
-        "The angle in degrees.",
-        &["(cl-transforms:radians->degrees 0) => 0.0d0"],
-        |_, args| Ok(Value::Double(argument::real(&args[0])?.to_degrees())),
-    ),
-];
+/// The axis and the angle (rad) of a quaternion, as two values.
+///
+/// `(cl-tf:quaternion->axis-angle (cl-tf:make-quaternion 0 0 1 0))` => `#<3D-VECTOR (0.0d0 0.0d0 1.0d0)> ; 3.141592653589793d0`
+#[builtin("QUATERNION->AXIS-ANGLE")]
+fn quaternion_to_axis_angle(quaternion: Quaternion) -> Result<Value> {
+    let q = quaternion.rotation();
+    let length = q.imag().norm();
+    let angle = 2.0 * trig::atan2(length, q.w);
+    let axis = if length > 0.0 {
+        q.imag() / length
+    } else {
+        Column::x()
+    };
+    Ok(Value::values(vec![
+        value::vector([axis.x, axis.y, axis.z]),
+        Value::Double(angle),
+    ]))
+}
 
+/// The rotation matrix of a quaternion as a list of three rows.
+///
+/// `(cl-tf:quaternion->matrix (cl-tf:make-identity-rotation))` => `((1.0d0 0.0d0 0.0d0) (0.0d0 1.0d0 0.0d0) (0.0d0 0.0d0 1.0d0))`
+#[builtin("QUATERNION->MATRIX")]
+fn quaternion_to_matrix(quaternion: Quaternion) -> Result<Value> {
+    let q = quaternion.rotation();
+    let m = q.to_rotation_matrix();
+    let rows = m
+        .matrix()
+        .row_iter()
+        .map(|row| Value::list([row[0], row[1], row[2]].map(Value::Double)));
+    Ok(Value::list(rows.collect::<Vec<_>>()))
+}
+
+/// The heading of an orientation (rad, -pi to pi).
+///
+/// `(cl-transforms:get-yaw (cl-transforms:make-identity-rotation))` => `0.0d0`
+#[builtin]
+fn get_yaw(quaternion: Quaternion) -> Result<Value> {
+    let rotation = quaternion.rotation();
+    let turned = spatial::Pose::from_parts(Default::default(), rotation);
+    Ok(Value::Double(pose::yaw(&turned)))
+}
+
+/// The angle brought into -pi to pi (rad).
+///
+/// `(cl-transforms:normalize-angle 0)` => `0.0d0`
+#[builtin]
+fn normalize_angle(angle: f64) -> Result<Value> {
+    Ok(Value::Double(trig::wrap(angle)))
+}
+
+/// The shortest turn from one angle to another (rad, -pi to pi).
+///
+/// `(cl-transforms:shortest-angular-distance 1 1)` => `0.0d0`
+#[builtin]
+fn shortest_angular_distance(from: f64, to: f64) -> Result<Value> {
+    let difference = to - from;
+    Ok(Value::Double(trig::wrap(difference)))
+}
+
+/// The angle in radians.
+///
+/// `(cl-transforms:degrees->radians 0)` => `0.0d0`
+#[builtin("DEGREES->RADIANS")]
+fn degrees_to_radians(degrees: f64) -> Result<Value> {
+    Ok(Value::Double(degrees.to_radians()))
+}
+
+/// The angle in degrees.
+///
+/// `(cl-transforms:radians->degrees 0)` => `0.0d0`
+#[builtin("RADIANS->DEGREES")]
+fn radians_to_degrees(radians: f64) -> Result<Value> {
+    Ok(Value::Double(radians.to_degrees()))
+}
+
+/// The quaternion of rotations about the fixed axes x, then y, then z (rad).
+///
+/// `(cl-transforms:euler->quaternion :az 0)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin("EULER->QUATERNION", "&key ax ay az")]
 fn euler_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
     let names = ["AX", "AY", "AZ"].map(|n| image.keyword(n));
     let given = keywords::parse(image, args, names)?;
@@ -147,7 +110,11 @@ fn euler_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(value::quaternion(Quaternion::of(&turned.rotation).0))
 }
 
-/// Roll, pitch and yaw about fixed axes, from the rotation's matrix.
+/// The angles (rad) about x, y and z of a quaternion: a list (:AX x :AY y :AZ z), or three values.
+///
+/// `(cl-tf:quaternion->euler (cl-tf:make-identity-rotation))` => `(:AX 0.0d0 :AY 0.0d0 :AZ 0.0d0)`
+// Roll, pitch and yaw about fixed axes, from the rotation's matrix.
+#[builtin("QUATERNION->EULER", "quaternion &key just-values")]
 fn quaternion_to_euler(image: &mut Image, args: &[Value]) -> Result<Value> {
     let q = argument::quaternion(image, &args[0])?.rotation();
     let names = [image.keyword("JUST-VALUES")];
@@ -168,9 +135,12 @@ fn quaternion_to_euler(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::list([kx, ax, ky, ay, kz, az]))
 }
 
-fn axis_angle_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let axis = Column::from(argument::vector(image, &args[0])?.0);
-    let angle = argument::real(&args[1])?;
+/// The quaternion of a rotation by an angle (rad) about an axis.
+///
+/// `(cl-transforms:axis-angle->quaternion (cl-transforms:make-3d-vector 0 0 1) 0)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin("AXIS-ANGLE->QUATERNION")]
+fn axis_angle_to_quaternion(axis: Vector3, angle: f64) -> Result<Value> {
+    let axis = Column::from(axis.0);
     let length = axis.norm();
     if length == 0.0 {
         return Err(Raise::simple(
@@ -182,11 +152,15 @@ fn axis_angle_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> 
     Ok(value::quaternion([v.x, v.y, v.z, cos]))
 }
 
-fn matrix_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let numbers = matrix_numbers(&args[0]).ok_or_else(|| {
+/// The quaternion of a 3 × 3 rotation matrix: an array, or a list of three rows.
+///
+/// `(cl-transforms:matrix->quaternion '((1 0 0) (0 1 0) (0 0 1)))` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
+#[builtin("MATRIX->QUATERNION")]
+fn matrix_to_quaternion(image: &mut Image, matrix: &Value) -> Result<Value> {
+    let numbers = matrix_numbers(matrix).ok_or_else(|| {
         Raise::simple(format!(
             "{} is not a rotation matrix: an array or a list of three rows of three numbers was expected.",
-            print::to_string(image, &args[0], true)
+            print::to_string(image, matrix, true)
         ))
     })?;
     let matrix = Matrix3::from_row_slice(&numbers);
@@ -219,3 +193,18 @@ fn matrix_numbers(argument: &Value) -> Option<[f64; 9]> {
     let numbers: Option<Vec<f64>> = items.iter().map(number::to_f64).collect();
     numbers?.try_into().ok()
 }
+
+/// Functions of package `CL-TRANSFORMS`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    euler_to_quaternion,
+    quaternion_to_euler,
+    axis_angle_to_quaternion,
+    quaternion_to_axis_angle,
+    matrix_to_quaternion,
+    quaternion_to_matrix,
+    get_yaw,
+    normalize_angle,
+    shortest_angular_distance,
+    degrees_to_radians,
+    radians_to_degrees,
+];

@@ -2,7 +2,8 @@
 
 use super::engine::{Engine, Progress};
 use super::search::{NextProofs, Search};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::vm::calls::Calls;
@@ -12,38 +13,28 @@ use lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Functions of package `CRAM-PROLOG`.
-pub static TABLE: &[Builtin] = &[control(
-    "PROVE-ONE",
-    "query &optional bindings",
-    "The first proof of a goal, under bindings that are known already: a list that holds its list of bindings; NIL if there is none.",
-    &["(prolog:prove-one '(prolog:member ?x (1 2))) => (((?X . 1)))"],
-    |machine, args| {
-        let engine = begun(machine, &args)?;
-        compute(machine, "PROVE-ONE", Solve::new(engine, 1))
-    },
-)];
+/// The first proof of a goal, under bindings that are known already: a list that holds its list of
+/// bindings; NIL if there is none.
+///
+/// `(prolog:prove-one '(prolog:member ?x (1 2)))` => `(((?X . 1)))`
+#[builtin(_, "query &optional bindings")]
+fn prove_one(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let engine = begun(machine, &args)?;
+    compute(machine, "PROVE-ONE", Solve::new(engine, 1))
+}
 
-/// What the library makes lazy lists of proofs of.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "%BEGIN-SEARCH",
-        "query bindings",
-        "A search for proofs.",
-        &[],
-        |machine, args| {
-            let search = Search::new(begun(machine, &args)?);
-            Ok(Step::Return(Value::foreign(search)))
-        },
-    ),
-    control(
-        "%NEXT-PROOFS",
-        "search",
-        "Its next proofs, after whether there may be more.",
-        &[],
-        |machine, args| compute(machine, "PROLOG", NextProofs::of(args[0].clone())),
-    ),
-];
+/// A search for proofs.
+#[builtin("%BEGIN-SEARCH", "query bindings")]
+fn begin_search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let search = Search::new(begun(machine, &args)?);
+    Ok(Step::Return(Value::foreign(search)))
+}
+
+/// Its next proofs, after whether there may be more.
+#[builtin("%NEXT-PROOFS")]
+fn next_proofs(machine: &mut Machine<'_>, search: Value) -> Result<Step> {
+    compute(machine, "PROLOG", NextProofs::of(search))
+}
 
 fn begun(machine: &mut Machine<'_>, args: &[Value]) -> Result<Engine> {
     let known = args.get(1).cloned().unwrap_or(Value::NIL);
@@ -103,3 +94,9 @@ impl Computation for Solve {
         Ok(computation::Progress::Done(found))
     }
 }
+
+/// Functions of package `CRAM-PROLOG`.
+pub(crate) static TABLE: &[Builtin] = builtins![prove_one,];
+
+/// What the library makes lazy lists of proofs of.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![begin_search, next_proofs,];

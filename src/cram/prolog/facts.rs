@@ -8,10 +8,11 @@ use indexmap::IndexMap;
 use super::functor::Functor;
 use crate::packages;
 use closest_name::closest_name;
-use lisp::builtin::{Builtin, Operator, pure};
+use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::known;
@@ -130,41 +131,26 @@ pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
     functors.extend(table.iter().map(|functor| (functor.name, functor)));
 }
 
-/// Functions of package `CRAM-PROLOG`: those into which its macros expand, and a question.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "FUNCTOR-DEFINED-P",
-        "functor",
-        "Has any fact group a rule about the functor, or is there a handler for it?",
-        &["(prolog::functor-defined-p 'no-such-functor) => NIL"],
-        |image, args| {
-            let facts = of(image);
-            let is_defined = |s: Sym| facts.knows(s) || facts.handler(s).is_some();
-            Ok(Value::bool(args[0].as_symbol().is_some_and(is_defined)))
-        },
-    ),
-    pure(
-        "DEFINE-FACT-GROUP",
-        "name rules",
-        "What DEF-FACT-GROUP expands into.",
-        &[],
-        define_group,
-    ),
-    pure(
-        "DEFINE-HANDLER",
-        "name function",
-        "What DEF-PROLOG-HANDLER expands into.",
-        &[],
-        |image, args| {
-            let Some(name) = args[0].as_symbol() else {
-                return Err(Raise::type_error(&args[0], known::SYMBOL));
-            };
-            let facts = of(image);
-            facts.handlers.borrow_mut().insert(name, args[1].clone());
-            Ok(args[0].clone())
-        },
-    ),
-];
+/// Has any fact group a rule about the functor, or is there a handler for it?
+///
+/// `(prolog::functor-defined-p 'no-such-functor)` => `NIL`
+#[builtin]
+fn functor_defined_p(image: &mut Image, functor: &Value) -> bool {
+    let facts = of(image);
+    let is_defined = |s: Sym| facts.knows(s) || facts.handler(s).is_some();
+    functor.as_symbol().is_some_and(is_defined)
+}
+
+/// What DEF-PROLOG-HANDLER expands into.
+#[builtin(_, "name function")]
+fn define_handler(image: &mut Image, name_value: &Value, function: Value) -> Result<Value> {
+    let Some(name) = name_value.as_symbol() else {
+        return Err(Raise::type_error(name_value, known::SYMBOL));
+    };
+    let facts = of(image);
+    facts.handlers.borrow_mut().insert(name, function);
+    Ok(name_value.clone())
+}
 
 /// Macros of package `CRAM-PROLOG`.
 pub static OPERATORS: &[Operator] = &[
@@ -256,12 +242,14 @@ fn check_rule(image: &Image, rule: &Value) -> Result<()> {
     )))
 }
 
-fn define_group(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+/// What DEF-FACT-GROUP expands into.
+#[builtin("DEFINE-FACT-GROUP", "name rules")]
+fn define_group(image: &mut Image, name_value: &Value, rules: &Value) -> Result<Value> {
+    let Some(name) = name_value.as_symbol() else {
+        return Err(Raise::type_error(name_value, known::SYMBOL));
     };
     let mut clauses = Vec::new();
-    for rule in args[1].iter_list() {
+    for rule in rules.iter_list() {
         check_rule(image, &rule)?;
         let parts = rule.cdr_or_nil();
         let head = parts.car_or_nil();
@@ -275,5 +263,8 @@ fn define_group(image: &mut Image, args: &[Value]) -> Result<Value> {
         }
     }
     of(image).groups.borrow_mut().insert(name, clauses);
-    Ok(args[0].clone())
+    Ok(name_value.clone())
 }
+
+/// Functions of package `CRAM-PROLOG`: those into which its macros expand, and a question.
+pub(crate) static TABLE: &[Builtin] = builtins![functor_defined_p, define_group, define_handler,];

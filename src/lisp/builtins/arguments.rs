@@ -1,8 +1,9 @@
 //! What destructuring lambda lists expand into: checks of a list of arguments.
 
-use crate::builtin::{Builtin, Entry, pure};
+use crate::builtin::{Builtin, Entry};
 use crate::image::Image;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
@@ -10,38 +11,23 @@ use crate::value::raise::Raise;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "CHECK-ARGUMENTS",
-        "list least most context lambda-list",
-        "The list, if it has as many elements as a lambda list asks for.",
-        &["(system:check-arguments '(1) 1 1 'f '(x)) => (1)"],
-        check_arguments,
-    ),
-    pure(
-        "CHECK-KEYS",
-        "list keys",
-        "An error unless the list is a property list of these keys.",
-        &["(system:check-keys '(:a 1) '(:a)) => NIL"],
-        check_keys,
-    ),
-    pure(
-        "KEY-TAIL",
-        "list key",
-        "The rest of a property list after a key; NIL if it is not there.",
-        &["(system:key-tail '(:a 1 :b 2) :b) => (2)"],
-        key_tail,
-    ),
-];
-
-fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let list = &args[0];
+/// The list, if it has as many elements as a lambda list asks for.
+///
+/// `(system:check-arguments '(1) 1 1 'f '(x))` => `(1)`
+#[builtin(_, "list least most context lambda-list")]
+fn check_arguments(
+    image: &mut Image,
+    list: &Value,
+    least_value: &Value,
+    most_value: &Value,
+    context: &Value,
+    lambda_list_value: &Value,
+) -> Result<Value> {
     let mut elements = list.iter_list();
     let items = elements.by_ref().count();
     // A dotted list destructures if the lambda list ends in a rest parameter.
     let is_dotted = !elements.rest.is_nil();
-    if is_dotted && !(args[2].is_nil() && list.as_cons().is_some()) {
+    if is_dotted && !(most_value.is_nil() && list.as_cons().is_some()) {
         return Err(Raise::type_error(list, known::LIST));
     }
     let count = i64::try_from(items).unwrap_or(i64::MAX);
@@ -49,16 +35,16 @@ fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
         Value::Int(n) => Some(*n),
         _ => None,
     };
-    let least = bound(&args[1]).unwrap_or(0);
-    let most = bound(&args[2]);
+    let least = bound(least_value).unwrap_or(0);
+    let most = bound(most_value);
     if count >= least && most.is_none_or(|most| count <= most) {
         return Ok(list.clone());
     }
-    let lambda_list = lambda_list_text(image, &args[3], &args[4]);
+    let lambda_list = lambda_list_text(image, context, lambda_list_value);
     let show = |v: &Value| print::to_string(image, v, true);
-    let context = match args[3].as_symbol() {
+    let context = match context.as_symbol() {
         Some(known::DESTRUCTURING_BIND) => "DESTRUCTURING-BIND".to_owned(),
-        _ => format!("DEFMACRO {}", show(&args[3])),
+        _ => format!("DEFMACRO {}", show(context)),
     };
     let few = if count < least { "few" } else { "many" };
     let expected = match most {
@@ -88,8 +74,12 @@ fn lambda_list_text(image: &mut Image, context: &Value, lambda_list: &Value) -> 
     text
 }
 
-fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let items: Vec<Value> = args[0].iter_list().collect();
+/// An error unless the list is a property list of these keys.
+///
+/// `(system:check-keys '(:a 1) '(:a))` => `NIL`
+#[builtin(_, "list keys")]
+fn check_keys(image: &mut Image, list: &Value, keys_value: &Value) -> Result<Value> {
+    let items: Vec<Value> = list.iter_list().collect();
     if !items.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
@@ -101,10 +91,10 @@ fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
     }
     for pair in items.chunks_exact(2) {
         let is_known = pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS)
-            || args[1].iter_list().any(|key| key.is_eq(&pair[0]));
+            || keys_value.iter_list().any(|key| key.is_eq(&pair[0]));
         if !is_known {
             let shown = print::to_string(image, &pair[0], true);
-            let keys: Vec<_> = args[1]
+            let keys: Vec<_> = keys_value
                 .iter_list()
                 .filter_map(|key| key.as_symbol())
                 .collect();
@@ -117,10 +107,14 @@ fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
-fn key_tail(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let mut rest = args[0].clone();
+/// The rest of a property list after a key; NIL if it is not there.
+///
+/// `(system:key-tail '(:a 1 :b 2) :b)` => `(2)`
+#[builtin]
+fn key_tail(list: Value, key: &Value) -> Result<Value> {
+    let mut rest = list;
     while let Value::Cons(cons) = &rest {
-        if cons.car().is_eq(&args[1]) {
+        if cons.car().is_eq(key) {
             return Ok(cons.cdr());
         }
         let next = cons.cdr().cdr_or_nil();
@@ -128,3 +122,6 @@ fn key_tail(_: &mut Image, args: &[Value]) -> Result<Value> {
     }
     Ok(Value::NIL)
 }
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![check_arguments, check_keys, key_tail,];

@@ -5,8 +5,9 @@ use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{dimensions, element_type, is_adjustable, row_major};
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Array;
 use crate::value::element_type::ElementType;
@@ -16,6 +17,13 @@ use crate::value::sequence::{checked_element, text_of};
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// An array of another size with the same elements; an adjustable vector is changed itself.
+///
+/// `(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0)` => `#(1 1 0)`
+#[builtin(
+    _,
+    "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset"
+)]
 fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = array_make::shape(&args[1])?;
     let options = array_make::Options::parse(image, &args[2..])?;
@@ -153,10 +161,4 @@ fn kept_items(array: &Value, old: &[usize], new: &[usize], filler: Value) -> Vec
 }
 
 /// Adjustment of arrays.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "ADJUST-ARRAY",
-    "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset",
-    "An array of another size with the same elements; an adjustable vector is changed itself.",
-    &["(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0) => #(1 1 0)"],
-    adjust_array,
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![adjust_array,];

@@ -5,12 +5,13 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::arrays::{element_type, total_size};
-use super::keywords;
 use super::lists::size;
 use super::settled_types;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::guard::{MOST_ELEMENTS, reserve};
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::{Array, Vector};
 use crate::value::elements::{Displacement, Elements};
@@ -265,6 +266,16 @@ fn no_fill_pointer(options: &Options) -> Result<(), Box<Raise>> {
     Ok(())
 }
 
+/// An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has
+/// the elements of another one, from an index in row-major order on.
+///
+/// `(make-array 3 :initial-element 'x)` => `#(X X X)`
+/// `(make-array '(2 2) :initial-contents '((1 2) (3 4)))` => `#2A((1 2) (3 4))`
+/// `(make-array 2 :displaced-to #2A((1 2) (3 4)) :displaced-index-offset 1)` => `#(2 3)`
+#[builtin(
+    _,
+    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset"
+)]
 fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = shape(&args[0])?;
     let options = Options::parse(image, &args[1..])?;
@@ -300,14 +311,4 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making arrays.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "MAKE-ARRAY",
-    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset",
-    "An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has the elements of another one, from an index in row-major order on.",
-    &[
-        "(make-array 3 :initial-element 'x) => #(X X X)",
-        "(make-array '(2 2) :initial-contents '((1 2) (3 4))) => #2A((1 2) (3 4))",
-        "(make-array 2 :displaced-to #2A((1 2) (3 4)) :displaced-index-offset 1) => #(2 3)",
-    ],
-    make_array,
-)];
+pub(crate) static TABLE: &[Builtin] = builtins![make_array,];

@@ -1,8 +1,11 @@
 //! Arrays of any rank: access, shape, kinds.
 
+use std::slice;
+
 use super::array_index;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::element_type::ElementType;
@@ -100,52 +103,67 @@ pub(super) fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
     Ok(dimensions(array)?.iter().product())
 }
 
-fn aref(_: &mut Image, args: &[Value]) -> Outcome {
-    let at = row_major_index(&args[0], &args[1..])?;
-    match row_major(&args[0], at) {
+/// The element of an array at subscripts from 0.
+///
+/// `(aref #(1 2 3) 2)` => `3`
+/// `(aref #2A((1 2) (3 4)) 1 0)` => `3`
+#[builtin]
+fn aref(array: &Value, subscripts: &[Value]) -> Outcome {
+    let at = row_major_index(array, subscripts)?;
+    match row_major(array, at) {
         Some(value) => Ok(value),
-        None => Err(array_index::invalid(
-            &args[0],
-            &at.into(),
-            total_size(&args[0])?,
-        )),
+        None => Err(array_index::invalid(array, &at.into(), total_size(array)?)),
     }
 }
 
-fn set_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    let at = row_major_index(&args[1], &args[2..])?;
-    set_row_major(&args[1], at, &args[0])
+/// Replaces an element.
+#[builtin("AREF")]
+fn set_aref(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    let at = row_major_index(array, subscripts)?;
+    set_row_major(array, at, value)
 }
 
-fn svref(image: &mut Image, args: &[Value]) -> Outcome {
-    if is_simple_vector(&args[0]) {
-        aref(image, args)
+/// The element of a simple vector.
+///
+/// `(svref #(1 2 3) 1)` => `2`
+#[builtin]
+fn svref(vector: &Value, index: &Value) -> Outcome {
+    if is_simple_vector(vector) {
+        aref(vector, slice::from_ref(index))
     } else {
-        Err(Raise::type_error(&args[0], known::SIMPLE_VECTOR))
+        Err(Raise::type_error(vector, known::SIMPLE_VECTOR))
     }
 }
 
-fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
-    if is_simple_vector(&args[1]) {
-        set_aref(image, args)
+/// Replaces an element.
+#[builtin("SVREF")]
+fn set_svref(value: &Value, vector: &Value, index: &Value) -> Outcome {
+    if is_simple_vector(vector) {
+        set_aref(value, vector, slice::from_ref(index))
     } else {
-        Err(Raise::type_error(&args[1], known::SIMPLE_VECTOR))
+        Err(Raise::type_error(vector, known::SIMPLE_VECTOR))
     }
 }
 
-fn bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[0])? == ElementType::Bit {
-        aref(image, args)
+/// The element of a bit array.
+///
+/// `(bit #*1010 0)` => `1`
+#[builtin]
+fn bit(array: &Value, subscripts: &[Value]) -> Outcome {
+    if element_type(array)? == ElementType::Bit {
+        aref(array, subscripts)
     } else {
-        Err(Raise::type_error(&args[0], bit_array_type()))
+        Err(Raise::type_error(array, bit_array_type()))
     }
 }
 
-fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[1])? == ElementType::Bit {
-        set_aref(image, args)
+/// Replaces an element.
+#[builtin("BIT")]
+fn set_bit(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    if element_type(array)? == ElementType::Bit {
+        set_aref(value, array, subscripts)
     } else {
-        Err(Raise::type_error(&args[1], bit_array_type()))
+        Err(Raise::type_error(array, bit_array_type()))
     }
 }
 
@@ -154,51 +172,75 @@ pub(crate) fn bit_array_type() -> Value {
     Value::list([known::ARRAY.into(), known::BIT.into()])
 }
 
-fn row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    match row_major(&args[0], index(&args[1])?) {
+/// The element of an array seen as a vector.
+///
+/// `(row-major-aref #2A((1 2) (3 4)) 2)` => `3`
+#[builtin(_, "array index")]
+fn row_major_aref(array: &Value, index_value: &Value) -> Outcome {
+    match row_major(array, index(index_value)?) {
         Some(value) => Ok(value),
-        None => Err(array_index::invalid(
-            &args[0],
-            &args[1],
-            total_size(&args[0])?,
-        )),
+        None => Err(array_index::invalid(array, index_value, total_size(array)?)),
     }
 }
 
-fn set_row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
-    set_row_major(&args[1], index(&args[2])?, &args[0])
+/// Replaces an element.
+#[builtin("ROW-MAJOR-AREF")]
+fn set_row_major_aref(value: &Value, array: &Value, index: usize) -> Outcome {
+    set_row_major(array, index, value)
 }
 
-fn array_row_major_index(_: &mut Image, args: &[Value]) -> Outcome {
-    row_major_index(&args[0], &args[1..]).map(Value::from)
+/// The index of an element of an array seen as a vector.
+///
+/// `(array-row-major-index #2A((1 2) (3 4)) 1 0)` => `2`
+#[builtin]
+fn array_row_major_index(array: &Value, subscripts: &[Value]) -> Outcome {
+    row_major_index(array, subscripts).map(Value::from)
 }
 
-fn array_rank(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(dimensions(&args[0])?.len().into())
+/// The number of dimensions.
+///
+/// `(array-rank #2A((1)))` => `2`
+#[builtin]
+fn array_rank(array: &Value) -> Outcome {
+    Ok(dimensions(array)?.len().into())
 }
 
-fn array_dimensions(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::list(
-        dimensions(&args[0])?.into_iter().map(Value::from),
-    ))
+/// The sizes of all dimensions.
+///
+/// `(array-dimensions #2A((1 2 3)))` => `(1 3)`
+#[builtin]
+fn array_dimensions(array: &Value) -> Outcome {
+    Ok(Value::list(dimensions(array)?.into_iter().map(Value::from)))
 }
 
-fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
-    let dimensions = dimensions(&args[0])?;
-    match dimensions.get(index(&args[1])?) {
+/// The size of a dimension.
+///
+/// `(array-dimension #(1 2) 0)` => `2`
+#[builtin]
+fn array_dimension(array: &Value, axis: usize) -> Outcome {
+    let dimensions = dimensions(array)?;
+    match dimensions.get(axis) {
         Some(size) => Ok((*size).into()),
         None => Err(Raise::simple(format!(
             "Axis {} is too large; the array has rank {}.",
-            index(&args[1])?,
+            axis,
             dimensions.len()
         ))),
     }
 }
 
-fn array_total_size(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(total_size(&args[0])?.into())
+/// The number of elements.
+///
+/// `(array-total-size #2A((1 2) (3 4)))` => `4`
+#[builtin]
+fn array_total_size(array: &Value) -> Outcome {
+    Ok(total_size(array)?.into())
 }
 
+/// Is there an element at these subscripts?
+///
+/// `(array-in-bounds-p #(1 2 3) 3)` => `NIL`
+#[builtin(_, "array &rest subscripts")]
 fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
     let dimensions = dimensions(&args[0])?;
     if dimensions.len() != args.len() - 1 {
@@ -212,8 +254,12 @@ fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(inside))
 }
 
-fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0]).map(ElementType::specifier)
+/// The type of the elements.
+///
+/// `(array-element-type "a")` => `CHARACTER`
+#[builtin]
+fn array_element_type(array: &Value) -> Outcome {
+    element_type(array).map(ElementType::specifier)
 }
 
 /// Can the array be adjusted in place?
@@ -226,29 +272,43 @@ pub(super) fn is_adjustable(array: &Value) -> bool {
     }
 }
 
-fn adjustable_array_p(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0])?;
-    Ok(Value::bool(is_adjustable(&args[0])))
+/// Can the array be adjusted in place?
+///
+/// `(adjustable-array-p #(1))` => `NIL`
+#[builtin]
+fn adjustable_array_p(array: &Value) -> Outcome {
+    element_type(array)?;
+    Ok(Value::bool(is_adjustable(array)))
 }
 
-fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0])?;
-    let (target, offset) = match displacement(&args[0]) {
+/// The array that an array shares its elements with, or `NIL`, and the index of the first of them.
+///
+/// `(array-displacement #(1))` => `NIL ; 0`
+/// `(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1))` => `#(1 2 3) ; 1`
+#[builtin]
+fn array_displacement(array: &Value) -> Outcome {
+    element_type(array)?;
+    let (target, offset) = match displacement(array) {
         Some(displacement) => (displacement.target.clone(), displacement.offset),
         None => (Value::NIL, 0),
     };
     Ok(Value::values(vec![target, offset.into()]))
 }
 
-fn arrayp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(dimensions(&args[0]).is_ok()))
+/// Is the object an array?
+///
+/// `(arrayp "a")` => `T`
+#[builtin]
+fn arrayp(object: &Value) -> bool {
+    dimensions(object).is_ok()
 }
 
-fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(
-        args[0],
-        Value::Vector(_) | Value::Str(_)
-    )))
+/// Is the object a vector?
+///
+/// `(vectorp #2A((1)))` => `NIL`
+#[builtin]
+fn vectorp(object: &Value) -> bool {
+    matches!(object, Value::Vector(_) | Value::Str(_))
 }
 
 /// Is this a vector without a fill pointer whose elements may be anything?
@@ -256,199 +316,71 @@ fn is_simple_vector(value: &Value) -> bool {
     matches!(value, Value::Vector(v) if v.element_type == ElementType::T && v.is_simple())
 }
 
-fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(is_simple_vector(&args[0])))
+/// Is the object a simple vector?
+///
+/// `(simple-vector-p #(1))` => `T`
+#[builtin]
+fn simple_vector_p(object: &Value) -> bool {
+    is_simple_vector(object)
 }
 
 fn is_bit_vector(value: &Value) -> bool {
     matches!(value, Value::Vector(v) if v.element_type == ElementType::Bit)
 }
 
-fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(is_bit_vector(&args[0])))
+/// Is the object a bit vector?
+///
+/// `(bit-vector-p #*1)` => `T`
+#[builtin]
+fn bit_vector_p(object: &Value) -> bool {
+    is_bit_vector(object)
 }
 
-fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let simple =
-        matches!(&args[0], Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple());
-    Ok(Value::bool(simple))
+/// Is the object a simple bit vector?
+///
+/// `(simple-bit-vector-p #*1)` => `T`
+#[builtin]
+fn simple_bit_vector_p(object: &Value) -> bool {
+    matches!(object, Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple())
+}
+
+/// The element of a bit array.
+///
+/// `(sbit #*1010 1)` => `0`
+#[builtin]
+fn sbit(array: &Value, subscripts: &[Value]) -> Outcome {
+    bit(array, subscripts)
+}
+
+/// Replaces an element.
+#[builtin("SBIT")]
+fn set_sbit(value: &Value, array: &Value, subscripts: &[Value]) -> Outcome {
+    set_bit(value, array, subscripts)
 }
 
 /// Arrays.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "AREF",
-        "array &rest subscripts",
-        "The element of an array at subscripts from 0.",
-        &["(aref #(1 2 3) 2) => 3", "(aref #2A((1 2) (3 4)) 1 0) => 3"],
-        aref,
-    ),
-    pure(
-        "SVREF",
-        "vector index",
-        "The element of a simple vector.",
-        &["(svref #(1 2 3) 1) => 2"],
-        svref,
-    ),
-    pure(
-        "BIT",
-        "array &rest subscripts",
-        "The element of a bit array.",
-        &["(bit #*1010 0) => 1"],
-        bit,
-    ),
-    pure(
-        "SBIT",
-        "array &rest subscripts",
-        "The element of a bit array.",
-        &["(sbit #*1010 1) => 0"],
-        bit,
-    ),
-    pure(
-        "ROW-MAJOR-AREF",
-        "array index",
-        "The element of an array seen as a vector.",
-        &["(row-major-aref #2A((1 2) (3 4)) 2) => 3"],
-        row_major_aref,
-    ),
-    pure(
-        "ARRAY-ROW-MAJOR-INDEX",
-        "array &rest subscripts",
-        "The index of an element of an array seen as a vector.",
-        &["(array-row-major-index #2A((1 2) (3 4)) 1 0) => 2"],
-        array_row_major_index,
-    ),
-    pure(
-        "ARRAY-RANK",
-        "array",
-        "The number of dimensions.",
-        &["(array-rank #2A((1))) => 2"],
-        array_rank,
-    ),
-    pure(
-        "ARRAY-DIMENSIONS",
-        "array",
-        "The sizes of all dimensions.",
-        &["(array-dimensions #2A((1 2 3))) => (1 3)"],
-        array_dimensions,
-    ),
-    pure(
-        "ARRAY-DIMENSION",
-        "array axis",
-        "The size of a dimension.",
-        &["(array-dimension #(1 2) 0) => 2"],
-        array_dimension,
-    ),
-    pure(
-        "ARRAY-TOTAL-SIZE",
-        "array",
-        "The number of elements.",
-        &["(array-total-size #2A((1 2) (3 4))) => 4"],
-        array_total_size,
-    ),
-    pure(
-        "ARRAY-IN-BOUNDS-P",
-        "array &rest subscripts",
-        "Is there an element at these subscripts?",
-        &["(array-in-bounds-p #(1 2 3) 3) => NIL"],
-        array_in_bounds_p,
-    ),
-    pure(
-        "ARRAY-ELEMENT-TYPE",
-        "array",
-        "The type of the elements.",
-        &["(array-element-type \"a\") => CHARACTER"],
-        array_element_type,
-    ),
-    pure(
-        "ADJUSTABLE-ARRAY-P",
-        "array",
-        "Can the array be adjusted in place?",
-        &["(adjustable-array-p #(1)) => NIL"],
-        adjustable_array_p,
-    ),
-    pure(
-        "ARRAY-DISPLACEMENT",
-        "array",
-        "The array that an array shares its elements with, or `NIL`, and the index of the first of them.",
-        &[
-            "(array-displacement #(1)) => NIL ; 0",
-            "(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1)) => #(1 2 3) ; 1",
-        ],
-        array_displacement,
-    ),
-    pure(
-        "ARRAYP",
-        "object",
-        "Is the object an array?",
-        &["(arrayp \"a\") => T"],
-        arrayp,
-    ),
-    pure(
-        "VECTORP",
-        "object",
-        "Is the object a vector?",
-        &["(vectorp #2A((1))) => NIL"],
-        vectorp,
-    ),
-    pure(
-        "SIMPLE-VECTOR-P",
-        "object",
-        "Is the object a simple vector?",
-        &["(simple-vector-p #(1)) => T"],
-        simple_vector_p,
-    ),
-    pure(
-        "BIT-VECTOR-P",
-        "object",
-        "Is the object a bit vector?",
-        &["(bit-vector-p #*1) => T"],
-        bit_vector_p,
-    ),
-    pure(
-        "SIMPLE-BIT-VECTOR-P",
-        "object",
-        "Is the object a simple bit vector?",
-        &["(simple-bit-vector-p #*1) => T"],
-        simple_bit_vector_p,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    aref,
+    svref,
+    bit,
+    sbit,
+    row_major_aref,
+    array_row_major_index,
+    array_rank,
+    array_dimensions,
+    array_dimension,
+    array_total_size,
+    array_in_bounds_p,
+    array_element_type,
+    adjustable_array_p,
+    array_displacement,
+    arrayp,
+    vectorp,
+    simple_vector_p,
+    bit_vector_p,
+    simple_bit_vector_p,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "AREF",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_aref,
-    ),
-    pure(
-        "SVREF",
-        "value vector index",
-        "Replaces an element.",
-        &[],
-        set_svref,
-    ),
-    pure(
-        "BIT",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_bit,
-    ),
-    pure(
-        "SBIT",
-        "value array &rest subscripts",
-        "Replaces an element.",
-        &[],
-        set_bit,
-    ),
-    pure(
-        "ROW-MAJOR-AREF",
-        "value array index",
-        "Replaces an element.",
-        &[],
-        set_row_major_aref,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] =
+    builtins![set_aref, set_svref, set_bit, set_sbit, set_row_major_aref,];

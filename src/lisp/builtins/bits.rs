@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{bit_array_type, dimensions, element_type};
-use crate::builtin::{Builtin, pure};
-use crate::image::Image;
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Array;
 use crate::value::known;
@@ -68,40 +68,56 @@ fn same_shape(a: &Value, b: &Value) -> Result<(), Box<Raise>> {
     }
 }
 
-fn combine(args: &[Value], operation: impl Fn(bool, bool) -> bool) -> Outcome {
-    let (a, b) = (bits(&args[0])?, bits(&args[1])?);
-    same_shape(&args[0], &args[1])?;
-    let result: Vec<bool> = a.into_iter().zip(b).map(|(a, b)| operation(a, b)).collect();
-    deliver(&args[0], args.get(2), &result)
+fn combine(
+    bits_1: &Value,
+    bits_2: &Value,
+    result: Option<&Value>,
+    operation: impl Fn(bool, bool) -> bool,
+) -> Outcome {
+    let (a, b) = (bits(bits_1)?, bits(bits_2)?);
+    same_shape(bits_1, bits_2)?;
+    let combined: Vec<bool> = a.into_iter().zip(b).map(|(a, b)| operation(a, b)).collect();
+    deliver(bits_1, result, &combined)
 }
 
-fn bit_not(_: &mut Image, args: &[Value]) -> Outcome {
-    let result: Vec<bool> = bits(&args[0])?.into_iter().map(|b| !b).collect();
-    deliver(&args[0], args.get(1), &result)
+/// The inverse of all bits.
+///
+/// `(bit-not #*1100)` => `#*0011`
+#[builtin(_, "bits &optional result")]
+fn bit_not(array: &Value, result: Option<&Value>) -> Outcome {
+    let inverse: Vec<bool> = bits(array)?.into_iter().map(|b| !b).collect();
+    deliver(array, result, &inverse)
 }
+
+/// Inversion.
+pub(crate) static TABLE: &[Builtin] = builtins![bit_not];
 
 macro_rules! operations {
-    ($($function:ident $name:literal |$a:ident, $b:ident| $result:expr, $doc:literal $example:literal;)*) => {
-        $(fn $function(_: &mut Image, args: &[Value]) -> Outcome {
-            combine(args, |$a, $b| $result)
-        })*
-        /// Logical operations on bit arrays.
-        pub static TABLE: &[Builtin] = &[
-            pure("BIT-NOT", "bits &optional result", "The inverse of all bits.", &["(bit-not #*1100) => #*0011"], bit_not),
-            $(pure($name, "bits-1 bits-2 &optional result", $doc, &[$example], $function),)*
-        ];
+    ($($function:ident |$a:ident, $b:ident| $result:expr, $doc:literal $example:literal;)*) => {
+        $(
+            #[doc = $doc]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin]
+            fn $function(bits_1: &Value, bits_2: &Value, result: Option<&Value>) -> Outcome {
+                combine(bits_1, bits_2, result, |$a, $b| $result)
+            }
+        )*
+
+        /// Logical operations on two bit arrays.
+        pub(crate) static OPERATIONS: &[Builtin] = builtins![$($function),*];
     };
 }
 
 operations! {
-    bit_and "BIT-AND" |a, b| a & b, "Bits that are set in both." "(bit-and #*1100 #*1010) => #*1000";
-    bit_ior "BIT-IOR" |a, b| a | b, "Bits that are set in one or both." "(bit-ior #*1100 #*1010) => #*1110";
-    bit_xor "BIT-XOR" |a, b| a ^ b, "Bits that are set in exactly one." "(bit-xor #*1100 #*1010) => #*0110";
-    bit_eqv "BIT-EQV" |a, b| a == b, "Bits that are the same in both." "(bit-eqv #*1100 #*1010) => #*1001";
-    bit_nand "BIT-NAND" |a, b| !(a & b), "The inverse of `bit-and`." "(bit-nand #*1100 #*1010) => #*0111";
-    bit_nor "BIT-NOR" |a, b| !(a | b), "The inverse of `bit-ior`." "(bit-nor #*1100 #*1010) => #*0001";
-    bit_andc1 "BIT-ANDC1" |a, b| !a & b, "Bits that are set in the second only." "(bit-andc1 #*1100 #*1010) => #*0010";
-    bit_andc2 "BIT-ANDC2" |a, b| a & !b, "Bits that are set in the first only." "(bit-andc2 #*1100 #*1010) => #*0100";
-    bit_orc1 "BIT-ORC1" |a, b| !a | b, "Bits that are clear in the first or set in the second." "(bit-orc1 #*1100 #*1010) => #*1011";
-    bit_orc2 "BIT-ORC2" |a, b| a | !b, "Bits that are set in the first or clear in the second." "(bit-orc2 #*1100 #*1010) => #*1101";
+    bit_and |a, b| a & b, "Bits that are set in both." "`(bit-and #*1100 #*1010)` => `#*1000`";
+    bit_ior |a, b| a | b, "Bits that are set in one or both." "`(bit-ior #*1100 #*1010)` => `#*1110`";
+    bit_xor |a, b| a ^ b, "Bits that are set in exactly one." "`(bit-xor #*1100 #*1010)` => `#*0110`";
+    bit_eqv |a, b| a == b, "Bits that are the same in both." "`(bit-eqv #*1100 #*1010)` => `#*1001`";
+    bit_nand |a, b| !(a & b), "The inverse of `bit-and`." "`(bit-nand #*1100 #*1010)` => `#*0111`";
+    bit_nor |a, b| !(a | b), "The inverse of `bit-ior`." "`(bit-nor #*1100 #*1010)` => `#*0001`";
+    bit_andc1 |a, b| !a & b, "Bits that are set in the second only." "`(bit-andc1 #*1100 #*1010)` => `#*0010`";
+    bit_andc2 |a, b| a & !b, "Bits that are set in the first only." "`(bit-andc2 #*1100 #*1010)` => `#*0100`";
+    bit_orc1 |a, b| !a | b, "Bits that are clear in the first or set in the second." "`(bit-orc1 #*1100 #*1010)` => `#*1011`";
+    bit_orc2 |a, b| a | !b, "Bits that are set in the first or clear in the second." "`(bit-orc2 #*1100 #*1010)` => `#*1101`";
 }

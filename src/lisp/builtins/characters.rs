@@ -1,13 +1,13 @@
 //! Characters: codes, names, case, digits, comparison.
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::reader::ascii_name::ascii_name;
 use crate::reader::char_name::{char_name as special_name, char_named};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::sequence::{character, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -75,63 +75,109 @@ fn designated(image: &Image, value: &Value) -> Result<char, Box<Raise>> {
     c.ok_or_else(|| Raise::type_error(value, known::CHARACTER))
 }
 
-fn to_character(image: &mut Image, args: &[Value]) -> Outcome {
-    designated(image, &args[0]).map(Value::Char)
+/// The character that a character, or a string or symbol of one character, means.
+///
+/// `(character "a")` => `#\a`
+#[builtin("CHARACTER")]
+fn to_character(image: &mut Image, designator: &Value) -> Outcome {
+    designated(image, designator).map(Value::Char)
 }
 
-fn char_code(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Int(i64::from(u32::from(character(&args[0])?))))
+/// The code of a character.
+///
+/// `(char-code #\A)` => `65`
+#[builtin]
+fn char_code(character: char) -> Outcome {
+    Ok(Value::Int(i64::from(u32::from(character))))
 }
 
-fn code_char(_: &mut Image, args: &[Value]) -> Outcome {
-    let code = index(&args[0])?;
+/// The character of a code.
+///
+/// `(code-char 65)` => `#\A`
+#[builtin]
+fn code_char(code: usize) -> Outcome {
     let c = u32::try_from(code).ok().and_then(char::from_u32);
     Ok(c.map_or(Value::NIL, Value::Char))
 }
 
-fn char_name(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::string(name_of(character(&args[0])?)))
+/// The name of a character.
+///
+/// `(char-name #\Newline)` => `"Newline"`
+#[builtin]
+fn char_name(character: char) -> Outcome {
+    Ok(Value::string(name_of(character)))
 }
 
-fn name_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = super::strings::designated(image, &args[0])?;
+/// The character of a name, or `NIL`.
+///
+/// `(name-char "newline")` => `#\Newline`
+#[builtin]
+fn name_char(name: String) -> Outcome {
     Ok(char_named(&name).map_or(Value::NIL, Value::Char))
 }
 
-fn char_upcase(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Char(upcase(character(&args[0])?)))
+/// The upper-case form of a character.
+///
+/// `(char-upcase #\a)` => `#\A`
+#[builtin]
+fn char_upcase(character: char) -> Outcome {
+    Ok(Value::Char(upcase(character)))
 }
 
-fn char_downcase(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Char(downcase(character(&args[0])?)))
+/// The lower-case form of a character.
+///
+/// `(char-downcase #\A)` => `#\a`
+#[builtin]
+fn char_downcase(character: char) -> Outcome {
+    Ok(Value::Char(downcase(character)))
 }
 
-fn is(args: &[Value], test: impl FnOnce(char) -> bool) -> Outcome {
-    Ok(Value::bool(test(character(&args[0])?)))
+/// Is the object a character?
+///
+/// `(characterp #\a)` => `T`
+#[builtin]
+fn characterp(object: &Value) -> bool {
+    matches!(object, Value::Char(_))
 }
 
-fn characterp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Char(_))))
+/// Is the character a letter?
+///
+/// `(alpha-char-p #\a)` => `T`
+#[builtin]
+fn alpha_char_p(character: char) -> bool {
+    character.is_alphabetic()
 }
 
-fn alpha_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, char::is_alphabetic)
+/// Is the character a letter or digit?
+///
+/// `(alphanumericp #\_)` => `NIL`
+#[builtin]
+fn alphanumericp(character: char) -> bool {
+    character.is_alphanumeric()
 }
 
-fn alphanumericp(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, char::is_alphanumeric)
+/// Is the character an upper-case letter?
+///
+/// `(upper-case-p #\A)` => `T`
+#[builtin]
+fn upper_case_p(character: char) -> bool {
+    downcase(character) != character
 }
 
-fn upper_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| downcase(c) != c)
+/// Is the character a lower-case letter?
+///
+/// `(lower-case-p #\A)` => `NIL`
+#[builtin]
+fn lower_case_p(character: char) -> bool {
+    upcase(character) != character
 }
 
-fn lower_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| upcase(c) != c)
-}
-
-fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| upcase(c) != c || downcase(c) != c)
+/// Has the character forms in both cases?
+///
+/// `(both-case-p #\1)` => `NIL`
+#[builtin]
+fn both_case_p(character: char) -> bool {
+    upcase(character) != character || downcase(character) != character
 }
 
 /// Is a character one that prints as itself?
@@ -139,204 +185,122 @@ pub(crate) fn is_graphic(c: char) -> bool {
     !c.is_control()
 }
 
-fn graphic_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, is_graphic)
+/// Does the character print as itself?
+///
+/// `(graphic-char-p #\Newline)` => `NIL`
+#[builtin]
+fn graphic_char_p(character: char) -> bool {
+    is_graphic(character)
 }
 
-fn standard_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    is(args, |c| c == '\n' || matches!(c, ' '..='~'))
+/// Is the character one of the 96 standard ones?
+///
+/// `(standard-char-p #\a)` => `T`
+#[builtin]
+fn standard_char_p(character: char) -> bool {
+    character == '\n' || matches!(character, ' '..='~')
 }
 
-fn digit_char_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let weight = digit_weight(character(&args[0])?, radix(args.get(1))?);
+/// The weight of a digit in a radix (10), or `NIL`.
+///
+/// `(digit-char-p #\7)` => `7`
+/// `(digit-char-p #\f 16)` => `15`
+#[builtin(_, "character &optional radix")]
+fn digit_char_p(character: char, radix_value: Option<&Value>) -> Outcome {
+    let weight = digit_weight(character, radix(radix_value)?);
     Ok(weight.map_or(Value::NIL, |w| Value::Int(i64::from(w))))
 }
 
-fn digit_char(_: &mut Image, args: &[Value]) -> Outcome {
-    let weight = index(&args[0])?;
+/// The digit of a weight in a radix (10), or `NIL`.
+///
+/// `(digit-char 7)` => `#\7`
+/// `(digit-char 11 16)` => `#\B`
+#[builtin(_, "weight &optional radix")]
+fn digit_char(weight: usize, radix_value: Option<&Value>) -> Outcome {
     let digit = u32::try_from(weight)
         .ok()
-        .and_then(|w| char::from_digit(w, radix(args.get(1)).ok()?));
-    radix(args.get(1))?;
+        .and_then(|w| char::from_digit(w, radix(radix_value).ok()?));
+    radix(radix_value)?;
     Ok(digit.map_or(Value::NIL, |c| Value::Char(c.to_ascii_uppercase())))
 }
 
 /// Compares each character with the next, or each with each other for `/=`.
 fn compare(
-    args: &[Value],
+    mut chars: Vec<char>,
     fold: bool,
     all_pairs: bool,
     holds: impl Fn(char, char) -> bool,
-) -> Outcome {
-    let chars: Result<Vec<char>, _> = args.iter().map(character).collect();
-    let mut chars = chars?;
+) -> bool {
     if fold {
         chars.iter_mut().for_each(|c| *c = upcase(*c));
     }
-    let result = if all_pairs {
+    if all_pairs {
         chars
             .iter()
             .enumerate()
             .all(|(i, a)| chars.iter().skip(i + 1).all(|b| holds(*a, *b)))
     } else {
         chars.is_sorted_by(|a, b| holds(*a, *b))
-    };
-    Ok(Value::bool(result))
+    }
 }
 
 macro_rules! comparisons {
     ($($function:ident $name:literal $fold:literal $all_pairs:literal $op:tt $doc:literal $example:literal;)*) => {
-        $(fn $function(_: &mut Image, args: &[Value]) -> Outcome {
-            compare(args, $fold, $all_pairs, |a, b| a $op b)
-        })*
+        $(
+            #[doc = $doc]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin($name, "character &rest more")]
+            fn $function(characters: Vec<char>) -> bool {
+                compare(characters, $fold, $all_pairs, |a, b| a $op b)
+            }
+        )*
         /// Comparison of characters.
-        pub(crate) static COMPARISONS: &[Builtin] = &[
-            $(pure($name, "character &rest more", $doc, &[$example], $function),)*
-        ];
+        pub(crate) static COMPARISONS: &[Builtin] = builtins![$($function),*];
     };
 }
 
 comparisons! {
-    char_eq "CHAR=" false false == "Are all characters the same?" "(char= #\\a #\\a) => T";
-    char_ne "CHAR/=" false true != "Are all characters different?" "(char/= #\\a #\\b #\\a) => NIL";
-    char_lt "CHAR<" false false < "Do the characters ascend?" "(char< #\\a #\\b) => T";
-    char_gt "CHAR>" false false > "Do the characters descend?" "(char> #\\b #\\a) => T";
-    char_le "CHAR<=" false false <= "Does no character come before its neighbour to the left?" "(char<= #\\a #\\a #\\b) => T";
-    char_ge "CHAR>=" false false >= "Does no character come after its neighbour to the left?" "(char>= #\\b #\\a #\\a) => T";
-    char_equal "CHAR-EQUAL" true false == "Are all characters the same, whatever their case?" "(char-equal #\\a #\\A) => T";
-    char_not_equal "CHAR-NOT-EQUAL" true true != "Are all characters different, whatever their case?" "(char-not-equal #\\a #\\A) => NIL";
-    char_lessp "CHAR-LESSP" true false < "Like `char<`, whatever the case." "(char-lessp #\\a #\\B) => T";
-    char_greaterp "CHAR-GREATERP" true false > "Like `char>`, whatever the case." "(char-greaterp #\\a #\\B) => NIL";
-    char_not_greaterp "CHAR-NOT-GREATERP" true false <= "Like `char<=`, whatever the case." "(char-not-greaterp #\\a #\\A) => T";
-    char_not_lessp "CHAR-NOT-LESSP" true false >= "Like `char>=`, whatever the case." "(char-not-lessp #\\a #\\A) => T";
+    char_eq "CHAR=" false false == "Are all characters the same?" "`(char= #\\a #\\a)` => `T`";
+    char_ne "CHAR/=" false true != "Are all characters different?" "`(char/= #\\a #\\b #\\a)` => `NIL`";
+    char_lt "CHAR<" false false < "Do the characters ascend?" "`(char< #\\a #\\b)` => `T`";
+    char_gt "CHAR>" false false > "Do the characters descend?" "`(char> #\\b #\\a)` => `T`";
+    char_le "CHAR<=" false false <= "Does no character come before its neighbour to the left?" "`(char<= #\\a #\\a #\\b)` => `T`";
+    char_ge "CHAR>=" false false >= "Does no character come after its neighbour to the left?" "`(char>= #\\b #\\a #\\a)` => `T`";
+    char_equal "CHAR-EQUAL" true false == "Are all characters the same, whatever their case?" "`(char-equal #\\a #\\A)` => `T`";
+    char_not_equal "CHAR-NOT-EQUAL" true true != "Are all characters different, whatever their case?" "`(char-not-equal #\\a #\\A)` => `NIL`";
+    char_lessp "CHAR-LESSP" true false < "Like `char<`, whatever the case." "`(char-lessp #\\a #\\B)` => `T`";
+    char_greaterp "CHAR-GREATERP" true false > "Like `char>`, whatever the case." "`(char-greaterp #\\a #\\B)` => `NIL`";
+    char_not_greaterp "CHAR-NOT-GREATERP" true false <= "Like `char<=`, whatever the case." "`(char-not-greaterp #\\a #\\A)` => `T`";
+    char_not_lessp "CHAR-NOT-LESSP" true false >= "Like `char>=`, whatever the case." "`(char-not-lessp #\\a #\\A)` => `T`";
+}
+
+/// The code of a character.
+///
+/// `(char-int #\A)` => `65`
+#[builtin]
+fn char_int(character: char) -> Outcome {
+    char_code(character)
 }
 
 /// Characters.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "CHARACTERP",
-        "object",
-        "Is the object a character?",
-        &["(characterp #\\a) => T"],
-        characterp,
-    ),
-    pure(
-        "CHARACTER",
-        "designator",
-        "The character that a character, or a string or symbol of one character, means.",
-        &["(character \"a\") => #\\a"],
-        to_character,
-    ),
-    pure(
-        "CHAR-CODE",
-        "character",
-        "The code of a character.",
-        &["(char-code #\\A) => 65"],
-        char_code,
-    ),
-    pure(
-        "CHAR-INT",
-        "character",
-        "The code of a character.",
-        &["(char-int #\\A) => 65"],
-        char_code,
-    ),
-    pure(
-        "CODE-CHAR",
-        "code",
-        "The character of a code.",
-        &["(code-char 65) => #\\A"],
-        code_char,
-    ),
-    pure(
-        "CHAR-NAME",
-        "character",
-        "The name of a character.",
-        &["(char-name #\\Newline) => \"Newline\""],
-        char_name,
-    ),
-    pure(
-        "NAME-CHAR",
-        "name",
-        "The character of a name, or `NIL`.",
-        &["(name-char \"newline\") => #\\Newline"],
-        name_char,
-    ),
-    pure(
-        "CHAR-UPCASE",
-        "character",
-        "The upper-case form of a character.",
-        &["(char-upcase #\\a) => #\\A"],
-        char_upcase,
-    ),
-    pure(
-        "CHAR-DOWNCASE",
-        "character",
-        "The lower-case form of a character.",
-        &["(char-downcase #\\A) => #\\a"],
-        char_downcase,
-    ),
-    pure(
-        "ALPHA-CHAR-P",
-        "character",
-        "Is the character a letter?",
-        &["(alpha-char-p #\\a) => T"],
-        alpha_char_p,
-    ),
-    pure(
-        "ALPHANUMERICP",
-        "character",
-        "Is the character a letter or digit?",
-        &["(alphanumericp #\\_) => NIL"],
-        alphanumericp,
-    ),
-    pure(
-        "UPPER-CASE-P",
-        "character",
-        "Is the character an upper-case letter?",
-        &["(upper-case-p #\\A) => T"],
-        upper_case_p,
-    ),
-    pure(
-        "LOWER-CASE-P",
-        "character",
-        "Is the character a lower-case letter?",
-        &["(lower-case-p #\\A) => NIL"],
-        lower_case_p,
-    ),
-    pure(
-        "BOTH-CASE-P",
-        "character",
-        "Has the character forms in both cases?",
-        &["(both-case-p #\\1) => NIL"],
-        both_case_p,
-    ),
-    pure(
-        "GRAPHIC-CHAR-P",
-        "character",
-        "Does the character print as itself?",
-        &["(graphic-char-p #\\Newline) => NIL"],
-        graphic_char_p,
-    ),
-    pure(
-        "STANDARD-CHAR-P",
-        "character",
-        "Is the character one of the 96 standard ones?",
-        &["(standard-char-p #\\a) => T"],
-        standard_char_p,
-    ),
-    pure(
-        "DIGIT-CHAR-P",
-        "character &optional radix",
-        "The weight of a digit in a radix (10), or `NIL`.",
-        &["(digit-char-p #\\7) => 7", "(digit-char-p #\\f 16) => 15"],
-        digit_char_p,
-    ),
-    pure(
-        "DIGIT-CHAR",
-        "weight &optional radix",
-        "The digit of a weight in a radix (10), or `NIL`.",
-        &["(digit-char 7) => #\\7", "(digit-char 11 16) => #\\B"],
-        digit_char,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    characterp,
+    to_character,
+    char_code,
+    char_int,
+    code_char,
+    char_name,
+    name_char,
+    char_upcase,
+    char_downcase,
+    alpha_char_p,
+    alphanumericp,
+    upper_case_p,
+    lower_case_p,
+    both_case_p,
+    graphic_char_p,
+    standard_char_p,
+    digit_char_p,
+    digit_char,
 ];

@@ -2,118 +2,25 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::compile::{keep_place, setf};
 use crate::image::Image;
 use crate::image::setf_expander::SetfExpander;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
+use crate::value::function::Function;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "AT-PLACE-OF",
-        "form expansion",
-        "The expansion, which counts as standing where the form stands in its file.",
-        &[],
-        |_, args| {
-            keep_place(&args[0], &args[1]);
-            Ok(args[1].clone())
-        },
-    ),
-    pure(
-        "DEFINE-FUNCTION",
-        "name function",
-        "Makes a function the global one of its name.",
-        &["(system:define-function 'one (lambda () 1)) => ONE"],
-        define_function,
-    ),
-    pure(
-        "DEFINE-MACRO",
-        "name function lambda-list documentation",
-        "Makes a function the expander of a macro.",
-        &[],
-        define_macro,
-    ),
-    pure(
-        "DEFINE-PARAMETER",
-        "name value documentation",
-        "Makes a variable special and assigns it.",
-        &["(system:define-parameter '*p* 1 nil) => *P*"],
-        define_parameter,
-    ),
-    pure(
-        "DEFINE-VARIABLE",
-        "name &optional documentation",
-        "Makes a variable special.",
-        &["(system:define-variable '*v*) => *V*"],
-        define_variable,
-    ),
-    pure(
-        "DEFINE-CONSTANT",
-        "name value",
-        "Makes a variable constant.",
-        &["(system:define-constant '+c+ 1) => +C+"],
-        define_constant,
-    ),
-    pure(
-        "SET-SYMBOL-MACRO",
-        "name expansion",
-        "Lets a symbol stand for a form.",
-        &[],
-        set_symbol_macro,
-    ),
-    pure(
-        "DEFINE-SETF-UPDATE",
-        "name update",
-        "Short DEFSETF.",
-        &[],
-        define_setf_update,
-    ),
-    pure(
-        "DEFINE-SETF-LONG",
-        "name function stores",
-        "Long DEFSETF.",
-        &[],
-        define_setf_long,
-    ),
-    pure(
-        "SET-SETF-EXPANDER",
-        "name function",
-        "DEFINE-SETF-EXPANDER.",
-        &[],
-        set_setf_expander,
-    ),
-    pure(
-        "MODIFY-PLACE",
-        "place function arguments environment",
-        "The form that sets a place to a function of it and of forms.",
-        &[],
-        modify_place,
-    ),
-];
-
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "PROCLAIM",
-        "specifier",
-        "A global declaration.",
-        &["(proclaim '(special *proclaimed*)) => ; No value"],
-        proclaim,
-    ),
-    pure(
-        "GET-SETF-EXPANSION",
-        "place &optional environment",
-        "How to read and set a place: temporary variables, their forms, variables for the new values, the form that stores, the form that reads.",
-        &["(fifth (multiple-value-list (get-setf-expansion 'x))) => X"],
-        get_setf_expansion,
-    ),
-];
+/// The expansion, which counts as standing where the form stands in its file.
+#[builtin]
+fn at_place_of(form: &Value, expansion: &Value) -> Result<Value> {
+    keep_place(form, expansion);
+    Ok(expansion.clone())
+}
 
 fn symbol(value: &Value) -> Result<Sym> {
     value
@@ -121,16 +28,12 @@ fn symbol(value: &Value) -> Result<Sym> {
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
-fn function(value: &Value) -> Result<Rc<crate::value::function::Function>> {
-    match value {
-        Value::Function(f) => Ok(f.clone()),
-        other => Err(Raise::type_error(other, known::FUNCTION)),
-    }
-}
-
-fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let new = function(&args[1])?;
-    match args[0].as_symbol() {
+/// Makes a function the global one of its name.
+///
+/// `(system:define-function 'one (lambda () 1))` => `ONE`
+#[builtin(_, "name function")]
+fn define_function(image: &mut Image, name_value: &Value, new: Rc<Function>) -> Result<Value> {
+    match name_value.as_symbol() {
         Some(name) => {
             let is_of_language = match &image.symbol(name).function {
                 FunctionCell::Builtin => true,
@@ -147,28 +50,45 @@ fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
             image.symbols.get_mut(name).function_doc = None;
         }
         None => {
-            let name = symbol(&args[0].cdr_or_nil().car_or_nil())?;
+            let name = symbol(&name_value.cdr_or_nil().car_or_nil())?;
             image.symbols.get_mut(name).setf_function = Some(new);
         }
     }
-    Ok(args[0].clone())
+    Ok(name_value.clone())
 }
 
-fn define_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let name = symbol(&args[0])?;
-    let expander = function(&args[1])?;
+/// Makes a function the expander of a macro.
+#[builtin(_, "name function lambda-list documentation")]
+fn define_macro(
+    image: &mut Image,
+    name_value: &Value,
+    function: Rc<Function>,
+    _lambda_list: &Value,
+    _documentation: &Value,
+) -> Result<Value> {
+    let name = symbol(name_value)?;
+    let expander = function;
     let data = image.symbols.get_mut(name);
     data.function = FunctionCell::Macro(expander);
     data.function_doc = None;
-    Ok(args[0].clone())
+    Ok(name_value.clone())
 }
 
-fn define_parameter(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let name = symbol(&args[0])?;
+/// Makes a variable special and assigns it.
+///
+/// `(system:define-parameter '*p* 1 nil)` => `*P*`
+#[builtin(_, "name value documentation")]
+fn define_parameter(
+    image: &mut Image,
+    name_value: &Value,
+    value: Value,
+    documentation: &Value,
+) -> Result<Value> {
+    let name = symbol(name_value)?;
     check_not_constant(image, name)?;
-    image.define_special(name, args[1].clone());
-    image.symbols.get_mut(name).variable_doc = args[2].as_text().map(Into::into);
-    Ok(args[0].clone())
+    image.define_special(name, value);
+    image.symbols.get_mut(name).variable_doc = documentation.as_text().map(Into::into);
+    Ok(name_value.clone())
 }
 
 fn check_not_constant(image: &Image, name: Sym) -> Result<()> {
@@ -181,53 +101,87 @@ fn check_not_constant(image: &Image, name: Sym) -> Result<()> {
     Ok(())
 }
 
-fn define_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let name = symbol(&args[0])?;
+/// Makes a variable special.
+///
+/// `(system:define-variable '*v*)` => `*V*`
+#[builtin(_, "name &optional documentation")]
+fn define_variable(
+    image: &mut Image,
+    name_value: &Value,
+    documentation: Option<&Value>,
+) -> Result<Value> {
+    let name = symbol(name_value)?;
     check_not_constant(image, name)?;
     let data = image.symbols.get_mut(name);
     data.kind = VariableKind::Special;
-    if let Some(doc) = args.get(1).and_then(Value::as_text) {
+    if let Some(doc) = documentation.and_then(Value::as_text) {
         data.variable_doc = Some(doc.into());
     }
-    Ok(args[0].clone())
+    Ok(name_value.clone())
 }
 
-fn define_constant(image: &mut Image, args: &[Value]) -> Result<Value> {
-    image.define_constant(symbol(&args[0])?, args[1].clone());
-    Ok(args[0].clone())
+/// Makes a variable constant.
+///
+/// `(system:define-constant '+c+ 1)` => `+C+`
+#[builtin]
+fn define_constant(image: &mut Image, name: &Value, value: Value) -> Result<Value> {
+    image.define_constant(symbol(name)?, value);
+    Ok(name.clone())
 }
 
-fn set_symbol_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
-    image.symbols.get_mut(symbol(&args[0])?).symbol_macro = Some(args[1].clone());
-    Ok(args[0].clone())
+/// Lets a symbol stand for a form.
+#[builtin]
+fn set_symbol_macro(image: &mut Image, name: &Value, expansion: Value) -> Result<Value> {
+    image.symbols.get_mut(symbol(name)?).symbol_macro = Some(expansion);
+    Ok(name.clone())
 }
 
-fn define_setf_update(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expander = SetfExpander::Update(symbol(&args[1])?);
-    image.setf_expanders.insert(symbol(&args[0])?, expander);
-    Ok(args[0].clone())
+/// Short DEFSETF.
+#[builtin]
+fn define_setf_update(image: &mut Image, name: &Value, update: Sym) -> Result<Value> {
+    let expander = SetfExpander::Update(update);
+    image.setf_expanders.insert(symbol(name)?, expander);
+    Ok(name.clone())
 }
 
-fn define_setf_long(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let count = match args[2] {
-        Value::Int(n) => usize::try_from(n).unwrap_or(0),
+/// Long DEFSETF.
+#[builtin]
+fn define_setf_long(
+    image: &mut Image,
+    name: &Value,
+    function: Value,
+    stores: &Value,
+) -> Result<Value> {
+    let count = match stores {
+        Value::Int(n) => usize::try_from(*n).unwrap_or(0),
         _ => 0,
     };
-    let expander = SetfExpander::Long(args[1].clone(), count);
-    image.setf_expanders.insert(symbol(&args[0])?, expander);
-    Ok(args[0].clone())
+    let expander = SetfExpander::Long(function, count);
+    image.setf_expanders.insert(symbol(name)?, expander);
+    Ok(name.clone())
 }
 
-fn set_setf_expander(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expander = SetfExpander::Expander(args[1].clone());
-    image.setf_expanders.insert(symbol(&args[0])?, expander);
-    Ok(args[0].clone())
+/// DEFINE-SETF-EXPANDER.
+#[builtin]
+fn set_setf_expander(image: &mut Image, name: &Value, function: Value) -> Result<Value> {
+    let expander = SetfExpander::Expander(function);
+    image.setf_expanders.insert(symbol(name)?, expander);
+    Ok(name.clone())
 }
 
-fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let environment = args.get(1).cloned().unwrap_or(Value::NIL);
+/// How to read and set a place: temporary variables, their forms, variables for the new values, the
+/// form that stores, the form that reads.
+///
+/// `(fifth (multiple-value-list (get-setf-expansion 'x)))` => `X`
+#[builtin]
+fn get_setf_expansion(
+    image: &mut Image,
+    place: &Value,
+    environment: Option<&Value>,
+) -> Result<Value> {
+    let environment = environment.cloned().unwrap_or(Value::NIL);
     let outside = std::mem::replace(&mut image.environment, environment);
-    let expansion = setf::expansion(image, &args[0]);
+    let expansion = setf::expansion(image, place);
     image.environment = outside;
     let expansion = expansion?;
     Ok(Value::values(vec![
@@ -239,31 +193,42 @@ fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
     ]))
 }
 
-fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let function = args[1].clone();
+/// The form that sets a place to a function of it and of forms.
+#[builtin(_, "place function arguments environment")]
+fn modify_place(
+    image: &mut Image,
+    place: &Value,
+    function: Value,
+    arguments_value: &Value,
+    environment: Value,
+) -> Result<Value> {
     let (mut operands, mut arguments) = (Vec::new(), Vec::new());
-    let has_effects = args[2]
+    let has_effects = arguments_value
         .iter_list()
         .any(|form| matches!(form, Value::Cons(_)));
-    for form in args[2].iter_list() {
+    for form in arguments_value.iter_list() {
         let (bound, argument) = setf::operand(image, "ARG", form, has_effects);
         operands.extend(bound);
         arguments.push(argument);
     }
-    let outside = std::mem::replace(&mut image.environment, args[3].clone());
-    let form = setf::modify(image, &args[0], None, operands, |_, getter| {
+    let outside = std::mem::replace(&mut image.environment, environment);
+    let form = setf::modify(image, place, None, operands, |_, getter| {
         Value::cons(function, Value::cons(getter, Value::list(arguments)))
     });
     image.environment = outside;
     form
 }
 
-fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
-    if args[0].list_to_vec().is_none() {
-        return Err(Raise::type_error(&args[0], known::LIST));
+/// A global declaration.
+///
+/// `(proclaim '(special *proclaimed*))` => `; No value`
+#[builtin]
+fn proclaim(image: &mut Image, specifier: &Value) -> Result<Value> {
+    if specifier.list_to_vec().is_none() {
+        return Err(Raise::type_error(specifier, known::LIST));
     }
-    if args[0].car_or_nil().as_symbol() == Some(known::SPECIAL) {
-        for name in args[0].cdr_or_nil().iter_list() {
+    if specifier.car_or_nil().as_symbol() == Some(known::SPECIAL) {
+        for name in specifier.cdr_or_nil().iter_list() {
             let name = symbol(&name)?;
             check_not_constant(image, name)?;
             image.symbols.get_mut(name).kind = VariableKind::Special;
@@ -271,3 +236,21 @@ fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
     }
     Ok(Value::values(Vec::new()))
 }
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    at_place_of,
+    define_function,
+    define_macro,
+    define_parameter,
+    define_variable,
+    define_constant,
+    set_symbol_macro,
+    define_setf_update,
+    define_setf_long,
+    set_setf_expander,
+    modify_place,
+];
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![proclaim, get_setf_expansion,];

@@ -2,40 +2,26 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, Entry, pure};
+use crate::builtin::{Builtin, Entry};
 use crate::image::Image;
 use crate::library::definition_of;
 use crate::object::method::MethodObject;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym};
 
-/// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
-    "DOCUMENTATION",
-    "object doc-type",
-    "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
-    &[
-        "(progn (defun twice (x) \"Doubles.\" (* 2 x)) (documentation 'twice 'function)) => \"Doubles.\"",
-        "(progn (defparameter *speed* 1 \"In m/s.\") (documentation '*speed* 'variable)) => \"In m/s.\"",
-    ],
-    documentation,
-)];
-
-/// What `setf` of the functions here calls: the new value comes first.
-pub static SETTERS: &[Builtin] = &[pure(
-    "DOCUMENTATION",
-    "text object doc-type",
-    "Gives a name a documentation.",
-    &[],
-    set_documentation,
-)];
-
-fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let kind = args[1].as_symbol();
-    let text = match (&args[0], kind) {
+/// The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a
+/// function, class or method.
+///
+/// `(progn (defun twice (x) "Doubles." (* 2 x)) (documentation 'twice 'function))` => `"Doubles."`
+/// `(progn (defparameter *speed* 1 "In m/s.") (documentation '*speed* 'variable))` => `"In m/s."`
+#[builtin]
+fn documentation(image: &mut Image, object: &Value, doc_type: &Value) -> Result<Value, Box<Raise>> {
+    let kind = doc_type.as_symbol();
+    let text = match (object, kind) {
         (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
             image.symbol(*name).variable_doc.clone()
         }
@@ -44,7 +30,7 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
         }
         (Value::Symbol(name, ..), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
         (Value::Cons(_), Some(known::FUNCTION)) => image
-            .named_function(&args[0])
+            .named_function(object)
             .and_then(|f| of_function(image, &f)),
         (Value::Function(function), _) => match name_of(image, function) {
             Some(name) => of_name(image, name),
@@ -109,9 +95,16 @@ fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
     }
 }
 
-fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let text: Option<Rc<str>> = args[0].as_text().map(Into::into);
-    match (&args[1], args[2].as_symbol()) {
+/// Gives a name a documentation.
+#[builtin("DOCUMENTATION", "text object doc-type")]
+fn set_documentation(
+    image: &mut Image,
+    text_value: &Value,
+    object: &Value,
+    doc_type: &Value,
+) -> Result<Value, Box<Raise>> {
+    let text: Option<Rc<str>> = text_value.as_text().map(Into::into);
+    match (object, doc_type.as_symbol()) {
         (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
             image.symbols.get_mut(*name).variable_doc = text;
         }
@@ -131,5 +124,11 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
             }
         }
     }
-    Ok(args[0].clone())
+    Ok(text_value.clone())
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![documentation,];
+
+/// What `setf` of the functions here calls: the new value comes first.
+pub(crate) static SETTERS: &[Builtin] = builtins![set_documentation,];

@@ -2,10 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::compile;
 use crate::guard::descend;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
@@ -17,149 +18,61 @@ use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "EVAL",
-        "form",
-        "Evaluates a form.",
-        &["(eval '(+ 1 2)) => 3"],
-        eval,
-    ),
-    control(
-        "FUNCALL",
-        "function &rest arguments",
-        "Calls a function.",
-        &["(funcall #'+ 1 2) => 3"],
-        funcall,
-    ),
-    control(
-        "APPLY",
-        "function argument &rest arguments",
-        "Calls a function; the last argument is a list of further arguments.",
-        &["(apply #'+ 1 '(2 3)) => 6"],
-        apply,
-    ),
-    pure(
-        "VALUES",
-        "&rest values",
-        "Returns the values.",
-        &["(values 1 2) => 1 ; 2"],
-        values,
-    ),
-    pure(
-        "VALUES-LIST",
-        "list",
-        "Returns the elements of a list as values.",
-        &["(values-list '(1 2)) => 1 ; 2"],
-        values_list,
-    ),
-    pure(
-        "IDENTITY",
-        "object",
-        "The object.",
-        &["(identity 1) => 1"],
-        |_, args| Ok(args[0].clone()),
-    ),
-    pure(
-        "NOT",
-        "object",
-        "T if the object is NIL.",
-        &["(not nil) => T"],
-        |_, args| Ok(args[0].is_nil().into()),
-    ),
-    pure(
-        "EQ",
-        "a b",
-        "Are they the same object?",
-        &["(eq 'a 'a) => T"],
-        |_, args| Ok(args[0].is_eq(&args[1]).into()),
-    ),
-    pure(
-        "EQL",
-        "a b",
-        "Are they the same object, or equal numbers of one type?",
-        &["(eql 1 1.0) => NIL"],
-        |_, args| Ok(args[0].is_eql(&args[1]).into()),
-    ),
-    pure(
-        "EQUAL",
-        "a b",
-        "Have they the same structure and contents?",
-        &["(equal '(1 \"a\") '(1 \"a\")) => T"],
-        |_, args| Ok(crate::value::equality::equal(&args[0], &args[1]).into()),
-    ),
-    pure(
-        "EQUALP",
-        "a b",
-        "Like EQUAL; numbers by value, letters without case, arrays by element.",
-        &["(equalp \"A\" \"a\") => T"],
-        |_, args| Ok(crate::value::equality::equalp(&args[0], &args[1]).into()),
-    ),
-    pure(
-        "CONSTANTLY",
-        "value",
-        "A function that always returns the value.",
-        &["(funcall (constantly 1) 2 3) => 1"],
-        constantly,
-    ),
-    pure(
-        "COMPLEMENT",
-        "function",
-        "The function that is true when the function is false.",
-        &["(funcall (complement #'oddp) 2) => T"],
-        complement,
-    ),
-    pure(
-        "FUNCTIONP",
-        "object",
-        "Is it a function?",
-        &["(functionp #'car) => T"],
-        |_, args| Ok(matches!(args[0], Value::Function(_)).into()),
-    ),
-    pure(
-        "MACROEXPAND",
-        "form &optional environment",
-        "Expands a macro call until it is none; was it one?",
-        &["(macroexpand '(when a b)) => (IF A B) ; T"],
-        macroexpand,
-    ),
-    pure(
-        "MACROEXPAND-1",
-        "form &optional environment",
-        "Expands a macro call once; was it one?",
-        &["(macroexpand-1 '(when a b)) => (IF A B) ; T"],
-        macroexpand_1,
-    ),
-    pure(
-        "COMPILE",
-        "name &optional definition",
-        "The function: everything is compiled.",
-        &["(funcall (compile nil '(lambda (x) (* x x))) 3) => 9"],
-        compile_function,
-    ),
-    pure(
-        "SPECIAL-OPERATOR-P",
-        "symbol",
-        "Does the symbol name a special operator?",
-        &["(special-operator-p 'if) => T"],
-        special_operator_p,
-    ),
-    pure(
-        "MACRO-FUNCTION",
-        "symbol &optional environment",
-        "The expander of a macro, or NIL.",
-        &["(macro-function 'car) => NIL"],
-        macro_function,
-    ),
-    pure(
-        "FUNCTION-LAMBDA-EXPRESSION",
-        "function",
-        "NIL, T and the function's name.",
-        &["(function-lambda-expression #'car) => NIL ; T ; CAR"],
-        function_lambda_expression,
-    ),
-];
+/// The object.
+///
+/// `(identity 1)` => `1`
+#[builtin]
+fn identity(object: Value) -> Result<Value> {
+    Ok(object)
+}
+
+/// T if the object is NIL.
+///
+/// `(not nil)` => `T`
+#[builtin]
+fn not(object: &Value) -> Result<Value> {
+    Ok(object.is_nil().into())
+}
+
+/// Are they the same object?
+///
+/// `(eq 'a 'a)` => `T`
+#[builtin]
+fn eq(a: &Value, b: &Value) -> Result<Value> {
+    Ok(a.is_eq(b).into())
+}
+
+/// Are they the same object, or equal numbers of one type?
+///
+/// `(eql 1 1.0)` => `NIL`
+#[builtin]
+fn eql(a: &Value, b: &Value) -> Result<Value> {
+    Ok(a.is_eql(b).into())
+}
+
+/// Have they the same structure and contents?
+///
+/// `(equal '(1 "a") '(1 "a"))` => `T`
+#[builtin]
+fn equal(a: &Value, b: &Value) -> Result<Value> {
+    Ok(crate::value::equality::equal(a, b).into())
+}
+
+/// Like EQUAL; numbers by value, letters without case, arrays by element.
+///
+/// `(equalp "A" "a")` => `T`
+#[builtin]
+fn equalp(a: &Value, b: &Value) -> Result<Value> {
+    Ok(crate::value::equality::equalp(a, b).into())
+}
+
+/// Is it a function?
+///
+/// `(functionp #'car)` => `T`
+#[builtin]
+fn functionp(object: &Value) -> Result<Value> {
+    Ok(matches!(object, Value::Function(_)).into())
+}
 
 /// Evaluates forms one after the other, so that each sees what the ones before defined.
 fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
@@ -207,10 +120,18 @@ pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
     })
 }
 
-fn eval(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    evaluate(machine, &args[0])
+/// Evaluates a form.
+///
+/// `(eval '(+ 1 2))` => `3`
+#[builtin]
+fn eval(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+    evaluate(machine, form)
 }
 
+/// Calls a function.
+///
+/// `(funcall #'+ 1 2)` => `3`
+#[builtin(_, "function &rest arguments")]
 fn funcall(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let mut args = args.into_iter();
     let function = args.next().unwrap_or(Value::NIL);
@@ -220,6 +141,10 @@ fn funcall(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     })
 }
 
+/// Calls a function; the last argument is a list of further arguments.
+///
+/// `(apply #'+ 1 '(2 3))` => `6`
+#[builtin(_, "function argument &rest arguments")]
 fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let mut args = args.into_iter();
     let function = args.next().unwrap_or(Value::NIL);
@@ -232,31 +157,44 @@ fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     Ok(Step::TailCall { function, args })
 }
 
-fn values(_: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(Value::values(args.to_vec()))
+/// Returns the values.
+///
+/// `(values 1 2)` => `1 ; 2`
+#[builtin]
+fn values(values: &[Value]) -> Result<Value> {
+    Ok(Value::values(values.to_vec()))
 }
 
-fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
-    match args[0].list_to_vec() {
+/// Returns the elements of a list as values.
+///
+/// `(values-list '(1 2))` => `1 ; 2`
+#[builtin]
+fn values_list(list: &Value) -> Result<Value> {
+    match list.list_to_vec() {
         Some(items) => Ok(Value::values(items)),
         None => {
-            let mut items = args[0].iter_list();
+            let mut items = list.iter_list();
             items.by_ref().for_each(drop);
             Err(Raise::type_error(&items.rest, known::LIST))
         }
     }
 }
 
-fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let constant = Function::pure_of(
-        known::CONSTANTLY,
-        (0, None),
-        args[0].clone(),
-        |value, _, _| Ok(value.clone()),
-    );
+/// A function that always returns the value.
+///
+/// `(funcall (constantly 1) 2 3)` => `1`
+#[builtin(_, "value")]
+fn constantly(value_value: Value) -> Result<Value> {
+    let constant = Function::pure_of(known::CONSTANTLY, (0, None), value_value, |value, _, _| {
+        Ok(value.clone())
+    });
     Ok(Value::Function(constant))
 }
 
+/// The function that is true when the function is false.
+///
+/// `(funcall (complement #'oddp) 2)` => `T`
+#[builtin(_, "function")]
 fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
     let complement = Function::control_of(
         known::COMPLEMENT,
@@ -273,38 +211,66 @@ fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::Function(complement))
 }
 
-fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
+/// Expands a macro call until it is none; was it one?
+///
+/// `(macroexpand '(when a b))` => `(IF A B) ; T`
+#[builtin]
+fn macroexpand(image: &mut Image, form: &Value, environment: Option<&Value>) -> Result<Value> {
     let (form, expanded) =
-        compile::macroexpand_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
+        compile::macroexpand_in(image, form, environment.unwrap_or(&Value::NIL))?;
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
-fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expansion = compile::macroexpand_1_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
+/// Expands a macro call once; was it one?
+///
+/// `(macroexpand-1 '(when a b))` => `(IF A B) ; T`
+#[builtin]
+fn macroexpand_1(image: &mut Image, form: &Value, environment: Option<&Value>) -> Result<Value> {
+    let expansion = compile::macroexpand_1_in(image, form, environment.unwrap_or(&Value::NIL))?;
     let expanded = expansion.is_some();
-    let form = expansion.unwrap_or_else(|| args[0].clone());
+    let form = expansion.unwrap_or_else(|| form.clone());
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
-fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
-    match args.get(1) {
+/// The function: everything is compiled.
+///
+/// `(funcall (compile nil '(lambda (x) (* x x))) 3)` => `9`
+#[builtin("COMPILE", "name &optional definition")]
+fn compile_function(
+    image: &mut Image,
+    name_value: &Value,
+    definition_value: Option<&Value>,
+) -> Result<Value> {
+    match definition_value {
         Some(definition @ Value::Cons(_)) => {
             let function = Value::Function(compile::compile_lambda(image, definition)?);
-            if let Some(name) = args[0].as_symbol().filter(|_| args[0].is_true())
+            if let Some(name) = name_value.as_symbol().filter(|_| name_value.is_true())
                 && let Value::Function(f) = &function
             {
                 image.set_function(name, f.clone());
-                return Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL]));
+                return Ok(Value::values(vec![
+                    name_value.clone(),
+                    Value::NIL,
+                    Value::NIL,
+                ]));
             }
             Ok(Value::values(vec![function, Value::NIL, Value::NIL]))
         }
-        _ => Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL])),
+        _ => Ok(Value::values(vec![
+            name_value.clone(),
+            Value::NIL,
+            Value::NIL,
+        ])),
     }
 }
 
-fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+/// Does the symbol name a special operator?
+///
+/// `(special-operator-p 'if)` => `T`
+#[builtin]
+fn special_operator_p(image: &mut Image, symbol: &Value) -> Result<Value> {
+    let Some(name) = symbol.as_symbol() else {
+        return Err(Raise::type_error(symbol, known::SYMBOL));
     };
     // A declaration is no form.
     let is_special =
@@ -312,6 +278,10 @@ fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(is_special.into())
 }
 
+/// The expander of a macro, or NIL.
+///
+/// `(macro-function 'car)` => `NIL`
+#[builtin(_, "symbol &optional environment")]
 fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
@@ -338,9 +308,13 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     })
 }
 
-fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Value::Function(function) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::FUNCTION));
+/// NIL, T and the function's name.
+///
+/// `(function-lambda-expression #'car)` => `NIL ; T ; CAR`
+#[builtin]
+fn function_lambda_expression(function: &Value) -> Result<Value> {
+    let Value::Function(function) = function else {
+        return Err(Raise::type_error(function, known::FUNCTION));
     };
     let name = match &function.body {
         Body::Closure { code, .. } => code.name.value(),
@@ -350,3 +324,27 @@ fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
     };
     Ok(Value::values(vec![Value::NIL, Value::T, name]))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    eval,
+    funcall,
+    apply,
+    values,
+    values_list,
+    identity,
+    not,
+    eq,
+    eql,
+    equal,
+    equalp,
+    constantly,
+    complement,
+    functionp,
+    macroexpand,
+    macroexpand_1,
+    compile_function,
+    special_operator_p,
+    macro_function,
+    function_lambda_expression,
+];

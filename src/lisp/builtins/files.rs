@@ -1,17 +1,20 @@
 //! Files, by the names that the machine knows them by: opening, finding, deleting, renaming. Relative
 //! names begin in the directory that the program was started in; texts are UTF-8.
 
+use crate::value::string::LispString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind};
 use std::rc::Rc;
 use std::time::UNIX_EPOCH;
 
-use super::keywords;
 use super::shown::shown;
 use super::strings::string;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{Stream, StreamKind};
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::Pathname;
@@ -20,6 +23,15 @@ use crate::value::stream::Elements;
 use closest_name::closest_name;
 
 type Outcome = Result<Value, Box<Raise>>;
+
+/// The name of one file.
+struct FilePath(String);
+
+impl FromValue<'_> for FilePath {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        path(value).map(FilePath)
+    }
+}
 
 fn path(value: &Value) -> Result<String, Box<Raise>> {
     let path = string(value)?.text();
@@ -65,6 +77,14 @@ fn elements(size: &Value) -> Elements {
     }
 }
 
+/// Opens a file. The size is that of its elements in bits, negative if they have a sign; `NIL` for
+/// characters.
+///
+/// `(system::%open-file "no-such-file.txt" nil :if-does-not-exist nil)` => `NIL`
+#[builtin(
+    "%OPEN-FILE",
+    "name size &key direction if-exists if-does-not-exist element-type external-format"
+)]
 fn open(image: &mut Image, args: &[Value]) -> Outcome {
     let [direction, if_exists, if_does_not_exist, _, _] = keywords::parse(
         image,
@@ -237,9 +257,13 @@ fn open_output(
     }))
 }
 
-/// The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
-fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+/// The name of a file without links, or `NIL`.
+///
+/// `(system::%true-name "no-such-file.txt")` => `NIL`
+// The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
+#[builtin("%TRUE-NAME")]
+fn true_name(name: FilePath) -> Outcome {
+    let path = name.0;
     let here = if path.is_empty() { "." } else { path.as_str() };
     let Some(found) = fs::canonicalize(here)
         .ok()
@@ -252,14 +276,18 @@ fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::string(if needs_slash { found + "/" } else { found }))
 }
 
-fn delete_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+/// Deletes a file.
+#[builtin("%DELETE-FILE")]
+fn delete_file(name: FilePath) -> Outcome {
+    let path = name.0;
     fs::remove_file(&path).map_err(|error| file_error("deleting", &path, &error))?;
     Ok(Value::T)
 }
 
-fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let (old, new) = (path(&args[0])?, path(&args[1])?);
+/// Renames a file.
+#[builtin("%RENAME-FILE")]
+fn rename_file(name: FilePath, new_name: FilePath) -> Outcome {
+    let (old, new) = (name.0, new_name.0);
     fs::rename(&old, &new).map_err(|error| file_error("renaming", &old, &error))?;
     Ok(Value::T)
 }
@@ -267,8 +295,10 @@ fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
 /// Seconds from the beginning of universal time, 1900, to that of the machine's, 1970.
 const UNIVERSAL_TO_UNIX: u64 = 2_208_988_800;
 
-fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+/// The universal time at which a file was written last.
+#[builtin("%FILE-DATE")]
+fn file_date(name: FilePath) -> Outcome {
+    let path = name.0;
     let written = fs::metadata(&path)
         .and_then(|data| data.modified())
         .map_err(|error| file_error("looking at", &path, &error))?;
@@ -278,8 +308,12 @@ fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a folder and those around it; was it missing?
-fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
-    let path = path(&args[0])?;
+///
+/// `(system::%make-directories "")` => `NIL`
+// Makes a folder and those around it; was it missing?
+#[builtin("%MAKE-DIRECTORIES")]
+fn make_directories(name: FilePath) -> Outcome {
+    let path = name.0;
     if path.is_empty() || fs::metadata(&path).is_ok_and(|data| data.is_dir()) {
         return Ok(Value::NIL);
     }
@@ -287,8 +321,13 @@ fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
-fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
-    let folder = string(&args[0])?.text();
+/// The names in a folder, sorted; those of folders end with a slash. `NIL` if there is no such
+/// folder.
+///
+/// `(system:file-names "no-such-folder")` => `NIL`
+#[builtin]
+fn file_names(folder: &Rc<LispString>) -> Outcome {
+    let folder = folder.text();
     let Ok(entries) = fs::read_dir(&folder) else {
         return Ok(Value::NIL);
     };
@@ -305,9 +344,13 @@ fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(names.into_iter().map(Value::string)))
 }
 
-fn closest(_: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let names: Vec<String> = args[1]
+/// The name that was probably meant, or `NIL`.
+///
+/// `(system:closest-name "iterat" '("fiveam" "iterate"))` => `"iterate"`
+#[builtin("CLOSEST-NAME", "name names")]
+fn closest(name_argument: &Rc<LispString>, names: &Value) -> Outcome {
+    let name = name_argument.text();
+    let names: Vec<String> = names
         .iter_list()
         .map(|name| Ok(string(&name)?.text()))
         .collect::<Result<_, Box<Raise>>>()?;
@@ -316,55 +359,13 @@ fn closest(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What the library needs to find files, in package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "FILE-NAMES",
-        "folder",
-        "The names in a folder, sorted; those of folders end with a slash. `NIL` if there is no such folder.",
-        &["(system:file-names \"no-such-folder\") => NIL"],
-        file_names,
-    ),
-    pure(
-        "CLOSEST-NAME",
-        "name names",
-        "The name that was probably meant, or `NIL`.",
-        &["(system:closest-name \"iterat\" '(\"fiveam\" \"iterate\")) => \"iterate\""],
-        closest,
-    ),
-    pure(
-        "%OPEN-FILE",
-        "name size &key direction if-exists if-does-not-exist element-type external-format",
-        "Opens a file. The size is that of its elements in bits, negative if they have a sign; `NIL` for characters.",
-        &["(system::%open-file \"no-such-file.txt\" nil :if-does-not-exist nil) => NIL"],
-        open,
-    ),
-    pure(
-        "%TRUE-NAME",
-        "name",
-        "The name of a file without links, or `NIL`.",
-        &["(system::%true-name \"no-such-file.txt\") => NIL"],
-        true_name,
-    ),
-    pure("%DELETE-FILE", "name", "Deletes a file.", &[], delete_file),
-    pure(
-        "%RENAME-FILE",
-        "name new-name",
-        "Renames a file.",
-        &[],
-        rename_file,
-    ),
-    pure(
-        "%FILE-DATE",
-        "name",
-        "The universal time at which a file was written last.",
-        &[],
-        file_date,
-    ),
-    pure(
-        "%MAKE-DIRECTORIES",
-        "name",
-        "Makes a folder and those around it; was it missing?",
-        &["(system::%make-directories \"\") => NIL"],
-        make_directories,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    file_names,
+    closest,
+    open,
+    true_name,
+    delete_file,
+    rename_file,
+    file_date,
+    make_directories,
 ];

@@ -1,7 +1,7 @@
 //! Vectors with fill pointers: pushing and popping.
 
-use crate::builtin::{Builtin, pure};
-use crate::image::Image;
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::known;
@@ -26,22 +26,31 @@ fn pointer_of(vector: &Value) -> Result<usize, Box<Raise>> {
     })
 }
 
-fn has_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+/// Has the array a fill pointer?
+///
+/// `(array-has-fill-pointer-p #(1))` => `NIL`
+#[builtin("ARRAY-HAS-FILL-POINTER-P")]
+fn has_fill_pointer(array: &Value) -> Outcome {
+    match array {
         Value::Array(_) => Ok(Value::NIL),
-        Value::Vector(_) | Value::Str(_) => Ok(Value::bool(pointer_of(&args[0]).is_ok())),
+        Value::Vector(_) | Value::Str(_) => Ok(Value::bool(pointer_of(array).is_ok())),
         other => Err(Raise::type_error(other, known::ARRAY)),
     }
 }
 
-fn fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    pointer_of(&args[0]).map(Value::from)
+/// The number of active elements.
+///
+/// `(fill-pointer (make-array 3 :fill-pointer 2))` => `2`
+#[builtin]
+fn fill_pointer(vector: &Value) -> Outcome {
+    pointer_of(vector).map(Value::from)
 }
 
-fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
-    let vector = &args[1];
+/// Sets the number of active elements.
+#[builtin("FILL-POINTER")]
+fn set_fill_pointer(value: &Value, vector: &Value) -> Outcome {
     pointer_of(vector)?;
-    let pointer = index(&args[0])?;
+    let pointer = index(value)?;
     let (done, size) = match vector {
         Value::Vector(v) => {
             let size = v.items.len();
@@ -54,13 +63,13 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
         _ => (false, 0),
     };
     if done {
-        Ok(args[0].clone())
+        Ok(value.clone())
     } else {
         Err(Raise::new(
             known::SIMPLE_TYPE_ERROR,
             format!("The fill pointer {pointer} is beyond the vector's size {size}."),
         )
-        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_DATUM, value.clone())
         .with(
             known::K_EXPECTED_TYPE,
             Value::list([known::INTEGER.into(), Value::Int(0), size.into()]),
@@ -68,13 +77,20 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn vector_push(_: &mut Image, args: &[Value]) -> Outcome {
-    push(&args[0], &args[1], None)
+/// Adds an element behind the active ones; its index, or `NIL` if the vector is full.
+///
+/// `(vector-push 'a (make-array 2 :fill-pointer 0))` => `0`
+#[builtin]
+fn vector_push(element: &Value, vector: &Value) -> Outcome {
+    push(element, vector, None)
 }
 
-fn vector_push_extend(_: &mut Image, args: &[Value]) -> Outcome {
-    let extension = args.get(2).map_or(Ok(1), index)?;
-    push(&args[0], &args[1], Some(extension.max(1)))
+/// Adds an element behind the active ones, making room if need be; its index.
+///
+/// `(vector-push-extend 'a (make-array 0 :fill-pointer 0 :adjustable t))` => `0`
+#[builtin]
+fn vector_push_extend(element: &Value, vector: &Value, #[default(1)] extension: usize) -> Outcome {
+    push(element, vector, Some(extension.max(1)))
 }
 
 /// Adds an element; returns its index, or `NIL` if there is no room and the vector must not grow.
@@ -107,11 +123,15 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
     Ok(pointer.into())
 }
 
-fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
-    let Some(last) = pointer_of(&args[0])?.checked_sub(1) else {
+/// Takes the last active element.
+///
+/// `(vector-pop (make-array 1 :fill-pointer 1 :initial-element 'x))` => `X`
+#[builtin]
+fn vector_pop(vector: &Value) -> Outcome {
+    let Some(last) = pointer_of(vector)?.checked_sub(1) else {
         return Err(Raise::simple("There is nothing left to pop."));
     };
-    match &args[0] {
+    match vector {
         Value::Vector(v) => {
             v.fill_pointer.set(Some(last));
             Ok(v.get(last).unwrap_or(Value::NIL))
@@ -122,49 +142,13 @@ fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Vectors with fill pointers.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "ARRAY-HAS-FILL-POINTER-P",
-        "array",
-        "Has the array a fill pointer?",
-        &["(array-has-fill-pointer-p #(1)) => NIL"],
-        has_fill_pointer,
-    ),
-    pure(
-        "FILL-POINTER",
-        "vector",
-        "The number of active elements.",
-        &["(fill-pointer (make-array 3 :fill-pointer 2)) => 2"],
-        fill_pointer,
-    ),
-    pure(
-        "VECTOR-PUSH",
-        "element vector",
-        "Adds an element behind the active ones; its index, or `NIL` if the vector is full.",
-        &["(vector-push 'a (make-array 2 :fill-pointer 0)) => 0"],
-        vector_push,
-    ),
-    pure(
-        "VECTOR-PUSH-EXTEND",
-        "element vector &optional extension",
-        "Adds an element behind the active ones, making room if need be; its index.",
-        &["(vector-push-extend 'a (make-array 0 :fill-pointer 0 :adjustable t)) => 0"],
-        vector_push_extend,
-    ),
-    pure(
-        "VECTOR-POP",
-        "vector",
-        "Takes the last active element.",
-        &["(vector-pop (make-array 1 :fill-pointer 1 :initial-element 'x)) => X"],
-        vector_pop,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    has_fill_pointer,
+    fill_pointer,
+    vector_push,
+    vector_push_extend,
+    vector_pop,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
-    "FILL-POINTER",
-    "value vector",
-    "Sets the number of active elements.",
-    &[],
-    set_fill_pointer,
-)];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_fill_pointer,];

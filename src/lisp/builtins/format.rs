@@ -2,38 +2,17 @@
 
 use super::composing::compose;
 use super::streams::or_method;
-use crate::builtin::{Builtin, Operator, control};
+use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::print::format::Control;
 use crate::stream;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
-
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[control(
-    "FORMAT",
-    "destination control &rest arguments",
-    "Writes the arguments as the control string says: to a string that it returns (NIL), to standard output (T), to a stream, or to the end of a string with a fill pointer.",
-    &[
-        "(format nil \"~a and ~s\" \"x\" \"x\") => \"x and \\\"x\\\"\"",
-        "(format nil \"~{~a~^, ~}\" '(1 2 3)) => \"1, 2, 3\"",
-        "(format nil \"~,2f ~5d ~r\" 3.14159 42 42) => \"3.14    42 forty-two\"",
-    ],
-    format,
-)];
-
-/// What the expansion of FORMATTER calls.
-pub static SYSTEM_TABLE: &[Builtin] = &[control(
-    "%FORMAT-REST",
-    "stream control &rest arguments",
-    "Writes to a stream as FORMAT does; the arguments that are left.",
-    &[],
-    format_rest,
-)];
 
 /// Macros of package `COMMON-LISP`.
 pub static OPERATORS: &[Operator] = &[Operator {
@@ -100,6 +79,13 @@ impl Destination {
     }
 }
 
+/// Writes the arguments as the control string says: to a string that it returns (NIL), to standard
+/// output (T), to a stream, or to the end of a string with a fill pointer.
+///
+/// `(format nil "~a and ~s" "x" "x")` => `"x and \"x\""`
+/// `(format nil "~{~a~^, ~}" '(1 2 3))` => `"1, 2, 3"`
+/// `(format nil "~,2f ~5d ~r" 3.14159 42 42)` => `"3.14    42 forty-two"`
+#[builtin(_, "destination control &rest arguments")]
 fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let destination = destination(&args[0])?;
     match &args[1] {
@@ -169,18 +155,25 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
     }
 }
 
-/// Writes to a stream as FORMAT does; returns the arguments that are left.
-fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let Value::Str(control) = &args[1] else {
-        return Err(Raise::type_error(&args[1], known::STRING));
+/// Writes to a stream as FORMAT does; the arguments that are left.
+// Writes to a stream as FORMAT does; returns the arguments that are left.
+#[builtin("%FORMAT-REST", "stream control &rest arguments")]
+fn format_rest(
+    machine: &mut Machine<'_>,
+    stream_value: Value,
+    control_value: Value,
+    arguments: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let Value::Str(control) = &control_value else {
+        return Err(Raise::type_error(&control_value, known::STRING));
     };
     let control = Control::parse(&control.borrow())?;
-    let target = args[0].clone();
+    let target = stream_value;
     if let Some(stream) = stream::pretty(machine.image, &target) {
         return compose(
             machine,
             "FORMATTER",
-            move |image, calls| control.run_for_rest(image, &args[2..], 0, true, calls),
+            move |image, calls| control.run_for_rest(image, &arguments, 0, true, calls),
             move |_, (output, rest)| {
                 stream.with_document(|document| document.append(&output.into_document()));
                 Ok(Step::Return(Value::list(rest)))
@@ -195,7 +188,7 @@ fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<
     compose(
         machine,
         "FORMATTER",
-        move |image, calls| control.run_for_rest(image, &args[2..], column, false, calls),
+        move |image, calls| control.run_for_rest(image, &arguments, column, false, calls),
         move |machine, (output, rest)| {
             let text = Value::string(output.into_text());
             run(machine, "FORMATTER", |calls| async move {
@@ -230,3 +223,9 @@ fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>
     ];
     Ok(Value::list([known::FUNCTION.into(), Value::list(lambda)]))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![format,];
+
+/// What the expansion of FORMATTER calls.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![format_rest,];

@@ -1,8 +1,10 @@
 //! Builtins on generic functions and methods.
 
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, Operator, control, pure};
+use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::object::combination::{define_combination, expand_define_method_combination};
 use crate::object::combine::{invoke_method, no_next_method};
@@ -10,6 +12,8 @@ use crate::object::dispatch::no_applicable_method_error;
 use crate::object::effective::applicable_methods;
 use crate::object::method::{MethodObject, add_method, method_value, remove_method, specializer};
 use crate::object::{defmethod, text};
+use crate::typed::FromValue;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::Function;
 use crate::value::generic::{GenericFunction, Method};
@@ -17,165 +21,144 @@ use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
-/// The builtins.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "NO-APPLICABLE-METHOD",
-        "generic-function &rest arguments",
-        "Called when no method of a generic function applies. Add methods to do something else.",
-        &[
-            "(progn (defgeneric weigh (x)) (defmethod no-applicable-method ((g (eql #'weigh)) &rest args) (list :cannot args)) (weigh 1)) => (:CANNOT (1))",
-        ],
-        |machine, args| {
-            let function = args[0].clone();
-            let rest = args[1..].to_vec();
-            Err(no_applicable_method_error(machine.image, function, rest))
-        },
-    ),
-    control(
-        "NO-NEXT-METHOD",
-        "generic-function method &rest arguments",
-        "The error that CALL-NEXT-METHOD has nothing to call.",
-        &[],
-        |machine, args| Err(no_next_method(machine.image, &args[0])),
-    ),
-    pure(
-        "FIND-METHOD",
-        "generic-function qualifiers specializers &optional (errorp t)",
-        "The method with these qualifiers and specializers.",
-        &[
-            "(progn (defgeneric f (x)) (find-method #'f '() (list (find-class 'string)) nil)) => NIL",
-        ],
-        find_method,
-    ),
-    pure(
-        "ADD-METHOD",
-        "generic-function method",
-        "Adds a method to a generic function, which is returned.",
-        &[],
-        |image, args| {
-            let function = generic_argument(&args[0])?.clone();
-            let required = as_generic(&function)?.parameters.borrow().required;
-            let count = method_argument(&args[1])?.specializers.len();
-            if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
-                return Err(wrong_count(image, &args[0], required, count));
-            }
-            check_owner(image, &function, method_argument(&args[1])?)?;
-            add_method(image, &function, method_argument(&args[1])?.clone())?;
-            Ok(args[0].clone())
-        },
-    ),
-    pure(
-        "REMOVE-METHOD",
-        "generic-function method",
-        "Removes a method from a generic function, which is returned.",
-        &[
-            "(progn (defgeneric lift (x)) (let ((m (defmethod lift ((x integer)) x))) (remove-method #'lift m) (find-method #'lift '() (list (find-class 'integer)) nil))) => NIL",
-        ],
-        |_, args| {
-            let function = generic_argument(&args[0])?;
-            if let Some(generic) = function.as_generic() {
-                remove_method(generic, method_argument(&args[1])?);
-            }
-            Ok(args[0].clone())
-        },
-    ),
-    pure(
-        "COMPUTE-APPLICABLE-METHODS",
-        "generic-function arguments",
-        "The methods that apply to the arguments, most specific first.",
-        &["(progn (defgeneric f (x)) (compute-applicable-methods #'f '(1))) => NIL"],
-        |image, args| {
-            let function = generic_argument(&args[0])?.clone();
-            let arguments: Vec<Value> = args[1].iter_list().collect();
-            let generic = as_generic(&function)?;
-            let methods = applicable_methods(image, generic, &arguments);
-            Ok(Value::list(methods.iter().map(method_value)))
-        },
-    ),
-    pure(
-        "FUNCTION-KEYWORDS",
-        "method",
-        "The keywords that a method accepts, and whether it accepts all others, too.",
-        &[
-            "(function-keywords (defmethod poured (x &key (into 'cup)) (list x into))) => (:INTO) ; NIL",
-        ],
-        |_, args| {
-            let parameters = &method_argument(&args[0])?.parameters;
-            let keys = parameters.keys.iter().flatten().copied();
-            Ok(Value::values(vec![
-                Value::list(keys.map(Value::symbol)),
-                Value::bool(parameters.allows_other_keys),
-            ]))
-        },
-    ),
-    pure(
-        "METHOD-QUALIFIERS",
-        "method",
-        "The qualifiers of a method.",
-        &[
-            "(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x))) => (:BEFORE)",
-        ],
-        |_, args| {
-            let method = method_argument(&args[0])?;
-            let qualifiers: Vec<Sym> = method.qualifiers.clone();
-            Ok(Value::list(qualifiers.into_iter().map(Value::symbol)))
-        },
-    ),
-];
+/// Called when no method of a generic function applies. Add methods to do something else.
+///
+/// `(progn (defgeneric weigh (x)) (defmethod no-applicable-method ((g (eql #'weigh)) &rest args) (list :cannot args)) (weigh 1))` => `(:CANNOT (1))`
+#[builtin(_, "generic-function &rest arguments")]
+fn no_applicable_method(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let function = args[0].clone();
+    let rest = args[1..].to_vec();
+    Err(no_applicable_method_error(machine.image, function, rest))
+}
 
-/// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%ADD-METHOD",
-        "name qualifiers specializers lambda-list takes-next documentation function",
-        "Defines a method as DEFMETHOD describes it.",
-        &[],
-        defmethod::add_method,
-    ),
-    pure(
-        "%ENSURE-GENERIC",
-        "name lambda-list combination documentation precedence keeps-methods",
-        "Defines a generic function as DEFGENERIC describes it.",
-        &[],
-        defmethod::ensure_generic_function,
-    ),
-    pure(
-        "%OWN-METHOD",
-        "method",
-        "Notes that a method was made by a DEFGENERIC.",
-        &[],
-        defmethod::own_method,
-    ),
-    pure(
-        "%DEFINE-COMBINATION",
-        "name operator identity-with-one-argument",
-        "Defines a method combination as DEFINE-METHOD-COMBINATION describes it.",
-        &[],
-        define_combination,
-    ),
-    control(
-        "%INVOKE-METHOD",
-        "method arguments next",
-        "Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.",
-        &[],
-        |_, args| {
-            let arguments = args[1].iter_list().collect();
-            Ok(invoke_method(
-                method_argument(&args[0])?,
-                arguments,
-                args[2].clone(),
-            ))
-        },
-    ),
-    pure(
-        "%NO-NEXT-METHOD",
-        "name",
-        "The error that CALL-NEXT-METHOD has nothing to call.",
-        &[],
-        |image, args| Err(no_next_method(image, &args[0])),
-    ),
-];
+/// The error that CALL-NEXT-METHOD has nothing to call.
+#[builtin("NO-NEXT-METHOD")]
+fn no_next_method_builtin(
+    machine: &mut Machine<'_>,
+    generic_function: &Value,
+    _method: &Value,
+    _arguments: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    Err(no_next_method(machine.image, generic_function))
+}
+
+/// Adds a method to a generic function, which is returned.
+#[builtin("ADD-METHOD")]
+fn add_method_builtin(
+    image: &mut Image,
+    generic_function: &Value,
+    method: &Rc<Method>,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_argument(generic_function)?.clone();
+    let required = as_generic(&function)?.parameters.borrow().required;
+    let count = method.specializers.len();
+    if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
+        return Err(wrong_count(image, generic_function, required, count));
+    }
+    check_owner(image, &function, method)?;
+    add_method(image, &function, method.clone())?;
+    Ok(generic_function.clone())
+}
+
+/// Removes a method from a generic function, which is returned.
+///
+/// `(progn (defgeneric lift (x)) (let ((m (defmethod lift ((x integer)) x))) (remove-method #'lift m) (find-method #'lift '() (list (find-class 'integer)) nil)))` => `NIL`
+#[builtin("REMOVE-METHOD")]
+fn remove_method_builtin(
+    generic_function: &Value,
+    method: &Rc<Method>,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_argument(generic_function)?;
+    if let Some(generic) = function.as_generic() {
+        remove_method(generic, method);
+    }
+    Ok(generic_function.clone())
+}
+
+/// The methods that apply to the arguments, most specific first.
+///
+/// `(progn (defgeneric f (x)) (compute-applicable-methods #'f '(1)))` => `NIL`
+#[builtin]
+fn compute_applicable_methods(
+    image: &mut Image,
+    generic_function: Generic<'_>,
+    arguments: &Value,
+) -> Result<Value, Box<Raise>> {
+    let function = generic_function.0.clone();
+    let arguments: Vec<Value> = arguments.iter_list().collect();
+    let generic = as_generic(&function)?;
+    let methods = applicable_methods(image, generic, &arguments);
+    Ok(Value::list(methods.iter().map(method_value)))
+}
+
+/// The keywords that a method accepts, and whether it accepts all others, too.
+///
+/// `(function-keywords (defmethod poured (x &key (into 'cup)) (list x into)))` => `(:INTO) ; NIL`
+#[builtin]
+fn function_keywords(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
+    let parameters = &method.parameters;
+    let keys = parameters.keys.iter().flatten().copied();
+    Ok(Value::values(vec![
+        Value::list(keys.map(Value::symbol)),
+        Value::bool(parameters.allows_other_keys),
+    ]))
+}
+
+/// The qualifiers of a method.
+///
+/// `(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x)))` => `(:BEFORE)`
+#[builtin]
+fn method_qualifiers(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
+    let qualifiers: Vec<Sym> = method.qualifiers.clone();
+    Ok(Value::list(qualifiers.into_iter().map(Value::symbol)))
+}
+
+/// Defines a method as DEFMETHOD describes it.
+#[builtin(
+    "%ADD-METHOD",
+    "name qualifiers specializers lambda-list takes-next documentation function"
+)]
+fn add_method3(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    defmethod::add_method(image, args)
+}
+
+/// Defines a generic function as DEFGENERIC describes it.
+#[builtin(
+    "%ENSURE-GENERIC",
+    "name lambda-list combination documentation precedence keeps-methods"
+)]
+fn ensure_generic(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    defmethod::ensure_generic_function(image, args)
+}
+
+/// Notes that a method was made by a DEFGENERIC.
+#[builtin("%OWN-METHOD", "method")]
+fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    defmethod::own_method(image, args)
+}
+
+/// Defines a method combination as DEFINE-METHOD-COMBINATION describes it.
+#[builtin("%DEFINE-COMBINATION", "name operator identity-with-one-argument")]
+fn define_combination_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    define_combination(image, args)
+}
+
+/// Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.
+#[builtin("%INVOKE-METHOD")]
+fn invoke_method_builtin(
+    method: &Rc<Method>,
+    arguments: &Value,
+    next: Value,
+) -> Result<Step, Box<Raise>> {
+    let arguments = arguments.iter_list().collect();
+    Ok(invoke_method(method, arguments, next))
+}
+
+/// The error that CALL-NEXT-METHOD has nothing to call.
+#[builtin("%NO-NEXT-METHOD")]
+fn no_next_method3(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>> {
+    Err(no_next_method(image, name))
+}
 
 /// The macros.
 pub(crate) static OPERATORS: &[Operator] = &[
@@ -203,6 +186,21 @@ pub(crate) static OPERATORS: &[Operator] = &[
         expand: Some(expand_define_method_combination),
     },
 ];
+
+/// A generic function.
+pub(super) struct Generic<'a>(pub(super) &'a Rc<Function>);
+
+impl<'a> FromValue<'a> for Generic<'a> {
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        generic_argument(value).map(Generic)
+    }
+}
+
+impl<'a> FromValue<'a> for &'a Rc<Method> {
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        method_argument(value)
+    }
+}
 
 pub(super) fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
     match value {
@@ -258,6 +256,10 @@ fn wrong_count(image: &Image, function: &Value, required: usize, count: usize) -
     ))
 }
 
+/// The method with these qualifiers and specializers.
+///
+/// `(progn (defgeneric f (x)) (find-method #'f '() (list (find-class 'string)) nil))` => `NIL`
+#[builtin(_, "generic-function qualifiers specializers &optional (errorp t)")]
 fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let function = generic_argument(&args[0])?;
     let qualifiers: Vec<Sym> = args[1].iter_list().filter_map(|q| q.as_symbol()).collect();
@@ -289,3 +291,25 @@ fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
         ))),
     }
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    no_applicable_method,
+    no_next_method_builtin,
+    find_method,
+    add_method_builtin,
+    remove_method_builtin,
+    compute_applicable_methods,
+    function_keywords,
+    method_qualifiers,
+];
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    add_method3,
+    ensure_generic,
+    own_method,
+    define_combination_builtin,
+    invoke_method_builtin,
+    no_next_method3,
+];

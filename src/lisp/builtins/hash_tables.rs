@@ -2,11 +2,12 @@
 
 use std::rc::Rc;
 
-use super::keywords;
 use super::lists::size;
 use super::shown::shown;
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
 use crate::value::hash_table::{HashTable, HashTest};
@@ -36,6 +37,10 @@ const TESTS: &[(HashTest, Sym)] = &[
     (HashTest::Equalp, known::EQUALP),
 ];
 
+/// An empty hash table; the test is `eq`, `eql` (the default), `equal` or `equalp`.
+///
+/// `(hash-table-count (make-hash-table :test 'equal))` => `0`
+#[builtin("MAKE-HASH-TABLE", "&key test size rehash-size rehash-threshold")]
 pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
     let [test, wanted_size, ..] = keywords::parse(
         image,
@@ -64,61 +69,115 @@ pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::Hash(Rc::new(table)))
 }
 
-fn hash_table_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Hash(_))))
+/// Is the object a hash table?
+///
+/// `(hash-table-p 5)` => `NIL`
+#[builtin]
+fn hash_table_p(object: &Value) -> bool {
+    matches!(object, Value::Hash(_))
 }
 
-fn gethash(image: &mut Image, args: &[Value]) -> Outcome {
-    let (value, found) = match table(&args[1])?.get(&args[0]) {
+/// The value of a key, and whether the key is there.
+///
+/// `(gethash 'a (make-hash-table) 7)` => `7 ; NIL`
+#[builtin]
+fn gethash(
+    image: &mut Image,
+    key: &Value,
+    table: &Rc<HashTable>,
+    default: Option<&Value>,
+) -> Outcome {
+    let (value, found) = match table.get(key) {
         Some(value) => (value, true),
-        None => (args.get(2).cloned().unwrap_or(Value::NIL), false),
+        None => (default.cloned().unwrap_or(Value::NIL), false),
     };
     Ok(image.with_second(value, || found.into()))
 }
 
-fn set_gethash(_: &mut Image, args: &[Value]) -> Outcome {
-    let table = table(&args[2])?;
-    cycles::note(table, &args[0]);
-    cycles::note(table, &args[1]);
-    table.insert(args[1].clone(), args[0].clone());
-    Ok(args[0].clone())
+/// Sets the value of a key.
+#[builtin("GETHASH")]
+fn set_gethash(
+    value: &Value,
+    key: &Value,
+    table: &Rc<HashTable>,
+    _default: Option<&Value>,
+) -> Outcome {
+    cycles::note(table, value);
+    cycles::note(table, key);
+    table.insert(key.clone(), value.clone());
+    Ok(value.clone())
 }
 
-fn remhash(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(table(&args[1])?.remove(&args[0]).into())
+/// Removes a key; was it there?
+///
+/// `(remhash 'a (make-hash-table))` => `NIL`
+#[builtin]
+fn remhash(key: &Value, table: &Rc<HashTable>) -> Outcome {
+    Ok(table.remove(key).into())
 }
 
-fn clrhash(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0])?.clear();
-    Ok(args[0].clone())
+/// Removes all entries; returns the table.
+///
+/// `(hash-table-count (clrhash (make-hash-table)))` => `0`
+#[builtin(_, "table")]
+fn clrhash(table_value: &Value) -> Outcome {
+    table(table_value)?.clear();
+    Ok(table_value.clone())
 }
 
-fn hash_table_count(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(table(&args[0])?.len().into())
+/// The number of entries.
+///
+/// `(hash-table-count (make-hash-table))` => `0`
+#[builtin]
+fn hash_table_count(table: &Rc<HashTable>) -> Outcome {
+    Ok(table.len().into())
 }
 
-fn hash_table_size(_: &mut Image, args: &[Value]) -> Outcome {
-    let table = table(&args[0])?;
+/// The number of entries that there is room for.
+///
+/// `(hash-table-size (make-hash-table :size 100))` => `100`
+#[builtin]
+fn hash_table_size(table: &Rc<HashTable>) -> Outcome {
     Ok(table.size.get().max(table.len()).into())
 }
 
-fn hash_table_test(_: &mut Image, args: &[Value]) -> Outcome {
-    let test = table(&args[0])?.test;
+/// The name of the table's test.
+///
+/// `(hash-table-test (make-hash-table))` => `EQL`
+#[builtin]
+fn hash_table_test(table: &Rc<HashTable>) -> Outcome {
+    let test = table.test;
     let name = TESTS.iter().find(|(t, _)| *t == test);
     Ok(name.map_or(Value::NIL, |(_, sym)| Value::symbol(*sym)))
 }
 
-fn rehash_size(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0]).map(|_| Value::Single(1.5))
+/// How a table grows.
+///
+/// `(hash-table-rehash-size (make-hash-table))` => `1.5`
+#[builtin("HASH-TABLE-REHASH-SIZE", "table")]
+fn rehash_size(table_value: &Value) -> Outcome {
+    table(table_value).map(|_| Value::Single(1.5))
 }
 
-fn rehash_threshold(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[0]).map(|_| Value::Single(1.0))
+/// How full a table may be.
+///
+/// `(hash-table-rehash-threshold (make-hash-table))` => `1.0`
+#[builtin("HASH-TABLE-REHASH-THRESHOLD", "table")]
+fn rehash_threshold(table_value: &Value) -> Outcome {
+    table(table_value).map(|_| Value::Single(1.0))
 }
 
-fn maphash(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let function = callable(machine.image, &args[0])?;
-    let table = table(&args[1])?.clone();
+/// Calls a function with the key and value of each entry, in order of insertion.
+///
+/// `(let ((h (make-hash-table)) r) (setf (gethash 1 h) 'a) (maphash (lambda (k v) (push (list k v) r)) h) r)` => `((1 A))`
+#[builtin]
+fn maphash(
+    machine: &mut Machine<'_>,
+    function: Value,
+    table: &Rc<HashTable>,
+) -> Result<Step, Box<Raise>> {
+    let function = callable(machine.image, &function)?;
+    let table = table.clone();
     run(machine, "MAPHASH", |calls| async move {
         for (key, _) in table.pairs() {
             // An entry may have been removed or changed since.
@@ -130,15 +189,19 @@ fn maphash(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
     })
 }
 
-/// A number that is the same for values that are `equal`, on every run.
-fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
+/// A number that is the same for `equal` objects.
+///
+/// `(= (sxhash "abc") (sxhash (copy-seq "abc")))` => `T`
+// A number that is the same for values that are `equal`, on every run.
+#[builtin]
+fn sxhash(image: &mut Image, object: Value) -> Outcome {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let mut mix = |bytes: &[u8]| {
         for byte in bytes {
             hash = (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
         }
     };
-    let mut pending = vec![args[0].clone()];
+    let mut pending = vec![object];
     // Deep structures are distinguished by their first few leaves only.
     for _ in 0..64 {
         let Some(value) = pending.pop() else { break };
@@ -165,9 +228,13 @@ fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::Int(i64::try_from(hash >> 2).unwrap_or(0)))
 }
 
-/// The entries that `with-hash-table-iterator` steps through, in a fresh pair.
-fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
-    let entries = table(&args[0])?.pairs();
+/// An iterator over the entries of a table.
+///
+/// `(system::%hash-iterator (make-hash-table))` => `(NIL)`
+// The entries that `with-hash-table-iterator` steps through, in a fresh pair.
+#[builtin("%HASH-ITERATOR")]
+fn hash_iterator(table: &Rc<HashTable>) -> Outcome {
+    let entries = table.pairs();
     let entries = entries.into_iter().map(|(k, v)| Value::list([k, v]));
     Ok(Value::cons(
         Value::list(entries.collect::<Vec<_>>()),
@@ -175,10 +242,14 @@ fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-/// Advances an iterator: returns `T` and the parts of the next entry, or `NIL`.
-fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Cons(state) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::CONS));
+/// Takes the next entry: `T` and its parts, or `NIL`.
+///
+/// `(system::%iterator-next (list '((a 1))))` => `T ; A ; 1`
+// Advances an iterator: returns `T` and the parts of the next entry, or `NIL`.
+#[builtin("%ITERATOR-NEXT")]
+fn iterator_next(iterator: &Value) -> Outcome {
+    let Value::Cons(state) = iterator else {
+        return Err(Raise::type_error(iterator, known::CONS));
     };
     match state.car() {
         Value::Cons(entries) => {
@@ -191,22 +262,34 @@ fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn hash_keys(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+/// The keys of a table, in order of insertion.
+///
+/// `(system::%hash-keys (make-hash-table))` => `NIL`
+#[builtin("%HASH-KEYS")]
+fn hash_keys(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs.into_iter().map(|(k, _)| k).collect::<Vec<_>>(),
     ))
 }
 
-fn hash_values(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+/// The values of a table, in order of insertion.
+///
+/// `(system::%hash-values (make-hash-table))` => `NIL`
+#[builtin("%HASH-VALUES")]
+fn hash_values(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs.into_iter().map(|(_, v)| v).collect::<Vec<_>>(),
     ))
 }
 
-fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
-    let pairs = table(&args[0])?.pairs();
+/// The entries of a table as pairs, in order of insertion.
+///
+/// `(system::%hash-pairs (make-hash-table))` => `NIL`
+#[builtin("%HASH-PAIRS")]
+fn hash_alist(table: &Rc<HashTable>) -> Outcome {
+    let pairs = table.pairs();
     Ok(Value::list(
         pairs
             .into_iter()
@@ -216,139 +299,29 @@ fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Hash tables.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-HASH-TABLE",
-        "&key test size rehash-size rehash-threshold",
-        "An empty hash table; the test is `eq`, `eql` (the default), `equal` or `equalp`.",
-        &["(hash-table-count (make-hash-table :test 'equal)) => 0"],
-        make,
-    ),
-    pure(
-        "HASH-TABLE-P",
-        "object",
-        "Is the object a hash table?",
-        &["(hash-table-p 5) => NIL"],
-        hash_table_p,
-    ),
-    pure(
-        "GETHASH",
-        "key table &optional default",
-        "The value of a key, and whether the key is there.",
-        &["(gethash 'a (make-hash-table) 7) => 7 ; NIL"],
-        gethash,
-    ),
-    pure(
-        "REMHASH",
-        "key table",
-        "Removes a key; was it there?",
-        &["(remhash 'a (make-hash-table)) => NIL"],
-        remhash,
-    ),
-    pure(
-        "CLRHASH",
-        "table",
-        "Removes all entries; returns the table.",
-        &["(hash-table-count (clrhash (make-hash-table))) => 0"],
-        clrhash,
-    ),
-    pure(
-        "HASH-TABLE-COUNT",
-        "table",
-        "The number of entries.",
-        &["(hash-table-count (make-hash-table)) => 0"],
-        hash_table_count,
-    ),
-    pure(
-        "HASH-TABLE-SIZE",
-        "table",
-        "The number of entries that there is room for.",
-        &["(hash-table-size (make-hash-table :size 100)) => 100"],
-        hash_table_size,
-    ),
-    pure(
-        "HASH-TABLE-TEST",
-        "table",
-        "The name of the table's test.",
-        &["(hash-table-test (make-hash-table)) => EQL"],
-        hash_table_test,
-    ),
-    pure(
-        "HASH-TABLE-REHASH-SIZE",
-        "table",
-        "How a table grows.",
-        &["(hash-table-rehash-size (make-hash-table)) => 1.5"],
-        rehash_size,
-    ),
-    pure(
-        "HASH-TABLE-REHASH-THRESHOLD",
-        "table",
-        "How full a table may be.",
-        &["(hash-table-rehash-threshold (make-hash-table)) => 1.0"],
-        rehash_threshold,
-    ),
-    control(
-        "MAPHASH",
-        "function table",
-        "Calls a function with the key and value of each entry, in order of insertion.",
-        &[
-            "(let ((h (make-hash-table)) r) (setf (gethash 1 h) 'a) (maphash (lambda (k v) (push (list k v) r)) h) r) => ((1 A))",
-        ],
-        maphash,
-    ),
-    pure(
-        "SXHASH",
-        "object",
-        "A number that is the same for `equal` objects.",
-        &["(= (sxhash \"abc\") (sxhash (copy-seq \"abc\"))) => T"],
-        sxhash,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    make,
+    hash_table_p,
+    gethash,
+    remhash,
+    clrhash,
+    hash_table_count,
+    hash_table_size,
+    hash_table_test,
+    rehash_size,
+    rehash_threshold,
+    maphash,
+    sxhash,
 ];
 
 /// What the expansions of macros call; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%HASH-ITERATOR",
-        "table",
-        "An iterator over the entries of a table.",
-        &["(system::%hash-iterator (make-hash-table)) => (NIL)"],
-        hash_iterator,
-    ),
-    pure(
-        "%ITERATOR-NEXT",
-        "iterator",
-        "Takes the next entry: `T` and its parts, or `NIL`.",
-        &["(system::%iterator-next (list '((a 1)))) => T ; A ; 1"],
-        iterator_next,
-    ),
-    pure(
-        "%HASH-KEYS",
-        "table",
-        "The keys of a table, in order of insertion.",
-        &["(system::%hash-keys (make-hash-table)) => NIL"],
-        hash_keys,
-    ),
-    pure(
-        "%HASH-VALUES",
-        "table",
-        "The values of a table, in order of insertion.",
-        &["(system::%hash-values (make-hash-table)) => NIL"],
-        hash_values,
-    ),
-    pure(
-        "%HASH-PAIRS",
-        "table",
-        "The entries of a table as pairs, in order of insertion.",
-        &["(system::%hash-pairs (make-hash-table)) => NIL"],
-        hash_alist,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    hash_iterator,
+    iterator_next,
+    hash_keys,
+    hash_values,
+    hash_alist,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[pure(
-    "GETHASH",
-    "value key table &optional default",
-    "Sets the value of a key.",
-    &[],
-    set_gethash,
-)];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_gethash,];

@@ -7,13 +7,14 @@ use std::rc::Rc;
 
 use super::packages;
 use super::strings::designated;
-use crate::builtin::{Builtin, Entry, control, pure};
+use crate::builtin::{Builtin, Entry};
 use crate::image::Image;
 use crate::image::extension::Extension;
 use crate::library::definition_of;
 use crate::object::method::extended_function;
 use crate::print;
 use crate::stream;
+use crate::typed::{self, builtin, builtins};
 use crate::types::type_of::type_of;
 use crate::value::Value;
 use crate::value::class::{Class, ClassKind, Instance};
@@ -29,45 +30,6 @@ use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
-
-/// The builtins.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "DESCRIBE",
-        "object &optional stream",
-        "Writes what is known about an object: of a symbol what it means as a function, a variable and a class, with examples.",
-        &[
-            "(with-output-to-string (s) (describe :other s)) => \":OTHER: a keyword\n\"",
-            "(null (search \"(first list)\" (with-output-to-string (s) (describe 'first s)))) => NIL",
-        ],
-        describe,
-    ),
-    pure(
-        "DESCRIBE-OBJECT",
-        "object stream",
-        "Writes what DESCRIBE tells of an object to a stream. Add methods to describe instances of classes otherwise.",
-        &[
-            "(progn (defclass mug () ()) (defmethod describe-object ((m mug) s) (princ \"a mug\" s)) (with-output-to-string (s) (describe (make-instance 'mug) s))) => \"a mug\"",
-        ],
-        describe_object,
-    ),
-    pure(
-        "APROPOS",
-        "text &optional package",
-        "Writes the symbols whose names contain the text, and what they mean; those of all packages, or those accessible in one.",
-        &[
-            "(with-output-to-string (*standard-output*) (apropos \"rotatef\")) => \"ROTATEF (macro)\n\"",
-        ],
-        apropos,
-    ),
-    pure(
-        "APROPOS-LIST",
-        "text &optional package",
-        "The symbols whose names contain the text; those of all packages, or those accessible in one.",
-        &["(apropos-list \"cdaa\" :cl) => (CDAAAR CDAADR CDAAR)"],
-        apropos_list,
-    ),
-];
 
 /// Tells what a name means to the layers above the language, which keep it in the image. It holds
 /// nothing of an image.
@@ -102,7 +64,17 @@ pub fn topics_of(image: &Image, sym: Sym) -> String {
     topics.map(|topic| topic.text).collect()
 }
 
-/// Calls the methods that a program has added to `describe-object`, if there are any.
+/// Writes what is known about an object: of a symbol what it means as a function, a variable and a
+/// class, with examples.
+///
+/// ```lisp
+/// (with-output-to-string (s) (describe :other s)) => ":OTHER: a keyword
+/// "
+/// ```
+///
+/// `(null (search "(first list)" (with-output-to-string (s) (describe 'first s))))` => `NIL`
+// Calls the methods that a program has added to `describe-object`, if there are any.
+#[builtin(_, "object &optional stream")]
 fn describe(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let Some(function) = extended_function(machine.image, known::DESCRIBE_OBJECT) else {
         return describe_object(machine.image, &args).map(Step::from);
@@ -121,6 +93,11 @@ fn describe(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     })
 }
 
+/// Writes what DESCRIBE tells of an object to a stream. Add methods to describe instances of
+/// classes otherwise.
+///
+/// `(progn (defclass mug () ()) (defmethod describe-object ((m mug) s) (princ "a mug" s)) (with-output-to-string (s) (describe (make-instance 'mug) s)))` => `"a mug"`
+#[builtin(_, "object stream")]
 fn describe_object(image: &mut Image, args: &[Value]) -> Outcome {
     let text = match &args[0] {
         Value::Symbol(sym, ..) => of_symbol(image, *sym) + &topics_of(image, *sym),
@@ -452,6 +429,10 @@ fn found(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
     Ok(symbols)
 }
 
+/// The symbols whose names contain the text; those of all packages, or those accessible in one.
+///
+/// `(apropos-list "cdaa" :cl)` => `(CDAAAR CDAADR CDAAR)`
+#[builtin(_, "text &optional package")]
 fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
     let symbols = found(image, args)?;
     Ok(Value::list(
@@ -459,6 +440,14 @@ fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
+/// Writes the symbols whose names contain the text, and what they mean; those of all packages, or
+/// those accessible in one.
+///
+/// ```lisp
+/// (with-output-to-string (*standard-output*) (apropos "rotatef")) => "ROTATEF (macro)
+/// "
+/// ```
+#[builtin(_, "text &optional package")]
 fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
     let mut text = String::new();
     for sym in found(image, args)? {
@@ -499,3 +488,6 @@ fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
         .chain(topics)
         .collect()
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![describe, describe_object, apropos, apropos_list,];

@@ -1,39 +1,31 @@
 //! Questions about the implementation.
 
 use super::array_make::MAX_RANK;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::guard::MOST_ELEMENTS;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
 use crate::value::symbol::VariableKind;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "CONSTANTP",
-        "form &optional environment",
-        "Does the form always have the same value?",
-        &["(constantp 5) => T", "(constantp '(+ 1 2)) => NIL"],
-        constantp,
-    ),
-    pure(
-        "LISP-IMPLEMENTATION-TYPE",
-        "",
-        "The name of the implementation.",
-        &["(lisp-implementation-type) => \"planwright\""],
-        |_, _| Ok("planwright".into()),
-    ),
-    pure(
-        "LISP-IMPLEMENTATION-VERSION",
-        "",
-        "The version of the implementation.",
-        &["(stringp (lisp-implementation-version)) => T"],
-        |_, _| Ok(env!("CARGO_PKG_VERSION").into()),
-    ),
-];
+/// The name of the implementation.
+///
+/// `(lisp-implementation-type)` => `"planwright"`
+#[builtin(_, "")]
+fn lisp_implementation_type() -> Result<Value, Box<Raise>> {
+    Ok(env!("CARGO_PKG_NAME").into())
+}
+
+/// The version of the implementation.
+///
+/// `(stringp (lisp-implementation-version))` => `T`
+#[builtin(_, "")]
+fn lisp_implementation_version() -> Result<Value, Box<Raise>> {
+    Ok(env!("CARGO_PKG_VERSION").into())
+}
 
 /// Defines the constants that tell limits, and what lambda lists may contain.
 pub(crate) fn define_constants(image: &mut Image) {
@@ -73,11 +65,27 @@ pub(crate) fn define_constants(image: &mut Image) {
     image.define_special(sym, Value::list([Value::string("ALEXANDRIA")]));
 }
 
-fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let is_constant = match &args[0] {
+/// Does the form always have the same value?
+///
+/// `(constantp 5)` => `T`
+/// `(constantp '(+ 1 2))` => `NIL`
+#[builtin]
+fn constantp(
+    image: &mut Image,
+    form: &Value,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let is_constant = match form {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => cons.car().as_symbol() == Some(known::QUOTE),
         _ => true,
     };
     Ok(is_constant.into())
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    constantp,
+    lisp_implementation_type,
+    lisp_implementation_version,
+];

@@ -1,9 +1,9 @@
 //! Searching in lists and association lists: `member` and `assoc`.
 
 use super::criterion::{Compare, Criterion, Key, Test};
-use super::keywords;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -14,18 +14,16 @@ use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// The criterion of a function with the arguments item, list, `:key`, `:test`, `:test-not`.
-fn criterion(image: &Image, args: &[Value]) -> Result<Criterion, Box<Raise>> {
-    let [key, test, test_not] = keywords::parse(
-        image,
-        &args[2..],
-        [known::K_KEY, known::K_TEST, known::K_TEST_NOT],
-    )?;
-    Ok(Criterion::item(
-        args[0].clone(),
-        Test::new(image, test, test_not)?,
-        Key::new(image, key)?,
-    ))
+/// What matches an item.
+fn criterion(
+    image: &Image,
+    item: Value,
+    key: Option<Value>,
+    test: Option<Value>,
+    test_not: Option<Value>,
+) -> Result<Criterion, Box<Raise>> {
+    let test = Test::new(image, test, test_not)?;
+    Ok(Criterion::item(item, test, Key::new(image, key)?))
 }
 
 /// The same without calls of functions.
@@ -49,9 +47,20 @@ async fn find_tail(calls: Calls, criterion: Criterion, list: Value) -> Outcome {
     Ok(Value::NIL)
 }
 
-fn member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let criterion = criterion(machine.image, &args)?;
-    let list = args[1].clone();
+/// The list from the first element that matches an item, or `NIL`.
+///
+/// `(member 2 '(1 2 3))` => `(2 3)`
+/// `(member "b" '("a" "b") :test #'equal)` => `("b")`
+#[builtin]
+fn member(
+    machine: &mut Machine<'_>,
+    item: Value,
+    list: Value,
+    #[key] key: Option<Value>,
+    #[key] test: Option<Value>,
+    #[key] test_not: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let criterion = criterion(machine.image, item, key, test, test_not)?;
     if let Some((item, test)) = criterion.simple() {
         return Ok(find_tail_at_once(item, test, list)?.into());
     }
@@ -91,9 +100,19 @@ async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome
     Ok(Value::NIL)
 }
 
-fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let criterion = criterion(machine.image, &args)?;
-    let alist = args[1].clone();
+/// The first entry of an association list whose car matches an item.
+///
+/// `(assoc 'b '((a . 1) (b . 2)))` => `(B . 2)`
+#[builtin]
+fn assoc(
+    machine: &mut Machine<'_>,
+    item: Value,
+    alist: Value,
+    #[key] key: Option<Value>,
+    #[key] test: Option<Value>,
+    #[key] test_not: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let criterion = criterion(machine.image, item, key, test, test_not)?;
     if let Some((item, test)) = criterion.simple() {
         return Ok(find_entry_at_once(item, test, alist)?.into());
     }
@@ -103,22 +122,4 @@ fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Searching in lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MEMBER",
-        "item list &key key test test-not",
-        "The list from the first element that matches an item, or `NIL`.",
-        &[
-            "(member 2 '(1 2 3)) => (2 3)",
-            "(member \"b\" '(\"a\" \"b\") :test #'equal) => (\"b\")",
-        ],
-        member,
-    ),
-    control(
-        "ASSOC",
-        "item alist &key key test test-not",
-        "The first entry of an association list whose car matches an item.",
-        &["(assoc 'b '((a . 1) (b . 2))) => (B . 2)"],
-        assoc,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![member, assoc,];

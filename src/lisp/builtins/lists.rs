@@ -2,10 +2,11 @@
 
 use std::rc::Rc;
 
-use super::keywords;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::guard::{MOST_ELEMENTS, Pace, reserve};
 use crate::image::Image;
+use crate::typed::FromValue;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cons::Cons;
 use crate::value::cycles;
@@ -15,25 +16,50 @@ use crate::value::sequence::{self, ListBuilder, ListWalk, last_pair};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-fn list(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::list(args.iter().cloned()))
+/// A fresh list of the arguments.
+///
+/// `(list 1 2 3)` => `(1 2 3)`
+/// `(list)` => `NIL`
+#[builtin]
+fn list(elements: &[Value]) -> Outcome {
+    Ok(Value::list(elements.iter().cloned()))
 }
 
-fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(match args.split_last() {
+/// A fresh list of all arguments but the last, which becomes its tail.
+///
+/// `(list* 1 2 '(3 4))` => `(1 2 3 4)`
+/// `(list* 1 2)` => `(1 . 2)`
+#[builtin("LIST*", "element &rest more")]
+fn list_star(more: &[Value]) -> Outcome {
+    Ok(match more.split_last() {
         Some((tail, items)) => Value::list_with_tail(items.iter().cloned(), tail.clone()),
         None => Value::NIL,
     })
 }
 
-fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let [element] = keywords::parse(image, &args[1..], [known::K_INITIAL_ELEMENT])?;
-    let count = size(&args[0])?;
-    Ok(Value::list(vec![element.unwrap_or(Value::NIL); count]))
+/// A fresh list of `size` equal elements.
+///
+/// `(make-list 2 :initial-element 'x)` => `(X X)`
+#[builtin]
+fn make_list(size: Size, #[key] initial_element: Option<Value>) -> Outcome {
+    let count = size.0;
+    Ok(Value::list(vec![
+        initial_element.unwrap_or(Value::NIL);
+        count
+    ]))
 }
 
 /// A number of elements that fits in memory.
-pub fn size(value: &Value) -> Result<usize, Box<Raise>> {
+pub(crate) struct Size(pub(crate) usize);
+
+impl FromValue<'_> for Size {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        size(value).map(Size)
+    }
+}
+
+/// A value as a number of elements that fits in memory.
+pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
     if size > MOST_ELEMENTS {
         return Err(Raise::new(
@@ -45,8 +71,13 @@ pub fn size(value: &Value) -> Result<usize, Box<Raise>> {
     Ok(size)
 }
 
-fn append(_: &mut Image, args: &[Value]) -> Outcome {
-    let Some((last, lists)) = args.split_last() else {
+/// The elements of all lists in one list; the last list is shared, not copied.
+///
+/// `(append '(1) '(2 3) '(4))` => `(1 2 3 4)`
+/// `(append '(1) 2)` => `(1 . 2)`
+#[builtin(_, "&rest lists")]
+fn append(lists_values: &[Value]) -> Outcome {
+    let Some((last, lists)) = lists_values.split_last() else {
         return Ok(Value::NIL);
     };
     let mut builder = ListBuilder::new();
@@ -59,8 +90,12 @@ fn append(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(builder.finish_with(last.clone()))
 }
 
-fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
-    nconc_all(args)
+/// Joins lists by changing their last pairs.
+///
+/// `(nconc (list 1) nil (list 2))` => `(1 2)`
+#[builtin]
+fn nconc(lists: &[Value]) -> Outcome {
+    nconc_all(lists)
 }
 
 /// Joins lists by changing the last pair of each; the last one may be anything.
@@ -96,9 +131,13 @@ pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     Ok(sequence::relink(&conses, tail))
 }
 
-fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut slow = args[0].clone();
-    let mut fast = args[0].clone();
+/// Number of elements of a list; `NIL` if it is circular.
+///
+/// `(list-length '(1 2 3))` => `3`
+#[builtin]
+fn list_length(list: &Value) -> Outcome {
+    let mut slow = list.clone();
+    let mut fast = list.clone();
     let mut count = 0_usize;
     loop {
         for _ in 0..2 {
@@ -116,11 +155,15 @@ fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
-    if !args[0].is_list() {
-        return Err(Raise::type_error(&args[0], known::LIST));
+/// A copy of a list; the elements are the same.
+///
+/// `(copy-list '(1 2 . 3))` => `(1 2 . 3)`
+#[builtin]
+fn copy_list(list: &Value) -> Outcome {
+    if !list.is_list() {
+        return Err(Raise::type_error(list, known::LIST));
     }
-    let mut iter = args[0].iter_list();
+    let mut iter = list.iter_list();
     let mut builder = ListBuilder::new();
     iter.by_ref().for_each(|item| builder.push(item));
     Ok(builder.finish_with(iter.rest))
@@ -146,7 +189,11 @@ impl PairCount {
     }
 }
 
-fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
+/// A copy of a tree of pairs.
+///
+/// `(copy-tree '(1 (2 3)))` => `(1 (2 3))`
+#[builtin]
+fn copy_tree(tree: &Value) -> Outcome {
     let copy_of = |value: &Value, pending: &mut Vec<Rc<Cons>>| match value {
         Value::Cons(cons) => {
             let copy = Cons::shared(cons.car(), cons.cdr());
@@ -157,7 +204,7 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     };
     // Pairs that are copied while their halves are still the old ones.
     let mut pending = Vec::new();
-    let result = copy_of(&args[0], &mut pending);
+    let result = copy_of(tree, &mut pending);
     let mut pairs = PairCount::default();
     while let Some(cons) = pending.pop() {
         pairs.add_one()?;
@@ -167,109 +214,50 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(result)
 }
 
-fn is_cons(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Cons(_))))
+/// Is the object a pair?
+///
+/// `(consp nil)` => `NIL`
+#[builtin("CONSP")]
+fn is_cons(object: &Value) -> bool {
+    matches!(object, Value::Cons(_))
 }
 
-fn is_list(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].is_list()))
+/// Is the object a list?
+///
+/// `(listp nil)` => `T`
+#[builtin("LISTP")]
+fn is_list(object: &Value) -> bool {
+    object.is_list()
 }
 
-fn is_atom(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(!matches!(args[0], Value::Cons(_))))
+/// Is the object anything but a pair?
+///
+/// `(atom nil)` => `T`
+#[builtin("ATOM")]
+fn is_atom(object: &Value) -> bool {
+    !matches!(object, Value::Cons(_))
 }
 
-fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].is_nil()))
+/// Is the object `NIL`?
+///
+/// `(null '())` => `T`
+#[builtin("NULL")]
+fn is_null(object: &Value) -> bool {
+    object.is_nil()
 }
 
 /// Making, copying and joining lists.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "LIST",
-        "&rest elements",
-        "A fresh list of the arguments.",
-        &["(list 1 2 3) => (1 2 3)", "(list) => NIL"],
-        list,
-    ),
-    pure(
-        "LIST*",
-        "element &rest more",
-        "A fresh list of all arguments but the last, which becomes its tail.",
-        &["(list* 1 2 '(3 4)) => (1 2 3 4)", "(list* 1 2) => (1 . 2)"],
-        list_star,
-    ),
-    pure(
-        "MAKE-LIST",
-        "size &key initial-element",
-        "A fresh list of `size` equal elements.",
-        &["(make-list 2 :initial-element 'x) => (X X)"],
-        make_list,
-    ),
-    pure(
-        "APPEND",
-        "&rest lists",
-        "The elements of all lists in one list; the last list is shared, not copied.",
-        &[
-            "(append '(1) '(2 3) '(4)) => (1 2 3 4)",
-            "(append '(1) 2) => (1 . 2)",
-        ],
-        append,
-    ),
-    pure(
-        "NCONC",
-        "&rest lists",
-        "Joins lists by changing their last pairs.",
-        &["(nconc (list 1) nil (list 2)) => (1 2)"],
-        nconc,
-    ),
-    pure(
-        "LIST-LENGTH",
-        "list",
-        "Number of elements of a list; `NIL` if it is circular.",
-        &["(list-length '(1 2 3)) => 3"],
-        list_length,
-    ),
-    pure(
-        "COPY-LIST",
-        "list",
-        "A copy of a list; the elements are the same.",
-        &["(copy-list '(1 2 . 3)) => (1 2 . 3)"],
-        copy_list,
-    ),
-    pure(
-        "COPY-TREE",
-        "tree",
-        "A copy of a tree of pairs.",
-        &["(copy-tree '(1 (2 3))) => (1 (2 3))"],
-        copy_tree,
-    ),
-    pure(
-        "CONSP",
-        "object",
-        "Is the object a pair?",
-        &["(consp nil) => NIL"],
-        is_cons,
-    ),
-    pure(
-        "LISTP",
-        "object",
-        "Is the object a list?",
-        &["(listp nil) => T"],
-        is_list,
-    ),
-    pure(
-        "ATOM",
-        "object",
-        "Is the object anything but a pair?",
-        &["(atom nil) => T"],
-        is_atom,
-    ),
-    pure(
-        "NULL",
-        "object",
-        "Is the object `NIL`?",
-        &["(null '()) => T"],
-        is_null,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    list,
+    list_star,
+    make_list,
+    append,
+    nconc,
+    list_length,
+    copy_list,
+    copy_tree,
+    is_cons,
+    is_list,
+    is_atom,
+    is_null,
 ];

@@ -3,8 +3,9 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
 use crate::reader::{Outcome, Reader};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::{Pathname, file_name};
@@ -16,15 +17,6 @@ use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
-
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[control(
-    "LOAD",
-    "file &key verbose print if-does-not-exist external-format",
-    "Evaluates all forms of a file; T. A file that another file loads is looked for beside that one first.",
-    &[],
-    load,
-)];
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
 pub fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
@@ -106,6 +98,9 @@ fn restore(machine: &mut Machine<'_>) {
     }
 }
 
+/// Evaluates all forms of a file; T. A file that another file loads is looked for beside that one
+/// first.
+#[builtin(_, "file &key verbose print if-does-not-exist external-format")]
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
         let name = stream.file.as_deref().unwrap_or("stream").to_owned();
@@ -190,3 +185,6 @@ fn read_file(path: &str) -> Result<String> {
         .with(known::K_PATHNAME, Value::foreign(Pathname::parse(path)))
     })
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![load,];

@@ -2,7 +2,8 @@
 //! `mapcon`.
 
 use super::lists::nconc_all;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -98,75 +99,54 @@ fn mapping(
     run(machine, name, |calls| map(calls, function, lists, mode))
 }
 
-fn mapcar(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCAR", false, Collect::List)
+/// The results of a function for the elements of one or more lists, up to the end of the shortest.
+///
+/// `(mapcar #'1+ '(1 2 3))` => `(2 3 4)`
+/// `(mapcar #'+ '(1 2 3) '(10 20))` => `(11 22)`
+#[builtin(_, "function list &rest lists")]
+fn mapcar(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCAR", false, Collect::List)
 }
 
-fn mapc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPC", false, Collect::Nothing)
+/// Calls a function for the elements of lists; returns the first list.
+///
+/// `(mapc #'identity '(1 2))` => `(1 2)`
+#[builtin(_, "function list &rest lists")]
+fn mapc(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPC", false, Collect::Nothing)
 }
 
-fn mapcan(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCAN", false, Collect::Joined)
+/// Like `mapcar`, but joins the results, which must be fresh lists.
+///
+/// `(mapcan #'list '(1 2) '(a b))` => `(1 A 2 B)`
+#[builtin(_, "function list &rest lists")]
+fn mapcan(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCAN", false, Collect::Joined)
 }
 
-fn maplist(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPLIST", true, Collect::List)
+/// Like `mapcar`, but hands out the list, its rest, and so on.
+///
+/// `(maplist #'length '(a b c))` => `(3 2 1)`
+#[builtin(_, "function list &rest lists")]
+fn maplist(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPLIST", true, Collect::List)
 }
 
-fn mapl(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPL", true, Collect::Nothing)
+/// Calls a function for a list, its rest, and so on; returns the list.
+///
+/// `(mapl #'identity '(1 2))` => `(1 2)`
+#[builtin(_, "function list &rest lists")]
+fn mapl(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPL", true, Collect::Nothing)
 }
 
-fn mapcon(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &args, "MAPCON", true, Collect::Joined)
+/// Like `maplist`, but joins the results, which must be fresh lists.
+///
+/// `(mapcon #'list '(1 2))` => `((1 2) (2))`
+#[builtin(_, "function list &rest lists")]
+fn mapcon(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &lists, "MAPCON", true, Collect::Joined)
 }
 
 /// Mapping over lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MAPCAR",
-        "function list &rest lists",
-        "The results of a function for the elements of one or more lists, up to the end of the shortest.",
-        &[
-            "(mapcar #'1+ '(1 2 3)) => (2 3 4)",
-            "(mapcar #'+ '(1 2 3) '(10 20)) => (11 22)",
-        ],
-        mapcar,
-    ),
-    control(
-        "MAPC",
-        "function list &rest lists",
-        "Calls a function for the elements of lists; returns the first list.",
-        &["(mapc #'identity '(1 2)) => (1 2)"],
-        mapc,
-    ),
-    control(
-        "MAPCAN",
-        "function list &rest lists",
-        "Like `mapcar`, but joins the results, which must be fresh lists.",
-        &["(mapcan #'list '(1 2) '(a b)) => (1 A 2 B)"],
-        mapcan,
-    ),
-    control(
-        "MAPLIST",
-        "function list &rest lists",
-        "Like `mapcar`, but hands out the list, its rest, and so on.",
-        &["(maplist #'length '(a b c)) => (3 2 1)"],
-        maplist,
-    ),
-    control(
-        "MAPL",
-        "function list &rest lists",
-        "Calls a function for a list, its rest, and so on; returns the list.",
-        &["(mapl #'identity '(1 2)) => (1 2)"],
-        mapl,
-    ),
-    control(
-        "MAPCON",
-        "function list &rest lists",
-        "Like `maplist`, but joins the results, which must be fresh lists.",
-        &["(mapcon #'list '(1 2)) => ((1 2) (2))"],
-        mapcon,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![mapcar, mapc, mapcan, maplist, mapl, mapcon,];

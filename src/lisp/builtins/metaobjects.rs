@@ -1,11 +1,13 @@
 //! What classes, generic functions and methods consist of.
 
+use crate::builtins::generic_functions::Generic;
+use crate::value::generic::Method;
 use std::rc::Rc;
 
-use super::generic_functions::{generic_argument, method_argument};
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::object::method::method_value;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::class::{Class, Initform, SlotDefinition};
 use crate::value::function::Function;
@@ -15,84 +17,45 @@ use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%RELATED-CLASSES",
-        "class relation",
-        "The `:superclasses`, `:subclasses` or the `:precedence` list of a class.",
-        &["(length (system::%related-classes (find-class 'integer) :superclasses)) => 1"],
-        related_classes,
-    ),
-    pure(
-        "%SLOTS",
-        "class directp",
-        "Initargs for the descriptions of the slots of a class, or of those that it defines itself.",
-        &["(system::%slots (find-class 'integer) t) => NIL"],
-        slots,
-    ),
-    pure(
-        "%DEFAULT-INITARGS",
-        "class directp",
-        "Lists of key, NIL and function for the default initargs of a class.",
-        &["(system::%default-initargs (find-class 'integer) t) => NIL"],
-        default_initargs,
-    ),
-    pure(
-        "%GENERIC-FUNCTION-NAME",
-        "generic-function",
-        "The name of a generic function.",
-        &[],
-        |_, args| {
-            let generic = generic_argument(&args[0])?.as_generic();
-            Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
-        },
-    ),
-    pure(
-        "%GENERIC-FUNCTION-METHODS",
-        "generic-function",
-        "The methods of a generic function, in order of definition.",
-        &[],
-        |_, args| {
-            let generic = generic_argument(&args[0])?.as_generic();
-            let methods = generic.map(|generic| generic.methods.borrow().clone());
-            Ok(Value::list(methods.iter().flatten().map(method_value)))
-        },
-    ),
-    pure(
-        "%METHOD-NAME",
-        "method",
-        "The name of the generic function of a method.",
-        &[],
-        |_, args| Ok(method_argument(&args[0])?.name.clone()),
-    ),
-    pure(
-        "%METHOD-SPECIALIZERS",
-        "method",
-        "The specializers of a method: classes and lists (EQL value).",
-        &[],
-        |_, args| {
-            let specializers = method_argument(&args[0])?.specializers.iter();
-            Ok(Value::list(specializers.map(
-                |specializer| match specializer {
-                    Specializer::Class(class) => Value::Class(class.clone()),
-                    Specializer::Eql(value) => Value::list([known::EQL.into(), value.clone()]),
-                },
-            )))
-        },
-    ),
-];
-
-fn class_argument(value: &Value) -> Result<&Rc<Class>, Box<Raise>> {
-    match value {
-        Value::Class(class) => Ok(class),
-        other => Err(Raise::type_error(other, known::CLASS)),
-    }
+/// The name of a generic function.
+#[builtin("%GENERIC-FUNCTION-NAME")]
+fn generic_function_name(generic_function: Generic<'_>) -> Outcome {
+    let generic = generic_function.0.as_generic();
+    Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
 }
 
-fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let relation = args[1].as_symbol().map(|sym| image.name(sym));
+/// The methods of a generic function, in order of definition.
+#[builtin("%GENERIC-FUNCTION-METHODS")]
+fn generic_function_methods(generic_function: Generic<'_>) -> Outcome {
+    let generic = generic_function.0.as_generic();
+    let methods = generic.map(|generic| generic.methods.borrow().clone());
+    Ok(Value::list(methods.iter().flatten().map(method_value)))
+}
+
+/// The name of the generic function of a method.
+#[builtin("%METHOD-NAME")]
+fn method_name(method: &Rc<Method>) -> Outcome {
+    Ok(method.name.clone())
+}
+
+/// The specializers of a method: classes and lists (EQL value).
+#[builtin("%METHOD-SPECIALIZERS")]
+fn method_specializers(method: &Rc<Method>) -> Outcome {
+    let specializers = method.specializers.iter();
+    Ok(Value::list(specializers.map(
+        |specializer| match specializer {
+            Specializer::Class(class) => Value::Class(class.clone()),
+            Specializer::Eql(value) => Value::list([known::EQL.into(), value.clone()]),
+        },
+    )))
+}
+
+/// The `:superclasses`, `:subclasses` or the `:precedence` list of a class.
+///
+/// `(length (system::%related-classes (find-class 'integer) :superclasses))` => `1`
+#[builtin("%RELATED-CLASSES")]
+fn related_classes(image: &mut Image, class: &Rc<Class>, relation: &Value) -> Outcome {
+    let relation = relation.as_symbol().map(|sym| image.name(sym));
     let classes = match relation {
         Some("SUPERCLASSES") => &class.direct_superclasses,
         Some("SUBCLASSES") => &class.direct_subclasses,
@@ -102,9 +65,12 @@ fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(classes.iter().cloned().map(Value::Class)))
 }
 
-fn slots(image: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let is_direct = args[1].is_true();
+/// Initargs for the descriptions of the slots of a class, or of those that it defines itself.
+///
+/// `(system::%slots (find-class 'integer) t)` => `NIL`
+#[builtin("%SLOTS")]
+fn slots(image: &mut Image, class: &Rc<Class>, directp: bool) -> Outcome {
+    let is_direct = directp;
     let slots = if is_direct {
         class.direct_slots.borrow()
     } else {
@@ -168,9 +134,12 @@ fn function(initform: Option<&Initform>) -> Value {
     }
 }
 
-fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
-    let class = class_argument(&args[0])?;
-    let initargs = if args[1].is_true() {
+/// Lists of key, NIL and function for the default initargs of a class.
+///
+/// `(system::%default-initargs (find-class 'integer) t)` => `NIL`
+#[builtin("%DEFAULT-INITARGS")]
+fn default_initargs(class: &Rc<Class>, directp: bool) -> Outcome {
+    let initargs = if directp {
         class.direct_default_initargs.borrow()
     } else {
         class.default_initargs.borrow()
@@ -180,3 +149,14 @@ fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
         .map(|(key, form)| Value::list([(*key).into(), Value::NIL, function(Some(form))]));
     Ok(Value::list(initargs.collect::<Vec<_>>()))
 }
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    related_classes,
+    slots,
+    default_initargs,
+    generic_function_name,
+    generic_function_methods,
+    method_name,
+    method_specializers,
+];

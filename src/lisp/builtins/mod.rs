@@ -20,7 +20,6 @@ pub(crate) mod generic_functions;
 pub(crate) mod hash_tables;
 pub mod help;
 pub mod implementation;
-pub mod keywords;
 pub(crate) mod list_search;
 pub mod lists;
 pub mod loading;

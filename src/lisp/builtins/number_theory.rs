@@ -1,9 +1,11 @@
 //! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
-use super::keywords;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::reader::numeric::parse_integer as read_integer;
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::number;
@@ -13,325 +15,334 @@ use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "GCD",
-        "&rest integers",
-        "The greatest common divisor; 0 of none.",
-        &["(gcd 12 18 27) => 3", "(gcd) => 0"],
-        |_, args| fold(args, 0, number::gcd),
-    ),
-    pure(
-        "LCM",
-        "&rest integers",
-        "The least common multiple; 1 of none.",
-        &["(lcm 4 6) => 12"],
-        |_, args| fold(args, 1, number::lcm),
-    ),
-    pure(
-        "ISQRT",
-        "integer",
-        "The largest integer whose square is not above the integer.",
-        &["(isqrt 17) => 4"],
-        |_, args| number::isqrt(&args[0]),
-    ),
-    pure(
-        "NUMERATOR",
-        "rational",
-        "The numerator in lowest terms.",
-        &["(numerator 6/4) => 3"],
-        |_, args| number::numerator(&args[0]),
-    ),
-    pure(
-        "DENOMINATOR",
-        "rational",
-        "The denominator in lowest terms.",
-        &["(denominator 6/4) => 2"],
-        |_, args| number::denominator(&args[0]),
-    ),
-    pure(
-        "RATIONAL",
-        "number",
-        "The exact value of the number.",
-        &["(rational 0.5) => 1/2"],
-        |_, args| number::rational(&args[0]),
-    ),
-    pure(
-        "RATIONALIZE",
-        "number",
-        "The simplest exact number that is the same float.",
-        &["(rationalize 0.1) => 1/10"],
-        |_, args| number::rationalize(&args[0]),
-    ),
-    pure(
-        "FLOAT",
-        "number &optional prototype",
-        "The number as a float; as a float of the prototype's type.",
-        &[
-            "(float 5) => 5.0",
-            "(float 1/3 1d0) => 0.3333333333333333d0",
-        ],
-        float,
-    ),
-    pure(
-        "LOGAND",
-        "&rest integers",
-        "The bits that all integers have.",
-        &["(logand 12 10) => 8", "(logand) => -1"],
-        |_, args| fold(args, -1, number::and),
-    ),
-    pure(
-        "LOGIOR",
-        "&rest integers",
-        "The bits that some of the integers have.",
-        &["(logior 12 10) => 14"],
-        |_, args| fold(args, 0, number::or),
-    ),
-    pure(
-        "LOGXOR",
-        "&rest integers",
-        "The bits that an odd number of the integers have.",
-        &["(logxor 12 10) => 6"],
-        |_, args| fold(args, 0, number::xor),
-    ),
-    pure(
-        "LOGEQV",
-        "&rest integers",
-        "The bits in which an even number of the integers differ.",
-        &["(logeqv 12 10) => -7"],
-        |_, args| fold(args, -1, |a, b| number::not(&number::xor(a, b)?)),
-    ),
-    pure(
-        "LOGNOT",
-        "integer",
-        "The bits that the integer does not have.",
-        &["(lognot 5) => -6"],
-        |_, args| number::not(&args[0]),
-    ),
-    pure(
-        "LOGNAND",
-        "integer1 integer2",
-        "The bits that not both have.",
-        &["(lognand 12 10) => -9"],
-        |_, args| boole_op(6, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGNOR",
-        "integer1 integer2",
-        "The bits that neither has.",
-        &["(lognor 12 10) => -15"],
-        |_, args| boole_op(11, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGANDC1",
-        "integer1 integer2",
-        "The bits of the second that the first does not have.",
-        &["(logandc1 12 10) => 2"],
-        |_, args| boole_op(12, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGANDC2",
-        "integer1 integer2",
-        "The bits of the first that the second does not have.",
-        &["(logandc2 15 5) => 10"],
-        |_, args| boole_op(13, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGORC1",
-        "integer1 integer2",
-        "The bits of the second and those that the first does not have.",
-        &["(logorc1 12 10) => -5"],
-        |_, args| boole_op(14, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGORC2",
-        "integer1 integer2",
-        "The bits of the first and those that the second does not have.",
-        &["(logorc2 12 10) => -3"],
-        |_, args| boole_op(15, &args[0], &args[1]),
-    ),
-    pure(
-        "LOGTEST",
-        "integer1 integer2",
-        "Have both integers a bit in common?",
-        &["(logtest 12 4) => T"],
-        |_, args| {
-            let common = number::and(&args[0], &args[1])?;
-            Ok(Value::bool(!number::is_zero(&common)?))
-        },
-    ),
-    pure(
-        "LOGBITP",
-        "index integer",
-        "Has the integer the bit of that index?",
-        &["(logbitp 0 5) => T", "(logbitp 1 5) => NIL"],
-        |_, args| number::is_bit_set(&args[0], &args[1]).map(Value::bool),
-    ),
-    pure(
-        "LOGCOUNT",
-        "integer",
-        "The number of bits that differ from the sign.",
-        &["(logcount 255) => 8"],
-        |_, args| number::bit_count(&args[0]),
-    ),
-    pure(
-        "INTEGER-LENGTH",
-        "integer",
-        "The number of bits without the sign.",
-        &["(integer-length 255) => 8", "(integer-length 0) => 0"],
-        |_, args| number::bit_length(&args[0]),
-    ),
-    pure(
-        "ASH",
-        "integer count",
-        "The integer shifted to the left; to the right if the count is negative.",
-        &["(ash 1 10) => 1024", "(ash -8 -1) => -4"],
-        |_, args| number::ash(&args[0], &args[1]),
-    ),
-    pure(
-        "BOOLE",
-        "operation integer1 integer2",
-        "Combines the bits of two integers by an operation such as BOOLE-AND.",
-        &["(boole boole-and 12 10) => 8"],
-        |_, args| match &args[0] {
-            Value::Int(operation @ 0..=15) => boole_op(*operation, &args[1], &args[2]),
-            other => Err(Raise::type_error(
-                other,
-                Value::list([known::MOD.into(), Value::Int(16)]),
-            )),
-        },
-    ),
-    pure(
-        "BYTE",
-        "size position",
-        "Describes so many bits above so many others.",
-        &["(byte 8 0) => (8 . 0)"],
-        |_, args| {
-            byte_of(&Value::cons(args[0].clone(), args[1].clone()))?;
-            Ok(Value::cons(args[0].clone(), args[1].clone()))
-        },
-    ),
-    pure(
-        "BYTE-SIZE",
-        "byte",
-        "How many bits a byte has.",
-        &["(byte-size (byte 8 2)) => 8"],
-        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.size.into())),
-    ),
-    pure(
-        "BYTE-POSITION",
-        "byte",
-        "How many bits are below a byte.",
-        &["(byte-position (byte 8 2)) => 2"],
-        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.position.into())),
-    ),
-    pure(
-        "LDB",
-        "byte integer",
-        "The bits of a byte, as an integer.",
-        &["(ldb (byte 8 0) 511) => 255"],
-        |_, args| number::extract(byte_of(&args[0])?, &args[1]),
-    ),
-    pure(
-        "LDB-TEST",
-        "byte integer",
-        "Is any bit of a byte set?",
-        &["(ldb-test (byte 2 0) 4) => NIL"],
-        |_, args| {
-            let bits = number::extract(byte_of(&args[0])?, &args[1])?;
-            Ok(Value::bool(!number::is_zero(&bits)?))
-        },
-    ),
-    pure(
-        "MASK-FIELD",
-        "byte integer",
-        "The bits of a byte where they are in the integer.",
-        &["(mask-field (byte 4 4) 255) => 240"],
-        |_, args| {
-            let byte = byte_of(&args[0])?;
-            let bits = number::extract(byte, &args[1])?;
-            number::ash(&bits, &Value::Int(byte.position.into()))
-        },
-    ),
-    pure(
-        "DPB",
-        "new byte integer",
-        "The integer with new bits in a byte.",
-        &["(dpb 15 (byte 4 0) 0) => 15"],
-        |_, args| number::deposit(&args[0], byte_of(&args[1])?, &args[2]),
-    ),
-    pure(
-        "DEPOSIT-FIELD",
-        "new byte integer",
-        "The integer with a byte taken over from another integer.",
-        &["(deposit-field 255 (byte 4 4) 0) => 240"],
-        |_, args| {
-            let byte = byte_of(&args[1])?;
-            let bits = number::extract(byte, &args[0])?;
-            number::deposit(&bits, byte, &args[2])
-        },
-    ),
-    pure(
-        "DECODE-FLOAT",
-        "float",
-        "Mantissa, exponent and sign of a float.",
-        &["(decode-float 0.5) => 0.5 ; 0 ; 1.0"],
-        |_, args| number::decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
-    ),
-    pure(
-        "INTEGER-DECODE-FLOAT",
-        "float",
-        "Mantissa, exponent and sign of a float as integers.",
-        &["(integer-decode-float 1.0) => 8388608 ; -23 ; 1"],
-        |_, args| number::integer_decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
-    ),
-    pure(
-        "SCALE-FLOAT",
-        "float power",
-        "The float times two to the power.",
-        &["(scale-float 1.5 2) => 6.0"],
-        |_, args| number::scale(&args[0], &args[1]),
-    ),
-    pure(
-        "FLOAT-RADIX",
-        "float",
-        "The base of the float's exponent.",
-        &["(float-radix 1.0) => 2"],
-        |_, args| number::digits(&args[0]).map(|_| Value::Int(2)),
-    ),
-    pure(
-        "FLOAT-DIGITS",
-        "float",
-        "The number of bits of the mantissa.",
-        &["(float-digits 1.0) => 24"],
-        |_, args| number::digits(&args[0]),
-    ),
-    pure(
-        "FLOAT-PRECISION",
-        "float",
-        "The number of significant bits of the mantissa.",
-        &["(float-precision 1d0) => 53"],
-        |_, args| number::precision(&args[0]),
-    ),
-    pure(
-        "FLOAT-SIGN",
-        "float &optional magnitude",
-        "The magnitude, or one, with the sign of the float.",
-        &["(float-sign -2.5) => -1.0", "(float-sign -1.0 3.0) => -3.0"],
-        |_, args| number::sign_of(&args[0], args.get(1)),
-    ),
-    pure(
-        "PARSE-INTEGER",
-        "string &key start end radix junk-allowed",
-        "The integer that a string stands for, and where it ends.",
-        &[
-            "(parse-integer \" 42 \") => 42 ; 4",
-            "(parse-integer \"ff\" :radix 16) => 255 ; 2",
-        ],
-        parse_integer,
-    ),
-];
+/// The greatest common divisor; 0 of none.
+///
+/// `(gcd 12 18 27)` => `3`
+/// `(gcd)` => `0`
+#[builtin]
+fn gcd(integers: &[Value]) -> Outcome {
+    fold(integers, 0, number::gcd)
+}
+
+/// The least common multiple; 1 of none.
+///
+/// `(lcm 4 6)` => `12`
+#[builtin]
+fn lcm(integers: &[Value]) -> Outcome {
+    fold(integers, 1, number::lcm)
+}
+
+/// The largest integer whose square is not above the integer.
+///
+/// `(isqrt 17)` => `4`
+#[builtin]
+fn isqrt(integer: &Value) -> Outcome {
+    number::isqrt(integer)
+}
+
+/// The numerator in lowest terms.
+///
+/// `(numerator 6/4)` => `3`
+#[builtin]
+fn numerator(rational: &Value) -> Outcome {
+    number::numerator(rational)
+}
+
+/// The denominator in lowest terms.
+///
+/// `(denominator 6/4)` => `2`
+#[builtin]
+fn denominator(rational: &Value) -> Outcome {
+    number::denominator(rational)
+}
+
+/// The exact value of the number.
+///
+/// `(rational 0.5)` => `1/2`
+#[builtin]
+fn rational(number: &Value) -> Outcome {
+    number::rational(number)
+}
+
+/// The simplest exact number that is the same float.
+///
+/// `(rationalize 0.1)` => `1/10`
+#[builtin]
+fn rationalize(number: &Value) -> Outcome {
+    number::rationalize(number)
+}
+
+/// The bits that all integers have.
+///
+/// `(logand 12 10)` => `8`
+/// `(logand)` => `-1`
+#[builtin]
+fn logand(integers: &[Value]) -> Outcome {
+    fold(integers, -1, number::and)
+}
+
+/// The bits that some of the integers have.
+///
+/// `(logior 12 10)` => `14`
+#[builtin]
+fn logior(integers: &[Value]) -> Outcome {
+    fold(integers, 0, number::or)
+}
+
+/// The bits that an odd number of the integers have.
+///
+/// `(logxor 12 10)` => `6`
+#[builtin]
+fn logxor(integers: &[Value]) -> Outcome {
+    fold(integers, 0, number::xor)
+}
+
+/// The bits in which an even number of the integers differ.
+///
+/// `(logeqv 12 10)` => `-7`
+#[builtin]
+fn logeqv(integers: &[Value]) -> Outcome {
+    fold(integers, -1, |a, b| number::not(&number::xor(a, b)?))
+}
+
+/// The bits that the integer does not have.
+///
+/// `(lognot 5)` => `-6`
+#[builtin]
+fn lognot(integer: &Value) -> Outcome {
+    number::not(integer)
+}
+
+/// The bits that not both have.
+///
+/// `(lognand 12 10)` => `-9`
+#[builtin]
+fn lognand(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(6, integer1, integer2)
+}
+
+/// The bits that neither has.
+///
+/// `(lognor 12 10)` => `-15`
+#[builtin]
+fn lognor(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(11, integer1, integer2)
+}
+
+/// The bits of the second that the first does not have.
+///
+/// `(logandc1 12 10)` => `2`
+#[builtin]
+fn logandc1(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(12, integer1, integer2)
+}
+
+/// The bits of the first that the second does not have.
+///
+/// `(logandc2 15 5)` => `10`
+#[builtin]
+fn logandc2(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(13, integer1, integer2)
+}
+
+/// The bits of the second and those that the first does not have.
+///
+/// `(logorc1 12 10)` => `-5`
+#[builtin]
+fn logorc1(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(14, integer1, integer2)
+}
+
+/// The bits of the first and those that the second does not have.
+///
+/// `(logorc2 12 10)` => `-3`
+#[builtin]
+fn logorc2(integer1: &Value, integer2: &Value) -> Outcome {
+    boole_op(15, integer1, integer2)
+}
+
+/// Have both integers a bit in common?
+///
+/// `(logtest 12 4)` => `T`
+#[builtin]
+fn logtest(integer1: &Value, integer2: &Value) -> Outcome {
+    let common = number::and(integer1, integer2)?;
+    Ok(Value::bool(!number::is_zero(&common)?))
+}
+
+/// Has the integer the bit of that index?
+///
+/// `(logbitp 0 5)` => `T`
+/// `(logbitp 1 5)` => `NIL`
+#[builtin]
+fn logbitp(index: &Value, integer: &Value) -> Outcome {
+    number::is_bit_set(index, integer).map(Value::bool)
+}
+
+/// The number of bits that differ from the sign.
+///
+/// `(logcount 255)` => `8`
+#[builtin]
+fn logcount(integer: &Value) -> Outcome {
+    number::bit_count(integer)
+}
+
+/// The number of bits without the sign.
+///
+/// `(integer-length 255)` => `8`
+/// `(integer-length 0)` => `0`
+#[builtin]
+fn integer_length(integer: &Value) -> Outcome {
+    number::bit_length(integer)
+}
+
+/// The integer shifted to the left; to the right if the count is negative.
+///
+/// `(ash 1 10)` => `1024`
+/// `(ash -8 -1)` => `-4`
+#[builtin]
+fn ash(integer: &Value, count: &Value) -> Outcome {
+    number::ash(integer, count)
+}
+
+/// Combines the bits of two integers by an operation such as BOOLE-AND.
+///
+/// `(boole boole-and 12 10)` => `8`
+#[builtin(_, "operation integer1 integer2")]
+fn boole(operation_value: &Value, integer1: &Value, integer2: &Value) -> Outcome {
+    match operation_value {
+        Value::Int(operation @ 0..=15) => boole_op(*operation, integer1, integer2),
+        other => Err(Raise::type_error(
+            other,
+            Value::list([known::MOD.into(), Value::Int(16)]),
+        )),
+    }
+}
+
+/// Describes so many bits above so many others.
+///
+/// `(byte 8 0)` => `(8 . 0)`
+#[builtin]
+fn byte(size: &Value, position: &Value) -> Outcome {
+    byte_of(&Value::cons(size.clone(), position.clone()))?;
+    Ok(Value::cons(size.clone(), position.clone()))
+}
+
+/// How many bits a byte has.
+///
+/// `(byte-size (byte 8 2))` => `8`
+#[builtin(_, "byte")]
+fn byte_size(byte_value: &Value) -> Outcome {
+    byte_of(byte_value).map(|byte| Value::Int(byte.size.into()))
+}
+
+/// How many bits are below a byte.
+///
+/// `(byte-position (byte 8 2))` => `2`
+#[builtin(_, "byte")]
+fn byte_position(byte_value: &Value) -> Outcome {
+    byte_of(byte_value).map(|byte| Value::Int(byte.position.into()))
+}
+
+/// The bits of a byte, as an integer.
+///
+/// `(ldb (byte 8 0) 511)` => `255`
+#[builtin]
+fn ldb(byte: ByteSpecifier, integer: &Value) -> Outcome {
+    number::extract(byte, integer)
+}
+
+/// Is any bit of a byte set?
+///
+/// `(ldb-test (byte 2 0) 4)` => `NIL`
+#[builtin]
+fn ldb_test(byte: ByteSpecifier, integer: &Value) -> Outcome {
+    let bits = number::extract(byte, integer)?;
+    Ok(Value::bool(!number::is_zero(&bits)?))
+}
+
+/// The bits of a byte where they are in the integer.
+///
+/// `(mask-field (byte 4 4) 255)` => `240`
+#[builtin]
+fn mask_field(byte: ByteSpecifier, integer: &Value) -> Outcome {
+    let bits = number::extract(byte, integer)?;
+    number::ash(&bits, &Value::Int(byte.position.into()))
+}
+
+/// The integer with new bits in a byte.
+///
+/// `(dpb 15 (byte 4 0) 0)` => `15`
+#[builtin]
+fn dpb(new: &Value, byte: ByteSpecifier, integer: &Value) -> Outcome {
+    number::deposit(new, byte, integer)
+}
+
+/// The integer with a byte taken over from another integer.
+///
+/// `(deposit-field 255 (byte 4 4) 0)` => `240`
+#[builtin]
+fn deposit_field(new: &Value, byte: ByteSpecifier, integer: &Value) -> Outcome {
+    let bits = number::extract(byte, new)?;
+    number::deposit(&bits, byte, integer)
+}
+
+/// Mantissa, exponent and sign of a float.
+///
+/// `(decode-float 0.5)` => `0.5 ; 0 ; 1.0`
+#[builtin]
+fn decode_float(float: &Value) -> Outcome {
+    number::decode(float).map(|parts| Value::values(parts.to_vec()))
+}
+
+/// Mantissa, exponent and sign of a float as integers.
+///
+/// `(integer-decode-float 1.0)` => `8388608 ; -23 ; 1`
+#[builtin]
+fn integer_decode_float(float: &Value) -> Outcome {
+    number::integer_decode(float).map(|parts| Value::values(parts.to_vec()))
+}
+
+/// The float times two to the power.
+///
+/// `(scale-float 1.5 2)` => `6.0`
+#[builtin]
+fn scale_float(float: &Value, power: &Value) -> Outcome {
+    number::scale(float, power)
+}
+
+/// The base of the float's exponent.
+///
+/// `(float-radix 1.0)` => `2`
+#[builtin]
+fn float_radix(float: &Value) -> Outcome {
+    number::digits(float).map(|_| Value::Int(2))
+}
+
+/// The number of bits of the mantissa.
+///
+/// `(float-digits 1.0)` => `24`
+#[builtin]
+fn float_digits(float: &Value) -> Outcome {
+    number::digits(float)
+}
+
+/// The number of significant bits of the mantissa.
+///
+/// `(float-precision 1d0)` => `53`
+#[builtin]
+fn float_precision(float: &Value) -> Outcome {
+    number::precision(float)
+}
+
+/// The magnitude, or one, with the sign of the float.
+///
+/// `(float-sign -2.5)` => `-1.0`
+/// `(float-sign -1.0 3.0)` => `-3.0`
+#[builtin]
+fn float_sign(float: &Value, magnitude: Option<&Value>) -> Outcome {
+    number::sign_of(float, magnitude)
+}
 
 fn fold(args: &[Value], start: i64, operate: fn(&Value, &Value) -> Outcome) -> Outcome {
     args.iter()
@@ -391,6 +402,12 @@ pub(crate) fn define_constants(image: &mut Image) {
 }
 
 /// A byte: a pair of size and position.
+impl FromValue<'_> for ByteSpecifier {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        byte_of(value)
+    }
+}
+
 fn byte_of(value: &Value) -> Result<ByteSpecifier, Box<Raise>> {
     let part = |part: &Value| match part {
         Value::Int(n) => u32::try_from(*n).ok(),
@@ -405,9 +422,14 @@ fn byte_of(value: &Value) -> Result<ByteSpecifier, Box<Raise>> {
     }
 }
 
-fn float(_: &mut Image, args: &[Value]) -> Outcome {
-    match (&args[0], args.get(1)) {
-        (Value::Single(_) | Value::Double(_), None) => Ok(args[0].clone()),
+/// The number as a float; as a float of the prototype's type.
+///
+/// `(float 5)` => `5.0`
+/// `(float 1/3 1d0)` => `0.3333333333333333d0`
+#[builtin(_, "number &optional prototype")]
+fn float(number_value: &Value, prototype_value: Option<&Value>) -> Outcome {
+    match (number_value, prototype_value) {
+        (Value::Single(_) | Value::Double(_), None) => Ok(number_value.clone()),
         (number, Some(prototype @ (Value::Single(_) | Value::Double(_)))) => {
             number::to_float_like(number, prototype)
         }
@@ -416,6 +438,11 @@ fn float(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
+/// The integer that a string stands for, and where it ends.
+///
+/// `(parse-integer " 42 ")` => `42 ; 4`
+/// `(parse-integer "ff" :radix 16)` => `255 ; 2`
+#[builtin(_, "string &key start end radix junk-allowed")]
 fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
     let Value::Str(string) = &args[0] else {
         return Err(Raise::type_error(&args[0], known::STRING));
@@ -485,3 +512,48 @@ fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
         )),
     }
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    gcd,
+    lcm,
+    isqrt,
+    numerator,
+    denominator,
+    rational,
+    rationalize,
+    float,
+    logand,
+    logior,
+    logxor,
+    logeqv,
+    lognot,
+    lognand,
+    lognor,
+    logandc1,
+    logandc2,
+    logorc1,
+    logorc2,
+    logtest,
+    logbitp,
+    logcount,
+    integer_length,
+    ash,
+    boole,
+    byte,
+    byte_size,
+    byte_position,
+    ldb,
+    ldb_test,
+    mask_field,
+    dpb,
+    deposit_field,
+    decode_float,
+    integer_decode_float,
+    scale_float,
+    float_radix,
+    float_digits,
+    float_precision,
+    float_sign,
+    parse_integer,
+];

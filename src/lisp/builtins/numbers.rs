@@ -1,7 +1,8 @@
 //! Arithmetic, comparison, and division with rounding.
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::number;
@@ -10,328 +11,368 @@ use crate::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "+",
-        "&rest numbers",
-        "The sum of the numbers; 0 of none.",
-        &["(+ 1 2 3) => 6", "(+ 1/2 0.5) => 1.0", "(+) => 0"],
-        |_, args| fold(args, Value::Int(0), number::add),
-    ),
-    pure(
-        "*",
-        "&rest numbers",
-        "The product of the numbers; 1 of none.",
-        &["(* 2 3 4) => 24", "(* 1/2 4) => 2"],
-        |_, args| fold(args, Value::Int(1), number::mul),
-    ),
-    pure(
-        "-",
-        "number &rest numbers",
-        "The first number less the others; its negative if it is the only one.",
-        &["(- 10 1 2) => 7", "(- 5) => -5"],
-        |_, args| match args {
-            [only] => number::negate(only),
-            _ => reduce(args, number::sub),
-        },
-    ),
-    pure(
-        "/",
-        "number &rest numbers",
-        "The first number divided by the others; its reciprocal if it is the only one.",
-        &["(/ 6 4) => 3/2", "(/ 2) => 1/2", "(/ 1.0 4) => 0.25"],
-        |_, args| match args {
-            [only] => number::div(&Value::Int(1), only),
-            _ => reduce(args, number::div),
-        },
-    ),
-    pure(
-        "1+",
-        "number",
-        "The number plus one.",
-        &["(1+ 5) => 6"],
-        |_, args| number::increment(&args[0]),
-    ),
-    pure(
-        "1-",
-        "number",
-        "The number minus one.",
-        &["(1- 5) => 4"],
-        |_, args| number::decrement(&args[0]),
-    ),
-    pure(
-        "=",
-        "number &rest numbers",
-        "Are all numbers equal in value?",
-        &["(= 1 1.0) => T", "(= 1 2) => NIL"],
-        |_, args| chain(args, number::number_equal),
-    ),
-    pure(
-        "/=",
-        "number &rest numbers",
-        "Are no two of the numbers equal in value?",
-        &["(/= 1 2 3) => T", "(/= 1 2 1) => NIL"],
-        |_, args| {
-            check_numbers(args)?;
-            for (i, a) in args.iter().enumerate() {
-                for b in args.iter().skip(i + 1) {
-                    if number::number_equal(a, b)? {
-                        return Ok(Value::NIL);
-                    }
-                }
+/// The sum of the numbers; 0 of none.
+///
+/// `(+ 1 2 3)` => `6`
+/// `(+ 1/2 0.5)` => `1.0`
+/// `(+)` => `0`
+#[builtin("+")]
+fn add(numbers: &[Value]) -> Outcome {
+    fold(numbers, Value::Int(0), number::add)
+}
+
+/// The product of the numbers; 1 of none.
+///
+/// `(* 2 3 4)` => `24`
+/// `(* 1/2 4)` => `2`
+#[builtin("*")]
+fn multiply(numbers: &[Value]) -> Outcome {
+    fold(numbers, Value::Int(1), number::mul)
+}
+
+/// The first number less the others; its negative if it is the only one.
+///
+/// `(- 10 1 2)` => `7`
+/// `(- 5)` => `-5`
+#[builtin("-", "number &rest numbers")]
+fn subtract(numbers: &[Value]) -> Outcome {
+    match numbers {
+        [only] => number::negate(only),
+        _ => reduce(numbers, number::sub),
+    }
+}
+
+/// The first number divided by the others; its reciprocal if it is the only one.
+///
+/// `(/ 6 4)` => `3/2`
+/// `(/ 2)` => `1/2`
+/// `(/ 1.0 4)` => `0.25`
+#[builtin("/", "number &rest numbers")]
+fn divide_builtin(numbers: &[Value]) -> Outcome {
+    match numbers {
+        [only] => number::div(&Value::Int(1), only),
+        _ => reduce(numbers, number::div),
+    }
+}
+
+/// The number plus one.
+///
+/// `(1+ 5)` => `6`
+#[builtin("1+")]
+fn increment(number: &Value) -> Outcome {
+    number::increment(number)
+}
+
+/// The number minus one.
+///
+/// `(1- 5)` => `4`
+#[builtin("1-")]
+fn decrement(number: &Value) -> Outcome {
+    number::decrement(number)
+}
+
+/// Are all numbers equal in value?
+///
+/// `(= 1 1.0)` => `T`
+/// `(= 1 2)` => `NIL`
+#[builtin("=", "number &rest numbers")]
+fn equal_numbers(numbers: &[Value]) -> Outcome {
+    chain(numbers, number::number_equal)
+}
+
+/// Are no two of the numbers equal in value?
+///
+/// `(/= 1 2 3)` => `T`
+/// `(/= 1 2 1)` => `NIL`
+#[builtin("/=", "number &rest numbers")]
+fn different_numbers(numbers: &[Value]) -> Outcome {
+    check_numbers(numbers)?;
+    for (i, a) in numbers.iter().enumerate() {
+        for b in numbers.iter().skip(i + 1) {
+            if number::number_equal(a, b)? {
+                return Ok(Value::NIL);
             }
-            Ok(Value::T)
-        },
-    ),
-    pure(
-        "<",
-        "number &rest numbers",
-        "Does each number come before the next one?",
-        &["(< 1 2 3) => T", "(< 1 1) => NIL"],
-        |_, args| chain_of_reals(args, number::less),
-    ),
-    pure(
-        ">",
-        "number &rest numbers",
-        "Does each number come after the next one?",
-        &["(> 3 2 1) => T"],
-        |_, args| chain_of_reals(args, number::greater),
-    ),
-    pure(
-        "<=",
-        "number &rest numbers",
-        "Is each number at most the next one?",
-        &["(<= 1 1 2) => T"],
-        |_, args| chain_of_reals(args, number::less_equal),
-    ),
-    pure(
-        ">=",
-        "number &rest numbers",
-        "Is each number at least the next one?",
-        &["(>= 3 3 1) => T"],
-        |_, args| chain_of_reals(args, number::greater_equal),
-    ),
-    pure(
-        "MAX",
-        "number &rest numbers",
-        "The largest of the numbers.",
-        &["(max 1 3 2) => 3", "(max 1 2.0) => 2.0"],
-        |_, args| {
-            check_reals(args)?;
-            reduce(args, number::maximum)
-        },
-    ),
-    pure(
-        "MIN",
-        "number &rest numbers",
-        "The smallest of the numbers.",
-        &["(min 1 3 2) => 1"],
-        |_, args| {
-            check_reals(args)?;
-            reduce(args, number::minimum)
-        },
-    ),
-    pure(
-        "ABS",
-        "number",
-        "The magnitude of the number.",
-        &["(abs -5) => 5", "(abs -0.5d0) => 0.5d0"],
-        |_, args| number::abs(&args[0]),
-    ),
-    pure(
-        "SIGNUM",
-        "number",
-        "-1, 0 or 1 with the type of the number.",
-        &["(signum -2.5) => -1.0", "(signum 0) => 0"],
-        |_, args| number::signum(&args[0]),
-    ),
-    pure(
-        "ZEROP",
-        "number",
-        "Is the number zero?",
-        &["(zerop -0.0) => T"],
-        |_, args| number::is_zero(&args[0]).map(Value::bool),
-    ),
-    pure(
-        "PLUSP",
-        "number",
-        "Is the number greater than zero?",
-        &["(plusp 1) => T"],
-        |_, args| number::is_plus(&args[0]).map(Value::bool),
-    ),
-    pure(
-        "MINUSP",
-        "number",
-        "Is the number less than zero?",
-        &["(minusp -1) => T"],
-        |_, args| number::is_minus(&args[0]).map(Value::bool),
-    ),
-    pure(
-        "EVENP",
-        "integer",
-        "Is the integer even?",
-        &["(evenp 2) => T"],
-        |_, args| number::is_even(&args[0]).map(Value::bool),
-    ),
-    pure(
-        "ODDP",
-        "integer",
-        "Is the integer odd?",
-        &["(oddp -3) => T"],
-        |_, args| number::is_even(&args[0]).map(|even| Value::bool(!even)),
-    ),
-    pure(
-        "NUMBERP",
-        "object",
-        "Is the object a number?",
-        &["(numberp 1/2) => T", "(numberp 'a) => NIL"],
-        |_, args| Ok(Value::bool(number::is_number(&args[0]))),
-    ),
-    pure(
-        "REALP",
-        "object",
-        "Is the object a real number?",
-        &["(realp 1.5) => T"],
-        |_, args| Ok(Value::bool(number::is_real(&args[0]))),
-    ),
-    pure(
-        "RATIONALP",
-        "object",
-        "Is the object an integer or a ratio?",
-        &["(rationalp 1/2) => T", "(rationalp 0.5) => NIL"],
-        |_, args| Ok(Value::bool(number::is_rational(&args[0]))),
-    ),
-    pure(
-        "INTEGERP",
-        "object",
-        "Is the object an integer?",
-        &["(integerp 5) => T", "(integerp 5.0) => NIL"],
-        |_, args| Ok(Value::bool(number::is_integer(&args[0]))),
-    ),
-    pure(
-        "FLOATP",
-        "object",
-        "Is the object a float?",
-        &["(floatp 1.5) => T"],
-        |_, args| {
-            let is_float = matches!(args[0], Value::Single(_) | Value::Double(_));
-            Ok(Value::bool(is_float))
-        },
-    ),
-    pure(
-        "COMPLEXP",
-        "object",
-        "Is the object a complex number that is not real?",
-        &["(complexp #c(1 2)) => T", "(complexp 1) => NIL"],
-        |_, args| Ok(Value::bool(number::is_complex(&args[0]))),
-    ),
-    pure(
-        "FLOOR",
-        "number &optional divisor",
-        "The integer at or below the quotient, and the remainder.",
-        &["(floor -7 2) => -4 ; 1", "(floor 7.5) => 7 ; 0.5"],
-        |image, args| divide(image, args, Rounding::Floor),
-    ),
-    pure(
-        "CEILING",
-        "number &optional divisor",
-        "The integer at or above the quotient, and the remainder.",
-        &["(ceiling 7 2) => 4 ; -1"],
-        |image, args| divide(image, args, Rounding::Ceiling),
-    ),
-    pure(
-        "TRUNCATE",
-        "number &optional divisor",
-        "The quotient without its fraction, and the remainder.",
-        &["(truncate -7 2) => -3 ; -1"],
-        |image, args| divide(image, args, Rounding::Truncate),
-    ),
-    pure(
-        "ROUND",
-        "number &optional divisor",
-        "The integer nearest to the quotient, the even one of two, and the remainder.",
-        &["(round 2.5) => 2 ; 0.5", "(round 7 2) => 4 ; -1"],
-        |image, args| divide(image, args, Rounding::Round),
-    ),
-    pure(
-        "FFLOOR",
-        "number &optional divisor",
-        "Like FLOOR with a float as the quotient.",
-        &["(ffloor 7 2) => 3.0 ; 1"],
-        |_, args| divide_to_float(args, Rounding::Floor),
-    ),
-    pure(
-        "FCEILING",
-        "number &optional divisor",
-        "Like CEILING with a float as the quotient.",
-        &["(fceiling 7 2) => 4.0 ; -1"],
-        |_, args| divide_to_float(args, Rounding::Ceiling),
-    ),
-    pure(
-        "FTRUNCATE",
-        "number &optional divisor",
-        "Like TRUNCATE with a float as the quotient.",
-        &["(ftruncate -7 2) => -3.0 ; -1"],
-        |_, args| divide_to_float(args, Rounding::Truncate),
-    ),
-    pure(
-        "FROUND",
-        "number &optional divisor",
-        "Like ROUND with a float as the quotient.",
-        &["(fround 7 2) => 4.0 ; -1"],
-        |_, args| divide_to_float(args, Rounding::Round),
-    ),
-    pure(
-        "MOD",
-        "number divisor",
-        "The remainder with the sign of the divisor.",
-        &["(mod -7 3) => 2", "(mod 7 -3) => -2"],
-        |_, args| number::modulo(&args[0], &args[1]),
-    ),
-    pure(
-        "REM",
-        "number divisor",
-        "The remainder with the sign of the number.",
-        &["(rem -7 3) => -1"],
-        |_, args| number::remainder(&args[0], &args[1]),
-    ),
-    pure(
-        "RANDOM",
-        "limit &optional random-state",
-        "A random number from zero up to, but not including, the limit.",
-        &["(random 1) => 0"],
-        |image, args| {
-            let state = args.get(1).unwrap_or(image.special(known::V_RANDOM_STATE));
-            let state = state.clone();
-            number::random_from(&mut image.random, &args[0], &state)
-        },
-    ),
-    pure(
-        "MAKE-RANDOM-STATE",
-        "&optional state",
-        "A copy of a random state, of the current one, or (T) one of its own.",
-        &["(random-state-p (make-random-state t)) => T"],
-        |image, args| {
-            let state = match args.first() {
-                Some(state) if state.is_true() => state,
-                _ => image.special(known::V_RANDOM_STATE),
-            };
-            let state = state.clone();
-            number::make_random_state(&mut image.random, &state)
-        },
-    ),
-    pure(
-        "RANDOM-STATE-P",
-        "object",
-        "Is the object a random state?",
-        &["(random-state-p *random-state*) => T"],
-        |_, args| {
-            let is_state = args[0].as_foreign::<number::RandomState>().is_some();
-            Ok(Value::bool(is_state))
-        },
-    ),
-];
+        }
+    }
+    Ok(Value::T)
+}
+
+/// Does each number come before the next one?
+///
+/// `(< 1 2 3)` => `T`
+/// `(< 1 1)` => `NIL`
+#[builtin("<", "number &rest numbers")]
+fn less(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::less)
+}
+
+/// Does each number come after the next one?
+///
+/// `(> 3 2 1)` => `T`
+#[builtin(">", "number &rest numbers")]
+fn greater(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::greater)
+}
+
+/// Is each number at most the next one?
+///
+/// `(<= 1 1 2)` => `T`
+#[builtin("<=", "number &rest numbers")]
+fn at_most(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::less_equal)
+}
+
+/// Is each number at least the next one?
+///
+/// `(>= 3 3 1)` => `T`
+#[builtin(">=", "number &rest numbers")]
+fn at_least(numbers: &[Value]) -> Outcome {
+    chain_of_reals(numbers, number::greater_equal)
+}
+
+/// The largest of the numbers.
+///
+/// `(max 1 3 2)` => `3`
+/// `(max 1 2.0)` => `2.0`
+#[builtin(_, "number &rest numbers")]
+fn max(numbers: &[Value]) -> Outcome {
+    check_reals(numbers)?;
+    reduce(numbers, number::maximum)
+}
+
+/// The smallest of the numbers.
+///
+/// `(min 1 3 2)` => `1`
+#[builtin(_, "number &rest numbers")]
+fn min(numbers: &[Value]) -> Outcome {
+    check_reals(numbers)?;
+    reduce(numbers, number::minimum)
+}
+
+/// The magnitude of the number.
+///
+/// `(abs -5)` => `5`
+/// `(abs -0.5d0)` => `0.5d0`
+#[builtin]
+fn abs(number: &Value) -> Outcome {
+    number::abs(number)
+}
+
+/// -1, 0 or 1 with the type of the number.
+///
+/// `(signum -2.5)` => `-1.0`
+/// `(signum 0)` => `0`
+#[builtin]
+fn signum(number: &Value) -> Outcome {
+    number::signum(number)
+}
+
+/// Is the number zero?
+///
+/// `(zerop -0.0)` => `T`
+#[builtin]
+fn zerop(number: &Value) -> Outcome {
+    number::is_zero(number).map(Value::bool)
+}
+
+/// Is the number greater than zero?
+///
+/// `(plusp 1)` => `T`
+#[builtin]
+fn plusp(number: &Value) -> Outcome {
+    number::is_plus(number).map(Value::bool)
+}
+
+/// Is the number less than zero?
+///
+/// `(minusp -1)` => `T`
+#[builtin]
+fn minusp(number: &Value) -> Outcome {
+    number::is_minus(number).map(Value::bool)
+}
+
+/// Is the integer even?
+///
+/// `(evenp 2)` => `T`
+#[builtin]
+fn evenp(integer: &Value) -> Outcome {
+    number::is_even(integer).map(Value::bool)
+}
+
+/// Is the integer odd?
+///
+/// `(oddp -3)` => `T`
+#[builtin]
+fn oddp(integer: &Value) -> Outcome {
+    number::is_even(integer).map(|even| Value::bool(!even))
+}
+
+/// Is the object a number?
+///
+/// `(numberp 1/2)` => `T`
+/// `(numberp 'a)` => `NIL`
+#[builtin]
+fn numberp(object: &Value) -> bool {
+    number::is_number(object)
+}
+
+/// Is the object a real number?
+///
+/// `(realp 1.5)` => `T`
+#[builtin]
+fn realp(object: &Value) -> bool {
+    number::is_real(object)
+}
+
+/// Is the object an integer or a ratio?
+///
+/// `(rationalp 1/2)` => `T`
+/// `(rationalp 0.5)` => `NIL`
+#[builtin]
+fn rationalp(object: &Value) -> bool {
+    number::is_rational(object)
+}
+
+/// Is the object an integer?
+///
+/// `(integerp 5)` => `T`
+/// `(integerp 5.0)` => `NIL`
+#[builtin]
+fn integerp(object: &Value) -> bool {
+    number::is_integer(object)
+}
+
+/// Is the object a float?
+///
+/// `(floatp 1.5)` => `T`
+#[builtin]
+fn floatp(object: &Value) -> bool {
+    matches!(object, Value::Single(_) | Value::Double(_))
+}
+
+/// Is the object a complex number that is not real?
+///
+/// `(complexp #c(1 2))` => `T`
+/// `(complexp 1)` => `NIL`
+#[builtin]
+fn complexp(object: &Value) -> bool {
+    number::is_complex(object)
+}
+
+/// The integer at or below the quotient, and the remainder.
+///
+/// `(floor -7 2)` => `-4 ; 1`
+/// `(floor 7.5)` => `7 ; 0.5`
+#[builtin]
+fn floor(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Floor)
+}
+
+/// The integer at or above the quotient, and the remainder.
+///
+/// `(ceiling 7 2)` => `4 ; -1`
+#[builtin]
+fn ceiling(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Ceiling)
+}
+
+/// The quotient without its fraction, and the remainder.
+///
+/// `(truncate -7 2)` => `-3 ; -1`
+#[builtin]
+fn truncate(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Truncate)
+}
+
+/// The integer nearest to the quotient, the even one of two, and the remainder.
+///
+/// `(round 2.5)` => `2 ; 0.5`
+/// `(round 7 2)` => `4 ; -1`
+#[builtin]
+fn round(image: &mut Image, number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide(image, number, divisor, Rounding::Round)
+}
+
+/// Like FLOOR with a float as the quotient.
+///
+/// `(ffloor 7 2)` => `3.0 ; 1`
+#[builtin]
+fn ffloor(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Floor)
+}
+
+/// Like CEILING with a float as the quotient.
+///
+/// `(fceiling 7 2)` => `4.0 ; -1`
+#[builtin]
+fn fceiling(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Ceiling)
+}
+
+/// Like TRUNCATE with a float as the quotient.
+///
+/// `(ftruncate -7 2)` => `-3.0 ; -1`
+#[builtin]
+fn ftruncate(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Truncate)
+}
+
+/// Like ROUND with a float as the quotient.
+///
+/// `(fround 7 2)` => `4.0 ; -1`
+#[builtin]
+fn fround(number: &Value, divisor: Option<&Value>) -> Outcome {
+    divide_to_float(number, divisor, Rounding::Round)
+}
+
+/// The remainder with the sign of the divisor.
+///
+/// `(mod -7 3)` => `2`
+/// `(mod 7 -3)` => `-2`
+#[builtin("MOD")]
+fn lisp_mod(number: &Value, divisor: &Value) -> Outcome {
+    number::modulo(number, divisor)
+}
+
+/// The remainder with the sign of the number.
+///
+/// `(rem -7 3)` => `-1`
+#[builtin]
+fn rem(number: &Value, divisor: &Value) -> Outcome {
+    number::remainder(number, divisor)
+}
+
+/// A random number from zero up to, but not including, the limit.
+///
+/// `(random 1)` => `0`
+#[builtin]
+fn random(image: &mut Image, limit: &Value, random_state: Option<&Value>) -> Outcome {
+    let state = random_state.unwrap_or(image.special(known::V_RANDOM_STATE));
+    let state = state.clone();
+    number::random_from(&mut image.random, limit, &state)
+}
+
+/// A copy of a random state, of the current one, or (T) one of its own.
+///
+/// `(random-state-p (make-random-state t))` => `T`
+#[builtin(_, "&optional state")]
+fn make_random_state(image: &mut Image, state_value: Option<&Value>) -> Outcome {
+    let state = match state_value {
+        Some(state) if state.is_true() => state,
+        _ => image.special(known::V_RANDOM_STATE),
+    };
+    let state = state.clone();
+    number::make_random_state(&mut image.random, &state)
+}
+
+/// Is the object a random state?
+///
+/// `(random-state-p *random-state*)` => `T`
+#[builtin]
+fn random_state_p(object: &Value) -> bool {
+    let is_state = object.as_foreign::<number::RandomState>().is_some();
+    is_state
+}
 
 fn fold(args: &[Value], start: Value, operate: fn(&Value, &Value) -> Outcome) -> Outcome {
     match args {
@@ -385,18 +426,17 @@ fn ordered(args: &[Value], holds: Comparison) -> Outcome {
     Ok(Value::T)
 }
 
-fn divisor(args: &[Value]) -> Value {
-    args.get(1).cloned().unwrap_or(Value::Int(1))
-}
-
-fn divide(image: &Image, args: &[Value], rounding: Rounding) -> Outcome {
-    let (quotient, rest) = number::divide(&args[0], &divisor(args), rounding)?;
+/// The quotient and the remainder; the divisor is one if it is not given.
+fn divide(image: &Image, number: &Value, divisor: Option<&Value>, rounding: Rounding) -> Outcome {
+    let divisor = divisor.unwrap_or(&Value::Int(1));
+    let (quotient, rest) = number::divide(number, divisor, rounding)?;
     Ok(image.with_second(quotient, || rest))
 }
 
-fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
-    let (quotient, rest) = number::divide_to_float(&args[0], &divisor(args), rounding)?;
-    Ok(Value::values(vec![quotient, rest]))
+/// The same with a float as the quotient.
+fn divide_to_float(number: &Value, divisor: Option<&Value>, rounding: Rounding) -> Outcome {
+    let divisor = divisor.unwrap_or(&Value::Int(1));
+    Ok(number::divide_to_float(number, divisor, rounding)?.into())
 }
 
 /// Constants of numbers, and the variable `*random-state*`.
@@ -524,3 +564,47 @@ pub(crate) fn define_constants(image: &mut Image) {
         image.define_constant(sym, value.clone());
     }
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    add,
+    multiply,
+    subtract,
+    divide_builtin,
+    increment,
+    decrement,
+    equal_numbers,
+    different_numbers,
+    less,
+    greater,
+    at_most,
+    at_least,
+    max,
+    min,
+    abs,
+    signum,
+    zerop,
+    plusp,
+    minusp,
+    evenp,
+    oddp,
+    numberp,
+    realp,
+    rationalp,
+    integerp,
+    floatp,
+    complexp,
+    floor,
+    ceiling,
+    truncate,
+    round,
+    ffloor,
+    fceiling,
+    ftruncate,
+    fround,
+    lisp_mod,
+    rem,
+    random,
+    make_random_state,
+    random_state_p,
+];

@@ -2,10 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, Operator, control, pure};
+use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
 use crate::object::define::{self, no_class};
 use crate::object::{access, class_of, defclass, instance, update};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::class::Instance;
 use crate::value::known;
@@ -13,198 +14,160 @@ use crate::value::raise::Raise;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
-/// The builtins.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "MAKE-INSTANCE",
-        "class &rest initargs",
-        "Makes an instance of a class.",
-        &[
-            "(progn (defclass cup () ((size :initarg :size))) (slot-value (make-instance 'cup :size 3) 'size)) => 3",
-        ],
-        instance::make_instance,
-    ),
-    control(
-        "ALLOCATE-INSTANCE",
-        "class &rest initargs",
-        "Makes an instance whose slots have no values.",
-        &[
-            "(progn (defclass tray () ((load :initform 1))) (slot-boundp (allocate-instance (find-class 'tray)) 'load)) => NIL",
-        ],
-        instance::allocate_instance,
-    ),
-    control(
-        "INITIALIZE-INSTANCE",
-        "instance &rest initargs",
-        "Gives the slots of a new instance their values. Add methods to do more.",
-        &[
-            "(progn (defclass lamp () ((lit :initarg :lit))) (defmethod initialize-instance :after ((x lamp) &key) (setf (slot-value x 'lit) :off)) (slot-value (make-instance 'lamp :lit :on) 'lit)) => :OFF",
-        ],
-        instance::initialize_instance,
-    ),
-    control(
-        "REINITIALIZE-INSTANCE",
-        "instance &rest initargs",
-        "Changes slots by their initargs.",
-        &[
-            "(progn (defclass cup () ((size :initarg :size))) (slot-value (reinitialize-instance (make-instance 'cup) :size 5) 'size)) => 5",
-        ],
-        instance::reinitialize_instance,
-    ),
-    control(
-        "SHARED-INITIALIZE",
-        "instance slot-names &rest initargs",
-        "Sets slots by initargs, and the named ones (all if T) that have no value by their initforms.",
-        &[],
-        instance::shared_initialize,
-    ),
-    control(
-        "SLOT-VALUE",
-        "object slot-name",
-        "The value of a slot.",
-        &[
-            "(progn (defclass cup () ((size :initform 1))) (slot-value (make-instance 'cup) 'size)) => 1",
-        ],
-        |machine, args| access::slot_value(machine, &args[0], &args[1]),
-    ),
-    control(
-        "SLOT-BOUNDP",
-        "object slot-name",
-        "Has the slot a value?",
-        &["(progn (defclass cup () (size)) (slot-boundp (make-instance 'cup) 'size)) => NIL"],
-        |machine, args| access::slot_boundp(machine, &args[0], &args[1]),
-    ),
-    control(
-        "SLOT-MAKUNBOUND",
-        "object slot-name",
-        "Takes the value of a slot away; returns the object.",
-        &[
-            "(progn (defclass jar () ((lid :initform 1))) (slot-boundp (slot-makunbound (make-instance 'jar) 'lid) 'lid)) => NIL",
-        ],
-        |machine, args| access::slot_makunbound(machine, &args[0], &args[1]),
-    ),
-    pure(
-        "SLOT-EXISTS-P",
-        "object slot-name",
-        "Does the object have a slot of this name?",
-        &["(slot-exists-p 5 'size) => NIL"],
-        |_, args| {
-            let slot = access::slot_name(&args[1])?;
-            Ok(Value::bool(access::slot_exists(&args[0], slot)))
-        },
-    ),
-    control(
-        "SLOT-UNBOUND",
-        "class object slot-name",
-        "Called when a slot without a value is read. Add methods to give it one.",
-        &[],
-        |_, args| Err(access::unbound_slot(&args[1], access::slot_name(&args[2])?)),
-    ),
-    control(
-        "SLOT-MISSING",
-        "class object slot-name operation &optional new-value",
-        "Called when a slot that the object does not have is used.",
-        &[],
-        slot_missing,
-    ),
-    pure(
-        "CLASS-OF",
-        "object",
-        "The class of an object.",
-        &["(class-name (class-of '(1))) => CONS"],
-        |image, args| Ok(Value::Class(class_of(image, &args[0]))),
-    ),
-    pure(
-        "CLASS-NAME",
-        "class",
-        "The name of a class.",
-        &["(class-name (find-class 'list)) => LIST"],
-        |_, args| match &args[0] {
-            Value::Class(class) => Ok(class.class_name()),
-            other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
-        },
-    ),
-    pure(
-        "FIND-CLASS",
-        "symbol &optional (errorp t) environment",
-        "The class of that name; without one an error, or NIL if the second argument is NIL.",
-        &["(find-class 'no-such-class nil) => NIL"],
-        find_class,
-    ),
-    pure(
-        "MAKE-INSTANCES-OBSOLETE",
-        "class",
-        "Lets each instance of the class, given by itself or its name, be brought up to date when it is next used, as after a redefinition; returns its argument.",
-        &["(progn (defclass keg () ()) (make-instances-obsolete 'keg)) => KEG"],
-        make_instances_obsolete,
-    ),
-    control(
-        "CHANGE-CLASS",
-        "instance new-class &rest initargs",
-        "Makes an instance one of another class; slots of the same name keep their values.",
-        &[
-            "(progn (defclass raw () ((mass :initform 2))) (defclass cooked () (mass)) (slot-value (change-class (make-instance 'raw) 'cooked) 'mass)) => 2",
-        ],
-        change_class,
-    ),
-    control(
-        "UPDATE-INSTANCE-FOR-REDEFINED-CLASS",
-        "instance added-slots discarded-slots property-list &rest initargs",
-        "Called when an instance is used after its class was redefined. Add methods to do more.",
-        &[],
-        |machine, args| {
-            let mut rest = args;
-            rest.drain(2..4.min(rest.len()));
-            instance::shared_initialize(machine, rest)
-        },
-    ),
-    control(
-        "UPDATE-INSTANCE-FOR-DIFFERENT-CLASS",
-        "previous current &rest initargs",
-        "Called by CHANGE-CLASS. Add methods to do more.",
-        &[],
-        update_for_different_class,
-    ),
-];
+/// Makes an instance of a class.
+///
+/// `(progn (defclass cup () ((size :initarg :size))) (slot-value (make-instance 'cup :size 3) 'size))` => `3`
+#[builtin(_, "class &rest initargs")]
+fn make_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::make_instance(machine, initargs)
+}
 
-/// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%SLOT-NAMES",
-        "class",
-        "The names of the slots that instances of a class have.",
-        &[],
-        |_, args| match &args[0] {
-            Value::Class(class) => {
-                let names: Vec<Value> =
-                    class.slots.borrow().iter().map(|s| s.name.into()).collect();
-                Ok(Value::list(names))
-            }
-            other => Err(Raise::type_error(other, known::CLASS)),
-        },
-    ),
-    control(
-        "SET-SLOT-VALUE",
-        "value object slot-name",
-        "Stores a value in a slot: the function of `(setf slot-value)`.",
-        &[],
-        set_slot_value,
-    ),
-    pure(
-        "%DEFINE-CLASS",
-        "name superclasses slots default-initargs documentation last",
-        "Defines a class as DEFCLASS describes it.",
-        &[],
-        defclass::define_standard_class,
-    ),
-    pure(
-        "%DEFINE-CONDITION",
-        "name superclasses slots default-initargs documentation report",
-        "Defines a condition as DEFINE-CONDITION describes it.",
-        &[],
-        defclass::define_condition,
-    ),
-];
+/// Makes an instance whose slots have no values.
+///
+/// `(progn (defclass tray () ((load :initform 1))) (slot-boundp (allocate-instance (find-class 'tray)) 'load))` => `NIL`
+#[builtin(_, "class &rest initargs")]
+fn allocate_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::allocate_instance(machine, initargs)
+}
+
+/// Gives the slots of a new instance their values. Add methods to do more.
+///
+/// `(progn (defclass lamp () ((lit :initarg :lit))) (defmethod initialize-instance :after ((x lamp) &key) (setf (slot-value x 'lit) :off)) (slot-value (make-instance 'lamp :lit :on) 'lit))` => `:OFF`
+#[builtin(_, "instance &rest initargs")]
+fn initialize_instance(
+    machine: &mut Machine<'_>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    instance::initialize_instance(machine, initargs)
+}
+
+/// Changes slots by their initargs.
+///
+/// `(progn (defclass cup () ((size :initarg :size))) (slot-value (reinitialize-instance (make-instance 'cup) :size 5) 'size))` => `5`
+#[builtin(_, "instance &rest initargs")]
+fn reinitialize_instance(
+    machine: &mut Machine<'_>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    instance::reinitialize_instance(machine, initargs)
+}
+
+/// Sets slots by initargs, and the named ones (all if T) that have no value by their initforms.
+#[builtin(_, "instance slot-names &rest initargs")]
+fn shared_initialize(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+    instance::shared_initialize(machine, initargs)
+}
+
+/// The value of a slot.
+///
+/// `(progn (defclass cup () ((size :initform 1))) (slot-value (make-instance 'cup) 'size))` => `1`
+#[builtin]
+fn slot_value(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_value(machine, object, slot_name)
+}
+
+/// Has the slot a value?
+///
+/// `(progn (defclass cup () (size)) (slot-boundp (make-instance 'cup) 'size))` => `NIL`
+#[builtin]
+fn slot_boundp(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_boundp(machine, object, slot_name)
+}
+
+/// Takes the value of a slot away; returns the object.
+///
+/// `(progn (defclass jar () ((lid :initform 1))) (slot-boundp (slot-makunbound (make-instance 'jar) 'lid) 'lid))` => `NIL`
+#[builtin]
+fn slot_makunbound(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::slot_makunbound(machine, object, slot_name)
+}
+
+/// Does the object have a slot of this name?
+///
+/// `(slot-exists-p 5 'size)` => `NIL`
+#[builtin]
+fn slot_exists_p(object: &Value, slot_name: &Value) -> Result<Value, Box<Raise>> {
+    let slot = access::slot_name(slot_name)?;
+    Ok(Value::bool(access::slot_exists(object, slot)))
+}
+
+/// Called when a slot without a value is read. Add methods to give it one.
+#[builtin]
+fn slot_unbound(_class: &Value, object: &Value, slot_name: &Value) -> Result<Step, Box<Raise>> {
+    Err(access::unbound_slot(object, access::slot_name(slot_name)?))
+}
+
+/// The class of an object.
+///
+/// `(class-name (class-of '(1)))` => `CONS`
+#[builtin("CLASS-OF")]
+fn class_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::Class(class_of(image, object)))
+}
+
+/// The name of a class.
+///
+/// `(class-name (find-class 'list))` => `LIST`
+#[builtin(_, "class")]
+fn class_name(class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
+        Value::Class(class) => Ok(class.class_name()),
+        other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
+    }
+}
+
+/// Called when an instance is used after its class was redefined. Add methods to do more.
+#[builtin(_, "instance added-slots discarded-slots property-list &rest initargs")]
+fn update_instance_for_redefined_class(
+    machine: &mut Machine<'_>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let mut rest = initargs;
+    rest.drain(2..4.min(rest.len()));
+    instance::shared_initialize(machine, rest)
+}
+
+/// The names of the slots that instances of a class have.
+#[builtin("%SLOT-NAMES", "class")]
+fn slot_names(class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
+        Value::Class(class) => {
+            let names: Vec<Value> = class.slots.borrow().iter().map(|s| s.name.into()).collect();
+            Ok(Value::list(names))
+        }
+        other => Err(Raise::type_error(other, known::CLASS)),
+    }
+}
+
+/// Defines a class as DEFCLASS describes it.
+#[builtin(
+    "%DEFINE-CLASS",
+    "name superclasses slots default-initargs documentation last"
+)]
+fn define_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    defclass::define_standard_class(image, args)
+}
+
+/// Defines a condition as DEFINE-CONDITION describes it.
+#[builtin(
+    "%DEFINE-CONDITION",
+    "name superclasses slots default-initargs documentation report"
+)]
+fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    defclass::define_condition(image, args)
+}
 
 /// The macros.
 pub static OPERATORS: &[Operator] = &[
@@ -228,55 +191,62 @@ pub static OPERATORS: &[Operator] = &[
     },
 ];
 
-/// What `setf` of the functions here calls: the new value comes first.
-pub static SETTERS: &[Builtin] = &[
-    control(
-        "SLOT-VALUE",
-        "value object slot-name",
-        "Stores a value in a slot.",
-        &[],
-        set_slot_value,
-    ),
-    pure(
-        "FIND-CLASS",
-        "class symbol &optional errorp environment",
-        "Gives a class a name.",
-        &[],
-        set_find_class,
-    ),
-    pure(
-        "CLASS-NAME",
-        "name class",
-        "Changes what `class-name` returns; `find-class` goes on finding the class under its old name.",
-        &[],
-        set_class_name,
-    ),
-];
-
-fn set_slot_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    access::set_slot_value(machine, args[0].clone(), &args[1], &args[2])
+/// Stores a value in a slot.
+#[builtin("SLOT-VALUE")]
+fn set_slot_value_builtin(
+    machine: &mut Machine<'_>,
+    value: Value,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    set_slot_value(machine, value, object, slot_name)
 }
 
-fn slot_missing(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let slot = access::slot_name(&args[2])?;
-    let operation = match args[3].as_symbol() {
+/// Stores a value in a slot: the function of `(setf slot-value)`.
+#[builtin]
+fn set_slot_value(
+    machine: &mut Machine<'_>,
+    value: Value,
+    object: &Value,
+    slot_name: &Value,
+) -> Result<Step, Box<Raise>> {
+    access::set_slot_value(machine, value, object, slot_name)
+}
+
+/// Called when a slot that the object does not have is used.
+#[builtin]
+fn slot_missing(
+    machine: &mut Machine<'_>,
+    _class: &Value,
+    object: &Value,
+    slot_name: &Value,
+    operation: &Value,
+    new_value: Option<&Value>,
+) -> Result<Step, Box<Raise>> {
+    let slot = access::slot_name(slot_name)?;
+    let operation = match operation.as_symbol() {
         Some(known::SETF) => access::Access::Write,
         Some(known::SLOT_BOUNDP) => access::Access::IsBound,
         Some(known::SLOT_MAKUNBOUND) => access::Access::MakeUnbound,
         _ => access::Access::Read,
     };
-    let value = args.get(4);
+    let value = new_value;
     Err(access::missing_slot(
         machine.image,
-        &args[1],
+        object,
         slot,
         operation,
         value,
     ))
 }
 
-fn make_instances_obsolete(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let class = match &args[0] {
+/// Lets each instance of the class, given by itself or its name, be brought up to date when it is
+/// next used, as after a redefinition; returns its argument.
+///
+/// `(progn (defclass keg () ()) (make-instances-obsolete 'keg))` => `KEG`
+#[builtin(_, "class")]
+fn make_instances_obsolete(image: &mut Image, class_value: &Value) -> Result<Value, Box<Raise>> {
+    let class = match class_value {
         Value::Class(class) => class.clone(),
         Value::Symbol(name, ..) => {
             let class = image.class(*name).cloned();
@@ -285,9 +255,13 @@ fn make_instances_obsolete(image: &mut Image, args: &[Value]) -> Result<Value, B
         other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     };
     define::make_obsolete(&class);
-    Ok(args[0].clone())
+    Ok(class_value.clone())
 }
 
+/// The class of that name; without one an error, or NIL if the second argument is NIL.
+///
+/// `(find-class 'no-such-class nil)` => `NIL`
+#[builtin(_, "symbol &optional (errorp t) environment")]
 fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
@@ -299,21 +273,31 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     }
 }
 
-fn set_class_name(_: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    match &args[1] {
+/// Changes what `class-name` returns; `find-class` goes on finding the class under its old name.
+#[builtin("CLASS-NAME", "name class")]
+fn set_class_name(name: &Value, class_value: &Value) -> Result<Value, Box<Raise>> {
+    match class_value {
         Value::Class(class) => {
-            *class.given_name.borrow_mut() = Some(args[0].clone());
-            Ok(args[0].clone())
+            *class.given_name.borrow_mut() = Some(name.clone());
+            Ok(name.clone())
         }
         other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
 }
 
-fn set_find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some(name) = args[1].as_symbol() else {
-        return Err(Raise::type_error(&args[1], Value::symbol(known::SYMBOL)));
+/// Gives a class a name.
+#[builtin("FIND-CLASS", "class symbol &optional errorp environment")]
+fn set_find_class(
+    image: &mut Image,
+    class_value: &Value,
+    symbol: &Value,
+    _errorp: Option<&Value>,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    let Some(name) = symbol.as_symbol() else {
+        return Err(Raise::type_error(symbol, Value::symbol(known::SYMBOL)));
     };
-    match &args[0] {
+    match class_value {
         Value::Class(class) => {
             image.classes.insert(name, class.clone());
         }
@@ -322,7 +306,7 @@ fn set_find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>
         }
         other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
-    Ok(args[0].clone())
+    Ok(class_value.clone())
 }
 
 fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
@@ -335,6 +319,10 @@ fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
     }
 }
 
+/// Makes an instance one of another class; slots of the same name keep their values.
+///
+/// `(progn (defclass raw () ((mass :initform 2))) (defclass cooked () (mass)) (slot-value (change-class (make-instance 'raw) 'cooked) 'mass))` => `2`
+#[builtin(_, "instance new-class &rest initargs")]
 fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let class = instance::instantiable_class(machine.image, &args[1])?;
     let instance = instance_argument(&args[0])?;
@@ -352,6 +340,11 @@ fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
     update::change_class(machine, instance, &class, initargs)
 }
 
+/// Called by CHANGE-CLASS. Add methods to do more.
+#[builtin(
+    "UPDATE-INSTANCE-FOR-DIFFERENT-CLASS",
+    "previous current &rest initargs"
+)]
 fn update_for_different_class(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
@@ -360,3 +353,33 @@ fn update_for_different_class(
     let current = instance_argument(&args[1])?;
     update::initialize_new_slots(machine, previous, current, &args[2..])
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    make_instance,
+    allocate_instance,
+    initialize_instance,
+    reinitialize_instance,
+    shared_initialize,
+    slot_value,
+    slot_boundp,
+    slot_makunbound,
+    slot_exists_p,
+    slot_unbound,
+    slot_missing,
+    class_of_builtin,
+    class_name,
+    find_class,
+    make_instances_obsolete,
+    change_class,
+    update_instance_for_redefined_class,
+    update_for_different_class,
+];
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![slot_names, set_slot_value, define_class, define_condition,];
+
+/// What `setf` of the functions here calls: the new value comes first.
+pub(crate) static SETTERS: &[Builtin] =
+    builtins![set_slot_value_builtin, set_find_class, set_class_name,];

@@ -7,8 +7,9 @@ use super::packages::{
 };
 use super::shown::shown;
 use super::strings;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{Access, PackageId};
@@ -26,11 +27,14 @@ fn texts(image: &Image, items: &[Value]) -> Result<Vec<String>, Box<Raise>> {
         .collect()
 }
 
-/// Carries out a `defpackage`: arguments are the name and the options.
-fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = strings::designated(image, &args[0])?;
+/// Carries out a `defpackage`.
+///
+/// `(system::%define-package "DEFINED-AS-EXAMPLE" '((:use :cl)))` => `#<PACKAGE "DEFINED-AS-EXAMPLE">`
+// Carries out a `defpackage`: arguments are the name and the options.
+#[builtin("%DEFINE-PACKAGE", "name options")]
+fn define_package(image: &mut Image, name: String, options_value: &Value) -> Outcome {
     let mut options: Vec<(Sym, Vec<Value>)> = Vec::new();
-    for option in list_items(&args[1])? {
+    for option in list_items(options_value)? {
         let parts = list_items(&option)?;
         match parts.split_first() {
             Some((Value::Symbol(key, ..), rest)) => options.push((*key, rest.to_vec())),
@@ -194,14 +198,22 @@ fn imported(
     Ok(symbols)
 }
 
-fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
-    designated(image, &args[0]).map(Value::Package)
+/// The package of a name; an error if there is none.
+///
+/// `(system::%existing-package :cl)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin("%EXISTING-PACKAGE")]
+fn existing_package(image: &mut Image, designator: &Value) -> Outcome {
+    designated(image, designator).map(Value::Package)
 }
 
-/// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
-/// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
-fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let symbols: Vec<Sym> = match &args[1] {
+/// The symbols of a package.
+///
+/// `(system::%package-symbols (make-package :empty-example) :external)` => `NIL`
+// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
+// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
+#[builtin("%PACKAGE-SYMBOLS", "package kind")]
+fn package_symbols(image: &mut Image, package: &Value, kind_value: &Value) -> Outcome {
+    let symbols: Vec<Sym> = match kind_value {
         Value::Symbol(known::T, ..) => {
             let mut all: Vec<Sym> = image
                 .packages
@@ -214,11 +226,11 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
             all
         }
         Value::Symbol(known::K_INHERITED, ..) => {
-            let id = designated(image, &args[0])?;
+            let id = designated(image, package)?;
             accessible(image, id)
         }
         kind => {
-            let id = designated(image, &args[0])?;
+            let id = designated(image, package)?;
             let all = kind.as_symbol() == Some(known::K_INTERNAL);
             let present = image.packages.get(id).symbols.values();
             let chosen = present.filter(|(_, external)| all || *external);
@@ -228,11 +240,15 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(symbols.into_iter().map(Value::symbol)))
 }
 
-/// The state of a package iterator: a pair whose car lists what is still to come.
-fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
-    let kinds = list_items(&args[1])?;
+/// An iterator over the symbols of packages.
+///
+/// `(system::%package-iterator :cl nil)` => `(NIL)`
+// The state of a package iterator: a pair whose car lists what is still to come.
+#[builtin("%PACKAGE-ITERATOR", "packages kinds")]
+fn package_iterator(image: &mut Image, packages: &Value, kinds_value: &Value) -> Outcome {
+    let kinds = list_items(kinds_value)?;
     let mut entries = Vec::new();
-    for package in one_or_more(&args[0])? {
+    for package in one_or_more(packages)? {
         let id = designated(image, &package)?;
         for sym in accessible(image, id) {
             let access: Option<Access> = image
@@ -248,50 +264,28 @@ fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::cons(Value::list(entries), Value::NIL))
 }
 
+/// A new package.
+///
+/// `(package-name (system::%make-package :made-below))` => `"MADE-BELOW"`
+#[builtin("%MAKE-PACKAGE", "name &key nicknames use")]
+fn make_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    make_package(image, args)
+}
+
+/// Deletes a package.
+///
+/// `(progn (make-package :short) (system::%delete-package :short))` => `T`
+#[builtin("%DELETE-PACKAGE", "package")]
+fn delete_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    delete_package(image, args)
+}
+
 /// What the expansions call; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%MAKE-PACKAGE",
-        "name &key nicknames use",
-        "A new package.",
-        &["(package-name (system::%make-package :made-below)) => \"MADE-BELOW\""],
-        make_package,
-    ),
-    pure(
-        "%DELETE-PACKAGE",
-        "package",
-        "Deletes a package.",
-        &["(progn (make-package :short) (system::%delete-package :short)) => T"],
-        delete_package,
-    ),
-    pure(
-        "%DEFINE-PACKAGE",
-        "name options",
-        "Carries out a `defpackage`.",
-        &[
-            "(system::%define-package \"DEFINED-AS-EXAMPLE\" '((:use :cl))) => #<PACKAGE \"DEFINED-AS-EXAMPLE\">",
-        ],
-        define_package,
-    ),
-    pure(
-        "%EXISTING-PACKAGE",
-        "designator",
-        "The package of a name; an error if there is none.",
-        &["(system::%existing-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
-        existing_package,
-    ),
-    pure(
-        "%PACKAGE-SYMBOLS",
-        "package kind",
-        "The symbols of a package.",
-        &["(system::%package-symbols (make-package :empty-example) :external) => NIL"],
-        package_symbols,
-    ),
-    pure(
-        "%PACKAGE-ITERATOR",
-        "packages kinds",
-        "An iterator over the symbols of packages.",
-        &["(system::%package-iterator :cl nil) => (NIL)"],
-        package_iterator,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    make_package_builtin,
+    delete_package_builtin,
+    define_package,
+    existing_package,
+    package_symbols,
+    package_iterator,
 ];

@@ -3,8 +3,9 @@
 use super::packages::{names, one_or_more, or_current, package_error};
 use super::property_lists::symbol;
 use super::shown::shown;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::package::PackageId;
 use crate::value::raise::Raise;
@@ -35,9 +36,13 @@ pub(crate) fn import_one(
     Ok(())
 }
 
-fn import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+/// Makes symbols present in a package (the current one).
+///
+/// `(import 'cl:car)` => `T`
+#[builtin(_, "symbols &optional package")]
+fn import(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for sym in symbols(symbols_value)? {
         import_one(image, package, sym)?;
     }
     Ok(Value::T)
@@ -48,9 +53,13 @@ fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
     one_or_more(value)?.iter().map(symbol).collect()
 }
 
-fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+/// Makes symbols present in a package in place of others of their names.
+///
+/// `(shadowing-import nil)` => `T`
+#[builtin(_, "symbols &optional package")]
+fn shadowing_import(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for sym in symbols(symbols_value)? {
         image
             .packages
             .shadowing_import(&mut image.symbols, package, sym);
@@ -58,10 +67,14 @@ fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
-/// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
-fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let package = or_current(image, args.get(1))?;
+/// Takes a symbol out of a package; was it there?
+///
+/// `(unintern (make-symbol "X"))` => `NIL`
+// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
+#[builtin]
+fn unintern(image: &mut Image, symbol: Sym, package: Option<&Value>) -> Outcome {
+    let sym = symbol;
+    let package = or_current(image, package)?;
     let name = image.name(sym).to_owned();
     let this = image.packages.get(package);
     let is_present = this
@@ -118,9 +131,13 @@ fn must_be_accessible(
     ))
 }
 
-fn export(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+/// Exports symbols from a package (the current one).
+///
+/// `(export 'exported-as-example)` => `T`
+#[builtin(_, "symbols &optional package")]
+fn export(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "exported", "; import it first")?;
         no_conflict_in_users(image, package, sym)?;
         image.packages.export(&mut image.symbols, package, sym);
@@ -158,9 +175,13 @@ fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(
     }
 }
 
-fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
+/// Makes exported symbols internal again.
+///
+/// `(unexport 'exported-as-example)` => `T`
+#[builtin(_, "symbols &optional package")]
+fn unexport(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "unexported", "")?;
         image.packages.unexport(&image.symbols, package, sym);
     }
@@ -193,56 +214,18 @@ pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
     }
 }
 
-fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for name in names(image, Some(&args[0]))? {
+/// Gives a package symbols of its own in place of inherited ones.
+///
+/// `(shadow "OWN-SYMBOL")` => `T`
+#[builtin(_, "names &optional package")]
+fn shadow(image: &mut Image, names_value: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for name in names(image, Some(names_value))? {
         shadow_one(image, package, &name);
     }
     Ok(Value::T)
 }
 
 /// What is done to the symbols of packages.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package (the current one).",
-        &["(import 'cl:car) => T"],
-        import,
-    ),
-    pure(
-        "SHADOWING-IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package in place of others of their names.",
-        &["(shadowing-import nil) => T"],
-        shadowing_import,
-    ),
-    pure(
-        "EXPORT",
-        "symbols &optional package",
-        "Exports symbols from a package (the current one).",
-        &["(export 'exported-as-example) => T"],
-        export,
-    ),
-    pure(
-        "UNINTERN",
-        "symbol &optional package",
-        "Takes a symbol out of a package; was it there?",
-        &["(unintern (make-symbol \"X\")) => NIL"],
-        unintern,
-    ),
-    pure(
-        "UNEXPORT",
-        "symbols &optional package",
-        "Makes exported symbols internal again.",
-        &["(unexport 'exported-as-example) => T"],
-        unexport,
-    ),
-    pure(
-        "SHADOW",
-        "names &optional package",
-        "Gives a package symbols of its own in place of inherited ones.",
-        &["(shadow \"OWN-SYMBOL\") => T"],
-        shadow,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![import, shadowing_import, export, unintern, unexport, shadow,];

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::keywords;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::FromValue;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{Access, PackageId, PackageTable};
@@ -31,6 +33,13 @@ pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<
 }
 
 /// The package that a designator denotes.
+/// A package designator.
+impl FromValue<'_> for PackageId {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        designated(image, value)
+    }
+}
+
 pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
     match find(image, designator)? {
         Some(id) if !image.packages.is_deleted(id) => Ok(id),
@@ -94,26 +103,42 @@ pub fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
     found
 }
 
-fn packagep(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Package(_))))
+/// Is the object a package?
+///
+/// `(packagep *package*)` => `T`
+#[builtin]
+fn packagep(object: &Value) -> bool {
+    matches!(object, Value::Package(_))
 }
 
-fn find_package(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(find(image, &args[0])?.map_or(Value::NIL, Value::Package))
+/// The package of a name or nickname, or `NIL`.
+///
+/// `(find-package :cl)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin]
+fn find_package(image: &mut Image, name: &Value) -> Outcome {
+    Ok(find(image, name)?.map_or(Value::NIL, Value::Package))
 }
 
-fn package_name(image: &mut Image, args: &[Value]) -> Outcome {
-    if let Value::Package(id) = &args[0]
+/// A package's name.
+///
+/// `(package-name :cl)` => `"COMMON-LISP"`
+#[builtin]
+fn package_name(image: &mut Image, package: &Value) -> Outcome {
+    if let Value::Package(id) = package
         && image.packages.is_deleted(*id)
     {
         return Ok(Value::NIL);
     }
-    let id = designated(image, &args[0])?;
+    let id = designated(image, package)?;
     Ok(Value::string(image.packages.get(id).name.as_ref()))
 }
 
-fn package_nicknames(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+/// A package's other names.
+///
+/// `(package-nicknames :keyword)` => `NIL`
+#[builtin]
+fn package_nicknames(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let names = &image.packages.get(id).nicknames;
     Ok(Value::list(names.iter().map(|n| Value::string(n.as_ref()))))
 }
@@ -122,21 +147,33 @@ fn package_list(ids: impl IntoIterator<Item = PackageId>) -> Value {
     Value::list(ids.into_iter().map(Value::Package).collect::<Vec<_>>())
 }
 
-fn package_use_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+/// The packages that a package uses.
+///
+/// `(package-use-list :keyword)` => `NIL`
+#[builtin]
+fn package_use_list(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     Ok(package_list(image.packages.get(id).uses.iter().copied()))
 }
 
-fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+/// The packages that use a package.
+///
+/// `(package-used-by-list :keyword)` => `NIL`
+#[builtin]
+fn package_used_by_list(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let users = image.packages.ids();
     Ok(package_list(users.filter(|user| {
         !image.packages.is_deleted(*user) && image.packages.get(*user).uses.contains(&id)
     })))
 }
 
-fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
+/// The symbols that a package shadows.
+///
+/// `(package-shadowing-symbols :cl)` => `NIL`
+#[builtin]
+fn package_shadowing_symbols(image: &mut Image, package: PackageId) -> Outcome {
+    let id = package;
     let this = image.packages.get(id);
     let symbols = this.shadowing.iter().filter_map(|n| this.symbols.get(n));
     Ok(Value::list(
@@ -146,15 +183,22 @@ fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-fn list_all_packages(image: &mut Image, _: &[Value]) -> Outcome {
+/// All packages.
+///
+/// `(first (list-all-packages))` => `#<PACKAGE "COMMON-LISP">`
+#[builtin(_, "")]
+fn list_all_packages(image: &mut Image) -> Outcome {
     let all = image.packages.ids();
     Ok(package_list(
         all.filter(|id| !image.packages.is_deleted(*id)),
     ))
 }
 
-fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = super::strings::designated(image, &args[0])?;
+/// All symbols of a name.
+///
+/// `(find-all-symbols "CADDDR")` => `(CADDDR)`
+#[builtin]
+fn find_all_symbols(image: &mut Image, name: String) -> Outcome {
     let mut found: Vec<Sym> = Vec::new();
     for id in image.packages.ids() {
         if let Some((sym, _)) = image.packages.get(id).symbols.get(name.as_str())
@@ -209,10 +253,18 @@ pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::Package(id))
 }
 
-fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let id = designated(image, &args[0])?;
-    let name = super::strings::designated(image, &args[1])?;
-    let nicknames: Vec<Rc<str>> = names(image, args.get(2))?
+/// Gives a package another name.
+///
+/// `(progn (make-package :old-name) (package-name (rename-package :old-name :new-name)))` => `"NEW-NAME"`
+#[builtin]
+fn rename_package(
+    image: &mut Image,
+    package: &Value,
+    name: String,
+    nicknames: Option<&Value>,
+) -> Outcome {
+    let id = designated(image, package)?;
+    let nicknames: Vec<Rc<str>> = names(image, nicknames)?
         .iter()
         .map(|n| n.as_str().into())
         .collect();
@@ -221,7 +273,7 @@ fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
     } else {
         Err(package_error(
             format!("\"{name}\" or one of the nicknames is the name of another package."),
-            &args[0],
+            package,
         ))
     }
 }
@@ -294,18 +346,26 @@ pub(crate) fn use_one(
     Ok(())
 }
 
-fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for used in one_or_more(&args[0])? {
+/// Lets a package (the current one) inherit the exported symbols of others.
+///
+/// `(use-package :cl)` => `T`
+#[builtin]
+fn use_package(image: &mut Image, packages: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         use_one(image, package, used)?;
     }
     Ok(Value::T)
 }
 
-fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for used in one_or_more(&args[0])? {
+/// Takes packages out of those that a package uses.
+///
+/// `(unuse-package :keyword)` => `T`
+#[builtin]
+fn unuse_package(image: &mut Image, packages: &Value, package: Option<&Value>) -> Outcome {
+    let package = or_current(image, package)?;
+    for used in one_or_more(packages)? {
         let used = designated(image, &used)?;
         image.packages.unuse_package(package, used);
     }
@@ -313,91 +373,17 @@ fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Packages.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "PACKAGEP",
-        "object",
-        "Is the object a package?",
-        &["(packagep *package*) => T"],
-        packagep,
-    ),
-    pure(
-        "FIND-PACKAGE",
-        "name",
-        "The package of a name or nickname, or `NIL`.",
-        &["(find-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
-        find_package,
-    ),
-    pure(
-        "PACKAGE-NAME",
-        "package",
-        "A package's name.",
-        &["(package-name :cl) => \"COMMON-LISP\""],
-        package_name,
-    ),
-    pure(
-        "PACKAGE-NICKNAMES",
-        "package",
-        "A package's other names.",
-        &["(package-nicknames :keyword) => NIL"],
-        package_nicknames,
-    ),
-    pure(
-        "PACKAGE-USE-LIST",
-        "package",
-        "The packages that a package uses.",
-        &["(package-use-list :keyword) => NIL"],
-        package_use_list,
-    ),
-    pure(
-        "PACKAGE-USED-BY-LIST",
-        "package",
-        "The packages that use a package.",
-        &["(package-used-by-list :keyword) => NIL"],
-        package_used_by_list,
-    ),
-    pure(
-        "PACKAGE-SHADOWING-SYMBOLS",
-        "package",
-        "The symbols that a package shadows.",
-        &["(package-shadowing-symbols :cl) => NIL"],
-        package_shadowing_symbols,
-    ),
-    pure(
-        "LIST-ALL-PACKAGES",
-        "",
-        "All packages.",
-        &["(first (list-all-packages)) => #<PACKAGE \"COMMON-LISP\">"],
-        list_all_packages,
-    ),
-    pure(
-        "FIND-ALL-SYMBOLS",
-        "name",
-        "All symbols of a name.",
-        &["(find-all-symbols \"CADDDR\") => (CADDDR)"],
-        find_all_symbols,
-    ),
-    pure(
-        "RENAME-PACKAGE",
-        "package name &optional nicknames",
-        "Gives a package another name.",
-        &[
-            "(progn (make-package :old-name) (package-name (rename-package :old-name :new-name))) => \"NEW-NAME\"",
-        ],
-        rename_package,
-    ),
-    pure(
-        "USE-PACKAGE",
-        "packages &optional package",
-        "Lets a package (the current one) inherit the exported symbols of others.",
-        &["(use-package :cl) => T"],
-        use_package,
-    ),
-    pure(
-        "UNUSE-PACKAGE",
-        "packages &optional package",
-        "Takes packages out of those that a package uses.",
-        &["(unuse-package :keyword) => T"],
-        unuse_package,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    packagep,
+    find_package,
+    package_name,
+    package_nicknames,
+    package_use_list,
+    package_used_by_list,
+    package_shadowing_symbols,
+    list_all_packages,
+    find_all_symbols,
+    rename_package,
+    use_package,
+    unuse_package,
 ];

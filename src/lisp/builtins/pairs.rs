@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, pure};
-use crate::image::Image;
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::cons::{self, Cons};
 use crate::value::cycles;
 use crate::value::known;
@@ -48,27 +48,97 @@ fn follow(path: u32, list: &Value) -> Outcome {
     Ok(value)
 }
 
-fn cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
-    follow(PATH, &args[0])
-}
-
-/// Sets the place at the end of a path; the arguments are the new value and the list.
-fn set_cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
+/// Sets the place at the end of a path.
+fn set_path(path: u32, list: &Value, value: Value) -> Outcome {
     // All letters but the first lead to the pair that is changed.
-    let length = 31 - PATH.leading_zeros();
-    let first = PATH >> (length - 1) & 1;
-    let before = PATH & !(0b11 << (length - 1)) | 1 << (length - 1);
-    let place = follow(before, &args[1])?;
+    let length = 31 - path.leading_zeros();
+    let first = path >> (length - 1) & 1;
+    let before = path & !(0b11 << (length - 1)) | 1 << (length - 1);
+    let place = follow(before, list)?;
     let Value::Cons(cons) = &place else {
         return Err(Raise::type_error(&place, known::CONS));
     };
-    cycles::note(cons, &args[0]);
+    cycles::note(cons, &value);
     if first == 0 {
-        cons.set_car(args[0].clone());
+        cons.set_car(value.clone());
     } else {
-        cons.set_cdr(args[0].clone());
+        cons.set_cdr(value.clone());
     }
-    Ok(args[0].clone())
+    Ok(value)
+}
+
+/// Functions that follow a path, and the same as places.
+macro_rules! paths {
+    ($($name:ident $set:ident $lisp_name:literal $path:literal $what:literal $example:literal;)*) => {
+        $(
+            #[doc = concat!("The ", $what, ".")]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin]
+            fn $name(list: &Value) -> Outcome {
+                follow($path, list)
+            }
+
+            #[doc = concat!("Replaces the ", $what, ".")]
+            #[builtin($lisp_name)]
+            fn $set(value: Value, list: &Value) -> Outcome {
+                set_path($path, list, value)
+            }
+        )*
+
+        /// Cars and cdrs.
+        pub(crate) static PATHS: &[Builtin] = builtins![$($name),*];
+
+        /// The same places for `setf`; the new value is the first argument.
+        pub(crate) static PATH_SETTERS: &[Builtin] = builtins![$($set),*];
+    };
+}
+
+paths! {
+    car set_car "CAR" 0b10 "car of a list" "`(car '(x))` => `X`";
+    cdr set_cdr "CDR" 0b11 "cdr of a list" "`(cdr '(1 . x))` => `X`";
+    caar set_caar "CAAR" 0b100 "car of the car of a list" "`(caar '((x)))` => `X`";
+    cadr set_cadr "CADR" 0b101 "car of the cdr of a list" "`(cadr '(1 x))` => `X`";
+    cdar set_cdar "CDAR" 0b110 "cdr of the car of a list" "`(cdar '((1 . x)))` => `X`";
+    cddr set_cddr "CDDR" 0b111 "cdr of the cdr of a list" "`(cddr '(1 1 . x))` => `X`";
+    caaar set_caaar "CAAAR" 0b1000 "car of the car of the car of a list" "`(caaar '(((x))))` => `X`";
+    caadr set_caadr "CAADR" 0b1001 "car of the car of the cdr of a list" "`(caadr '(1 (x)))` => `X`";
+    cadar set_cadar "CADAR" 0b1010 "car of the cdr of the car of a list" "`(cadar '((1 x)))` => `X`";
+    caddr set_caddr "CADDR" 0b1011 "car of the cdr of the cdr of a list" "`(caddr '(1 1 x))` => `X`";
+    cdaar set_cdaar "CDAAR" 0b1100 "cdr of the car of the car of a list" "`(cdaar '(((1 . x))))` => `X`";
+    cdadr set_cdadr "CDADR" 0b1101 "cdr of the car of the cdr of a list" "`(cdadr '(1 (1 . x)))` => `X`";
+    cddar set_cddar "CDDAR" 0b1110 "cdr of the cdr of the car of a list" "`(cddar '((1 1 . x)))` => `X`";
+    cdddr set_cdddr "CDDDR" 0b1111 "cdr of the cdr of the cdr of a list" "`(cdddr '(1 1 1 . x))` => `X`";
+    caaaar set_caaaar "CAAAAR" 0b10000 "car of the car of the car of the car of a list" "`(caaaar '((((x)))))` => `X`";
+    caaadr set_caaadr "CAAADR" 0b10001 "car of the car of the car of the cdr of a list" "`(caaadr '(1 ((x))))` => `X`";
+    caadar set_caadar "CAADAR" 0b10010 "car of the car of the cdr of the car of a list" "`(caadar '((1 (x))))` => `X`";
+    caaddr set_caaddr "CAADDR" 0b10011 "car of the car of the cdr of the cdr of a list" "`(caaddr '(1 1 (x)))` => `X`";
+    cadaar set_cadaar "CADAAR" 0b10100 "car of the cdr of the car of the car of a list" "`(cadaar '(((1 x))))` => `X`";
+    cadadr set_cadadr "CADADR" 0b10101 "car of the cdr of the car of the cdr of a list" "`(cadadr '(1 (1 x)))` => `X`";
+    caddar set_caddar "CADDAR" 0b10110 "car of the cdr of the cdr of the car of a list" "`(caddar '((1 1 x)))` => `X`";
+    cadddr set_cadddr "CADDDR" 0b10111 "car of the cdr of the cdr of the cdr of a list" "`(cadddr '(1 1 1 x))` => `X`";
+    cdaaar set_cdaaar "CDAAAR" 0b11000 "cdr of the car of the car of the car of a list" "`(cdaaar '((((1 . x)))))` => `X`";
+    cdaadr set_cdaadr "CDAADR" 0b11001 "cdr of the car of the car of the cdr of a list" "`(cdaadr '(1 ((1 . x))))` => `X`";
+    cdadar set_cdadar "CDADAR" 0b11010 "cdr of the car of the cdr of the car of a list" "`(cdadar '((1 (1 . x))))` => `X`";
+    cdaddr set_cdaddr "CDADDR" 0b11011 "cdr of the car of the cdr of the cdr of a list" "`(cdaddr '(1 1 (1 . x)))` => `X`";
+    cddaar set_cddaar "CDDAAR" 0b11100 "cdr of the cdr of the car of the car of a list" "`(cddaar '(((1 1 . x))))` => `X`";
+    cddadr set_cddadr "CDDADR" 0b11101 "cdr of the cdr of the car of the cdr of a list" "`(cddadr '(1 (1 1 . x)))` => `X`";
+    cdddar set_cdddar "CDDDAR" 0b11110 "cdr of the cdr of the cdr of the car of a list" "`(cdddar '((1 1 1 . x)))` => `X`";
+    cddddr set_cddddr "CDDDDR" 0b11111 "cdr of the cdr of the cdr of the cdr of a list" "`(cddddr '(1 1 1 1 . x))` => `X`";
+}
+
+/// The list without its first element.
+///
+/// `(rest '(1 2 3))` => `(2 3)`
+#[builtin]
+fn rest(list: &Value) -> Outcome {
+    cdr_of(list)
+}
+
+/// Replaces what follows a list's first element.
+#[builtin("REST")]
+fn set_rest(value: Value, list: &Value) -> Outcome {
+    set_path(0b11, list, value)
 }
 
 fn nth_cdr(count: usize, list: &Value) -> Outcome {
@@ -88,10 +158,6 @@ fn nth_cdr(count: usize, list: &Value) -> Outcome {
     Ok(rest)
 }
 
-fn ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
-    car_of(&nth_cdr(N, &args[0])?)
-}
-
 fn set_nth_of(index: usize, list: &Value, value: &Value) -> Outcome {
     let place = nth_cdr(index, list)?;
     match &place {
@@ -108,12 +174,53 @@ fn set_nth_of(index: usize, list: &Value, value: &Value) -> Outcome {
     Ok(value.clone())
 }
 
-fn set_ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
-    set_nth_of(N, &args[1], &args[0])
+/// Functions that access an element, and the same as places.
+macro_rules! ordinals {
+    ($($name:ident $set:ident $lisp_name:literal $index:literal $what:literal $example:literal;)*) => {
+        $(
+            #[doc = concat!("The ", $what, ", or `NIL`.")]
+            #[doc = ""]
+            #[doc = $example]
+            #[builtin]
+            fn $name(list: &Value) -> Outcome {
+                car_of(&nth_cdr($index, list)?)
+            }
+
+            #[doc = concat!("Replaces the ", $what, ".")]
+            #[builtin($lisp_name)]
+            fn $set(value: &Value, list: &Value) -> Outcome {
+                set_nth_of($index, list, value)
+            }
+        )*
+
+        /// Elements by number.
+        pub(crate) static ORDINALS: &[Builtin] = builtins![$($name),*];
+
+        /// The same places for `setf`; the new value is the first argument.
+        pub(crate) static ORDINAL_SETTERS: &[Builtin] = builtins![$($set),*];
+    };
 }
 
-fn cons(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::cons(args[0].clone(), args[1].clone()))
+ordinals! {
+    first set_first "FIRST" 0 "first element of a list" "`(first '(1 2 3 4 5 6 7 8 9 10))` => `1`";
+    second set_second "SECOND" 1 "second element of a list" "`(second '(1 2 3 4 5 6 7 8 9 10))` => `2`";
+    third set_third "THIRD" 2 "third element of a list" "`(third '(1 2 3 4 5 6 7 8 9 10))` => `3`";
+    fourth set_fourth "FOURTH" 3 "fourth element of a list" "`(fourth '(1 2 3 4 5 6 7 8 9 10))` => `4`";
+    fifth set_fifth "FIFTH" 4 "fifth element of a list" "`(fifth '(1 2 3 4 5 6 7 8 9 10))` => `5`";
+    sixth set_sixth "SIXTH" 5 "sixth element of a list" "`(sixth '(1 2 3 4 5 6 7 8 9 10))` => `6`";
+    seventh set_seventh "SEVENTH" 6 "seventh element of a list" "`(seventh '(1 2 3 4 5 6 7 8 9 10))` => `7`";
+    eighth set_eighth "EIGHTH" 7 "eighth element of a list" "`(eighth '(1 2 3 4 5 6 7 8 9 10))` => `8`";
+    ninth set_ninth "NINTH" 8 "ninth element of a list" "`(ninth '(1 2 3 4 5 6 7 8 9 10))` => `9`";
+    tenth set_tenth "TENTH" 9 "tenth element of a list" "`(tenth '(1 2 3 4 5 6 7 8 9 10))` => `10`";
+}
+
+/// A fresh pair; with a list as `cdr`, that list with an element in front.
+///
+/// `(cons 1 '(2))` => `(1 2)`
+/// `(cons 1 2)` => `(1 . 2)`
+#[builtin]
+fn cons(car: Value, cdr: Value) -> Outcome {
+    Ok(Value::cons(car, cdr))
 }
 
 fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
@@ -122,37 +229,59 @@ fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
         .ok_or_else(|| Raise::type_error(value, known::CONS))
 }
 
-fn rplaca(_: &mut Image, args: &[Value]) -> Outcome {
-    let pair = pair(&args[0])?;
-    cycles::note(pair, &args[1]);
-    pair.set_car(args[1].clone());
-    Ok(args[0].clone())
+/// Replaces the car of a pair; returns the pair.
+///
+/// `(rplaca (list 1 2) 'a)` => `(A 2)`
+#[builtin]
+fn rplaca(cons: &Value, value: &Value) -> Outcome {
+    let pair = pair(cons)?;
+    cycles::note(pair, value);
+    pair.set_car(value.clone());
+    Ok(cons.clone())
 }
 
-fn rplacd(_: &mut Image, args: &[Value]) -> Outcome {
-    let pair = pair(&args[0])?;
-    cycles::note(pair, &args[1]);
-    pair.set_cdr(args[1].clone());
-    Ok(args[0].clone())
+/// Replaces the cdr of a pair; returns the pair.
+///
+/// `(rplacd (list 1 2) '(b))` => `(1 B)`
+#[builtin]
+fn rplacd(cons: &Value, value: &Value) -> Outcome {
+    let pair = pair(cons)?;
+    cycles::note(pair, value);
+    pair.set_cdr(value.clone());
+    Ok(cons.clone())
 }
 
-fn nth(_: &mut Image, args: &[Value]) -> Outcome {
-    car_of(&nth_cdr(sequence::index(&args[0])?, &args[1])?)
+/// The element of a list at an index from 0, or `NIL` beyond the end.
+///
+/// `(nth 1 '(a b c))` => `B`
+#[builtin]
+fn nth(n: usize, list: &Value) -> Outcome {
+    car_of(&nth_cdr(n, list)?)
 }
 
-fn set_nth(_: &mut Image, args: &[Value]) -> Outcome {
-    set_nth_of(sequence::index(&args[1])?, &args[2], &args[0])
+/// Replaces the element of a list at an index from 0.
+#[builtin("NTH")]
+fn set_nth(value: &Value, n: usize, list: &Value) -> Outcome {
+    set_nth_of(n, list, value)
 }
 
-fn nthcdr(_: &mut Image, args: &[Value]) -> Outcome {
-    nth_cdr(sequence::index(&args[0])?, &args[1])
+/// The list without its first `n` elements.
+///
+/// `(nthcdr 2 '(a b c))` => `(C)`
+#[builtin]
+fn nthcdr(n: usize, list: &Value) -> Outcome {
+    nth_cdr(n, list)
 }
 
-/// Walks to the end of a list that may be dotted, with a second pointer `count` pairs
-/// behind.
-fn last(_: &mut Image, args: &[Value]) -> Outcome {
-    let count = args.get(1).map_or(Ok(1), sequence::index)?;
-    let list = &args[0];
+/// The last `n` (1) pairs of a list.
+///
+/// `(last '(1 2 3))` => `(3)`
+/// `(last '(1 2 3) 2)` => `(2 3)`
+// Walks to the end of a list that may be dotted, with a second pointer `count` pairs
+// behind.
+#[builtin]
+fn last(list: &Value, #[default(1)] n: usize) -> Outcome {
+    let count = n;
     if !list.is_list() {
         return Err(Raise::type_error(list, known::LIST));
     }
@@ -183,15 +312,23 @@ fn elements(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
     }
 }
 
-fn butlast(_: &mut Image, args: &[Value]) -> Outcome {
-    let count = args.get(1).map_or(Ok(1), sequence::index)?;
-    let mut items = elements(&args[0])?;
+/// A copy of a list without its last `n` (1) elements.
+///
+/// `(butlast '(1 2 3))` => `(1 2)`
+#[builtin]
+fn butlast(list: &Value, #[default(1)] n: usize) -> Outcome {
+    let count = n;
+    let mut items = elements(list)?;
     items.truncate(items.len().saturating_sub(count));
     Ok(Value::list(items))
 }
 
-fn endp(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+/// Is the list at its end? An error for anything but a list.
+///
+/// `(endp nil)` => `T`
+#[builtin]
+fn endp(list: &Value) -> Outcome {
+    match list {
         Value::Cons(_) => Ok(Value::NIL),
         Value::Symbol(known::NIL, ..) => Ok(Value::T),
         other => Err(Raise::type_error(other, known::LIST)),
@@ -199,102 +336,8 @@ fn endp(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Access to pairs and list elements.
-#[rustfmt::skip]
-pub static TABLE: &[Builtin] = &[
-    pure("CAR", "list", "The car of a list.", &["(car '(x)) => X"], cxr::<0b10>),
-    pure("CDR", "list", "The cdr of a list.", &["(cdr '(1 . x)) => X"], cxr::<0b11>),
-    pure("CAAR", "list", "The car of the car of a list.", &["(caar '((x))) => X"], cxr::<0b100>),
-    pure("CADR", "list", "The car of the cdr of a list.", &["(cadr '(1 x)) => X"], cxr::<0b101>),
-    pure("CDAR", "list", "The cdr of the car of a list.", &["(cdar '((1 . x))) => X"], cxr::<0b110>),
-    pure("CDDR", "list", "The cdr of the cdr of a list.", &["(cddr '(1 1 . x)) => X"], cxr::<0b111>),
-    pure("CAAAR", "list", "The car of the car of the car of a list.", &["(caaar '(((x)))) => X"], cxr::<0b1000>),
-    pure("CAADR", "list", "The car of the car of the cdr of a list.", &["(caadr '(1 (x))) => X"], cxr::<0b1001>),
-    pure("CADAR", "list", "The car of the cdr of the car of a list.", &["(cadar '((1 x))) => X"], cxr::<0b1010>),
-    pure("CADDR", "list", "The car of the cdr of the cdr of a list.", &["(caddr '(1 1 x)) => X"], cxr::<0b1011>),
-    pure("CDAAR", "list", "The cdr of the car of the car of a list.", &["(cdaar '(((1 . x)))) => X"], cxr::<0b1100>),
-    pure("CDADR", "list", "The cdr of the car of the cdr of a list.", &["(cdadr '(1 (1 . x))) => X"], cxr::<0b1101>),
-    pure("CDDAR", "list", "The cdr of the cdr of the car of a list.", &["(cddar '((1 1 . x))) => X"], cxr::<0b1110>),
-    pure("CDDDR", "list", "The cdr of the cdr of the cdr of a list.", &["(cdddr '(1 1 1 . x)) => X"], cxr::<0b1111>),
-    pure("CAAAAR", "list", "The car of the car of the car of the car of a list.", &["(caaaar '((((x))))) => X"], cxr::<0b10000>),
-    pure("CAAADR", "list", "The car of the car of the car of the cdr of a list.", &["(caaadr '(1 ((x)))) => X"], cxr::<0b10001>),
-    pure("CAADAR", "list", "The car of the car of the cdr of the car of a list.", &["(caadar '((1 (x)))) => X"], cxr::<0b10010>),
-    pure("CAADDR", "list", "The car of the car of the cdr of the cdr of a list.", &["(caaddr '(1 1 (x))) => X"], cxr::<0b10011>),
-    pure("CADAAR", "list", "The car of the cdr of the car of the car of a list.", &["(cadaar '(((1 x)))) => X"], cxr::<0b10100>),
-    pure("CADADR", "list", "The car of the cdr of the car of the cdr of a list.", &["(cadadr '(1 (1 x))) => X"], cxr::<0b10101>),
-    pure("CADDAR", "list", "The car of the cdr of the cdr of the car of a list.", &["(caddar '((1 1 x))) => X"], cxr::<0b10110>),
-    pure("CADDDR", "list", "The car of the cdr of the cdr of the cdr of a list.", &["(cadddr '(1 1 1 x)) => X"], cxr::<0b10111>),
-    pure("CDAAAR", "list", "The cdr of the car of the car of the car of a list.", &["(cdaaar '((((1 . x))))) => X"], cxr::<0b11000>),
-    pure("CDAADR", "list", "The cdr of the car of the car of the cdr of a list.", &["(cdaadr '(1 ((1 . x)))) => X"], cxr::<0b11001>),
-    pure("CDADAR", "list", "The cdr of the car of the cdr of the car of a list.", &["(cdadar '((1 (1 . x)))) => X"], cxr::<0b11010>),
-    pure("CDADDR", "list", "The cdr of the car of the cdr of the cdr of a list.", &["(cdaddr '(1 1 (1 . x))) => X"], cxr::<0b11011>),
-    pure("CDDAAR", "list", "The cdr of the cdr of the car of the car of a list.", &["(cddaar '(((1 1 . x)))) => X"], cxr::<0b11100>),
-    pure("CDDADR", "list", "The cdr of the cdr of the car of the cdr of a list.", &["(cddadr '(1 (1 1 . x))) => X"], cxr::<0b11101>),
-    pure("CDDDAR", "list", "The cdr of the cdr of the cdr of the car of a list.", &["(cdddar '((1 1 1 . x))) => X"], cxr::<0b11110>),
-    pure("CDDDDR", "list", "The cdr of the cdr of the cdr of the cdr of a list.", &["(cddddr '(1 1 1 1 . x)) => X"], cxr::<0b11111>),
-    pure("FIRST", "list", "The first element of a list, or `NIL`.", &["(first '(1 2 3 4 5 6 7 8 9 10)) => 1"], ordinal::<0>),
-    pure("SECOND", "list", "The second element of a list, or `NIL`.", &["(second '(1 2 3 4 5 6 7 8 9 10)) => 2"], ordinal::<1>),
-    pure("THIRD", "list", "The third element of a list, or `NIL`.", &["(third '(1 2 3 4 5 6 7 8 9 10)) => 3"], ordinal::<2>),
-    pure("FOURTH", "list", "The fourth element of a list, or `NIL`.", &["(fourth '(1 2 3 4 5 6 7 8 9 10)) => 4"], ordinal::<3>),
-    pure("FIFTH", "list", "The fifth element of a list, or `NIL`.", &["(fifth '(1 2 3 4 5 6 7 8 9 10)) => 5"], ordinal::<4>),
-    pure("SIXTH", "list", "The sixth element of a list, or `NIL`.", &["(sixth '(1 2 3 4 5 6 7 8 9 10)) => 6"], ordinal::<5>),
-    pure("SEVENTH", "list", "The seventh element of a list, or `NIL`.", &["(seventh '(1 2 3 4 5 6 7 8 9 10)) => 7"], ordinal::<6>),
-    pure("EIGHTH", "list", "The eighth element of a list, or `NIL`.", &["(eighth '(1 2 3 4 5 6 7 8 9 10)) => 8"], ordinal::<7>),
-    pure("NINTH", "list", "The ninth element of a list, or `NIL`.", &["(ninth '(1 2 3 4 5 6 7 8 9 10)) => 9"], ordinal::<8>),
-    pure("TENTH", "list", "The tenth element of a list, or `NIL`.", &["(tenth '(1 2 3 4 5 6 7 8 9 10)) => 10"], ordinal::<9>),
-    pure("REST", "list", "The list without its first element.", &["(rest '(1 2 3)) => (2 3)"], cxr::<0b11>),
-    pure("CONS", "car cdr", "A fresh pair; with a list as `cdr`, that list with an element in front.", &["(cons 1 '(2)) => (1 2)", "(cons 1 2) => (1 . 2)"], cons),
-    pure("RPLACA", "cons value", "Replaces the car of a pair; returns the pair.", &["(rplaca (list 1 2) 'a) => (A 2)"], rplaca),
-    pure("RPLACD", "cons value", "Replaces the cdr of a pair; returns the pair.", &["(rplacd (list 1 2) '(b)) => (1 B)"], rplacd),
-    pure("NTH", "n list", "The element of a list at an index from 0, or `NIL` beyond the end.", &["(nth 1 '(a b c)) => B"], nth),
-    pure("NTHCDR", "n list", "The list without its first `n` elements.", &["(nthcdr 2 '(a b c)) => (C)"], nthcdr),
-    pure("LAST", "list &optional n", "The last `n` (1) pairs of a list.", &["(last '(1 2 3)) => (3)", "(last '(1 2 3) 2) => (2 3)"], last),
-    pure("BUTLAST", "list &optional n", "A copy of a list without its last `n` (1) elements.", &["(butlast '(1 2 3)) => (1 2)"], butlast),
-    pure("ENDP", "list", "Is the list at its end? An error for anything but a list.", &["(endp nil) => T"], endp),
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![rest, cons, rplaca, rplacd, nth, nthcdr, last, butlast, endp];
 
 /// The same places for `setf`; the new value is the first argument.
-#[rustfmt::skip]
-pub static SETTERS: &[Builtin] = &[
-    pure("CAR", "value list", "Replaces the car of a list.", &[], set_cxr::<0b10>),
-    pure("CDR", "value list", "Replaces the cdr of a list.", &[], set_cxr::<0b11>),
-    pure("CAAR", "value list", "Replaces the car of the car of a list.", &[], set_cxr::<0b100>),
-    pure("CADR", "value list", "Replaces the car of the cdr of a list.", &[], set_cxr::<0b101>),
-    pure("CDAR", "value list", "Replaces the cdr of the car of a list.", &[], set_cxr::<0b110>),
-    pure("CDDR", "value list", "Replaces the cdr of the cdr of a list.", &[], set_cxr::<0b111>),
-    pure("CAAAR", "value list", "Replaces the car of the car of the car of a list.", &[], set_cxr::<0b1000>),
-    pure("CAADR", "value list", "Replaces the car of the car of the cdr of a list.", &[], set_cxr::<0b1001>),
-    pure("CADAR", "value list", "Replaces the car of the cdr of the car of a list.", &[], set_cxr::<0b1010>),
-    pure("CADDR", "value list", "Replaces the car of the cdr of the cdr of a list.", &[], set_cxr::<0b1011>),
-    pure("CDAAR", "value list", "Replaces the cdr of the car of the car of a list.", &[], set_cxr::<0b1100>),
-    pure("CDADR", "value list", "Replaces the cdr of the car of the cdr of a list.", &[], set_cxr::<0b1101>),
-    pure("CDDAR", "value list", "Replaces the cdr of the cdr of the car of a list.", &[], set_cxr::<0b1110>),
-    pure("CDDDR", "value list", "Replaces the cdr of the cdr of the cdr of a list.", &[], set_cxr::<0b1111>),
-    pure("CAAAAR", "value list", "Replaces the car of the car of the car of the car of a list.", &[], set_cxr::<0b10000>),
-    pure("CAAADR", "value list", "Replaces the car of the car of the car of the cdr of a list.", &[], set_cxr::<0b10001>),
-    pure("CAADAR", "value list", "Replaces the car of the car of the cdr of the car of a list.", &[], set_cxr::<0b10010>),
-    pure("CAADDR", "value list", "Replaces the car of the car of the cdr of the cdr of a list.", &[], set_cxr::<0b10011>),
-    pure("CADAAR", "value list", "Replaces the car of the cdr of the car of the car of a list.", &[], set_cxr::<0b10100>),
-    pure("CADADR", "value list", "Replaces the car of the cdr of the car of the cdr of a list.", &[], set_cxr::<0b10101>),
-    pure("CADDAR", "value list", "Replaces the car of the cdr of the cdr of the car of a list.", &[], set_cxr::<0b10110>),
-    pure("CADDDR", "value list", "Replaces the car of the cdr of the cdr of the cdr of a list.", &[], set_cxr::<0b10111>),
-    pure("CDAAAR", "value list", "Replaces the cdr of the car of the car of the car of a list.", &[], set_cxr::<0b11000>),
-    pure("CDAADR", "value list", "Replaces the cdr of the car of the car of the cdr of a list.", &[], set_cxr::<0b11001>),
-    pure("CDADAR", "value list", "Replaces the cdr of the car of the cdr of the car of a list.", &[], set_cxr::<0b11010>),
-    pure("CDADDR", "value list", "Replaces the cdr of the car of the cdr of the cdr of a list.", &[], set_cxr::<0b11011>),
-    pure("CDDAAR", "value list", "Replaces the cdr of the cdr of the car of the car of a list.", &[], set_cxr::<0b11100>),
-    pure("CDDADR", "value list", "Replaces the cdr of the cdr of the car of the cdr of a list.", &[], set_cxr::<0b11101>),
-    pure("CDDDAR", "value list", "Replaces the cdr of the cdr of the cdr of the car of a list.", &[], set_cxr::<0b11110>),
-    pure("CDDDDR", "value list", "Replaces the cdr of the cdr of the cdr of the cdr of a list.", &[], set_cxr::<0b11111>),
-    pure("FIRST", "value list", "Replaces the first element of a list.", &[], set_ordinal::<0>),
-    pure("SECOND", "value list", "Replaces the second element of a list.", &[], set_ordinal::<1>),
-    pure("THIRD", "value list", "Replaces the third element of a list.", &[], set_ordinal::<2>),
-    pure("FOURTH", "value list", "Replaces the fourth element of a list.", &[], set_ordinal::<3>),
-    pure("FIFTH", "value list", "Replaces the fifth element of a list.", &[], set_ordinal::<4>),
-    pure("SIXTH", "value list", "Replaces the sixth element of a list.", &[], set_ordinal::<5>),
-    pure("SEVENTH", "value list", "Replaces the seventh element of a list.", &[], set_ordinal::<6>),
-    pure("EIGHTH", "value list", "Replaces the eighth element of a list.", &[], set_ordinal::<7>),
-    pure("NINTH", "value list", "Replaces the ninth element of a list.", &[], set_ordinal::<8>),
-    pure("TENTH", "value list", "Replaces the tenth element of a list.", &[], set_ordinal::<9>),
-    pure("REST", "value list", "Replaces what follows a list's first element.", &[], set_cxr::<0b11>),
-    pure("NTH", "value n list", "Replaces the element of a list at an index from 0.", &[], set_nth),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_rest, set_nth];

@@ -1,12 +1,13 @@
 //! Writing values and characters to streams: `print`, `princ`, `write-line`, …
 
 use super::composing::compose;
-use super::keywords;
 use super::streams::or_method;
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::print::{self, Case, Settings};
 use crate::stream;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::package::PackageTable;
@@ -19,125 +20,121 @@ use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "PRINT",
-        "object &optional stream",
-        "Writes a newline, the object so that it can be read back, and a blank.",
-        &["(with-output-to-string (s) (print \"a\" s)) => \"\n\\\"a\\\" \""],
-        |m, args| write_object(m, args, Manner::Print),
-    ),
-    control(
-        "PRIN1",
-        "object &optional stream",
-        "Writes the object so that it can be read back.",
-        &["(with-output-to-string (s) (prin1 \"a\" s)) => \"\\\"a\\\"\""],
-        |m, args| write_object(m, args, Manner::Prin1),
-    ),
-    control(
-        "PRINC",
-        "object &optional stream",
-        "Writes the object for people.",
-        &["(with-output-to-string (s) (princ '(\"a\" #\\b) s)) => \"(a b)\""],
-        |m, args| write_object(m, args, Manner::Princ),
-    ),
-    control(
-        "PPRINT",
-        "object &optional stream",
-        "Writes a newline and the object with line breaks.",
-        &["(with-output-to-string (s) (pprint '(a b) s)) => \"\n(A B)\""],
-        |m, args| write_object(m, args, Manner::Pprint),
-    ),
-    control(
-        "WRITE",
-        "object &key stream escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch",
-        "Writes the object under given printer variables.",
-        &["(with-output-to-string (s) (write 255 :base 16 :stream s)) => \"FF\""],
-        write,
-    ),
-    control(
-        "PRIN1-TO-STRING",
-        "object",
-        "The text that PRIN1 writes.",
-        &["(prin1-to-string '(a \"b\")) => \"(A \\\"b\\\")\""],
-        |m, args| to_string(m, args, Some(true)),
-    ),
-    control(
-        "PRINC-TO-STRING",
-        "object",
-        "The text that PRINC writes.",
-        &["(princ-to-string '(a \"b\")) => \"(A b)\""],
-        |m, args| to_string(m, args, Some(false)),
-    ),
-    control(
-        "WRITE-TO-STRING",
-        "object &key escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch",
-        "The text that WRITE writes.",
-        &["(write-to-string '(1 2 3 4) :length 2) => \"(1 2 ...)\""],
-        |m, args| to_string(m, args, None),
-    ),
-    control(
-        "PRINT-OBJECT",
-        "object stream",
-        "Writes the object; a program may add methods.",
-        &["(with-output-to-string (s) (print-object 'a s)) => \"A\""],
-        print_object,
-    ),
-    pure(
-        "WRITE-STRING",
-        "string &optional stream &key start end",
-        "Writes the string as it is.",
-        &["(with-output-to-string (s) (write-string \"abc\" s :start 1)) => \"bc\""],
-        |image, args| write_string(image, args, ""),
-    ),
-    pure(
-        "WRITE-LINE",
-        "string &optional stream &key start end",
-        "Writes the string and a newline.",
-        &["(with-output-to-string (s) (write-line \"abc\" s)) => \"abc\n\""],
-        |image, args| write_string(image, args, "\n"),
-    ),
-    pure(
-        "WRITE-CHAR",
-        "character &optional stream",
-        "Writes the character.",
-        &["(with-output-to-string (s) (write-char #\\a s)) => \"a\""],
-        |image, args| {
-            let Value::Char(c) = args[0] else {
-                return Err(Raise::type_error(&args[0], known::CHARACTER));
-            };
-            stream::write(image, &stream_argument(args, 1), c.encode_utf8(&mut [0; 4]))?;
-            Ok(args[0].clone())
-        },
-    ),
-    pure(
-        "TERPRI",
-        "&optional stream",
-        "Writes a newline.",
-        &["(with-output-to-string (s) (terpri s)) => \"\n\""],
-        |image, args| {
-            stream::write(image, &stream_argument(args, 0), "\n")?;
-            Ok(Value::NIL)
-        },
-    ),
-    pure(
-        "FRESH-LINE",
-        "&optional stream",
-        "Writes a newline unless at the start of a line; was one written?",
-        &["(with-output-to-string (s) (fresh-line s)) => \"\""],
-        |image, args| stream::fresh_line(image, &stream_argument(args, 0)).map(Value::bool),
-    ),
-];
+/// Writes a newline, the object so that it can be read back, and a blank.
+///
+/// ```lisp
+/// (with-output-to-string (s) (print "a" s)) => "
+/// \"a\" "
+/// ```
+#[builtin(_, "object &optional stream")]
+fn print(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Print)
+}
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[control(
-    "WRITE-UNREADABLE",
-    "object stream type identity body",
-    "Writes #<…> with the object's type, what the body writes, and a made-up address.",
-    &[],
-    write_unreadable,
-)];
+/// Writes the object so that it can be read back.
+///
+/// `(with-output-to-string (s) (prin1 "a" s))` => `"\"a\""`
+#[builtin(_, "object &optional stream")]
+fn prin1(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Prin1)
+}
+
+/// Writes the object for people.
+///
+/// `(with-output-to-string (s) (princ '("a" #\b) s))` => `"(a b)"`
+#[builtin(_, "object &optional stream")]
+fn princ(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Princ)
+}
+
+/// Writes a newline and the object with line breaks.
+///
+/// ```lisp
+/// (with-output-to-string (s) (pprint '(a b) s)) => "
+/// (A B)"
+/// ```
+#[builtin(_, "object &optional stream")]
+fn pprint(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    write_object(machine, args, Manner::Pprint)
+}
+
+/// The text that PRIN1 writes.
+///
+/// `(prin1-to-string '(a "b"))` => `"(A \"b\")"`
+#[builtin(_, "object")]
+fn prin1_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    to_string(machine, args, Some(true))
+}
+
+/// The text that PRINC writes.
+///
+/// `(princ-to-string '(a "b"))` => `"(A b)"`
+#[builtin(_, "object")]
+fn princ_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    to_string(machine, args, Some(false))
+}
+
+/// The text that WRITE writes.
+///
+/// `(write-to-string '(1 2 3 4) :length 2)` => `"(1 2 ...)"`
+#[builtin(
+    _,
+    "object &key escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch"
+)]
+fn write_to_string(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    to_string(m, args, None)
+}
+
+/// Writes the string as it is.
+///
+/// `(with-output-to-string (s) (write-string "abc" s :start 1))` => `"bc"`
+#[builtin("WRITE-STRING", "string &optional stream &key start end")]
+fn write_string_builtin(image: &mut Image, args: &[Value]) -> Outcome {
+    write_string(image, args, "")
+}
+
+/// Writes the string and a newline.
+///
+/// ```lisp
+/// (with-output-to-string (s) (write-line "abc" s)) => "abc
+/// "
+/// ```
+#[builtin(_, "string &optional stream &key start end")]
+fn write_line(image: &mut Image, args: &[Value]) -> Outcome {
+    write_string(image, args, "\n")
+}
+
+/// Writes the character.
+///
+/// `(with-output-to-string (s) (write-char #\a s))` => `"a"`
+#[builtin(_, "character &optional stream")]
+fn write_char(image: &mut Image, args: &[Value]) -> Outcome {
+    let Value::Char(c) = args[0] else {
+        return Err(Raise::type_error(&args[0], known::CHARACTER));
+    };
+    stream::write(image, &stream_argument(args, 1), c.encode_utf8(&mut [0; 4]))?;
+    Ok(args[0].clone())
+}
+
+/// Writes a newline.
+///
+/// ```lisp
+/// (with-output-to-string (s) (terpri s)) => "
+/// "
+/// ```
+#[builtin(_, "&optional stream")]
+fn terpri(image: &mut Image, args: &[Value]) -> Outcome {
+    stream::write(image, &stream_argument(args, 0), "\n")?;
+    Ok(Value::NIL)
+}
+
+/// Writes a newline unless at the start of a line; was one written?
+///
+/// `(with-output-to-string (s) (fresh-line s))` => `""`
+#[builtin(_, "&optional stream")]
+fn fresh_line(image: &mut Image, args: &[Value]) -> Outcome {
+    stream::fresh_line(image, &stream_argument(args, 0)).map(Value::bool)
+}
 
 #[derive(Clone, Copy, PartialEq)]
 enum Manner {
@@ -342,6 +339,13 @@ fn with_dispatch(image: &Image, args: &[Value], writer: &str) -> Option<Step> {
     ))
 }
 
+/// Writes the object under given printer variables.
+///
+/// `(with-output-to-string (s) (write 255 :base 16 :stream s))` => `"FF"`
+#[builtin(
+    _,
+    "object &key stream escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch"
+)]
 fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     if let Some(step) = with_dispatch(machine.image, &args, "WRITE") {
         return Ok(step);
@@ -397,7 +401,11 @@ fn to_string(
     )
 }
 
-/// What the default method does: prints the object's default form.
+/// Writes the object; a program may add methods.
+///
+/// `(with-output-to-string (s) (print-object 'a s))` => `"A"`
+// What the default method does: prints the object's default form.
+#[builtin(_, "object stream")]
 fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let settings = Settings::of(machine.image);
     let target = args[1].clone();
@@ -456,6 +464,8 @@ fn write_string(image: &mut Image, args: &[Value], end_of_line: &str) -> Outcome
     Ok(args[0].clone())
 }
 
+/// Writes #<…> with the object's type, what the body writes, and a made-up address.
+#[builtin(_, "object stream type identity body")]
 fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let [object, target, with_type, with_identity, body] = args.as_slice() else {
         return Err(Raise::program(format!(
@@ -502,3 +512,24 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         Ok(Value::NIL)
     })
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    print,
+    prin1,
+    princ,
+    pprint,
+    write,
+    prin1_to_string,
+    princ_to_string,
+    write_to_string,
+    print_object,
+    write_string_builtin,
+    write_line,
+    write_char,
+    terpri,
+    fresh_line,
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![write_unreadable,];

@@ -1,7 +1,8 @@
 //! Property lists, those of symbols included.
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
@@ -81,26 +82,44 @@ fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>>
     Ok((plist.clone(), false))
 }
 
-fn getf(_: &mut Image, args: &[Value]) -> Outcome {
-    lookup(&args[0], &args[1], args.get(2))
+/// The value of an indicator in a property list.
+///
+/// `(getf '(:a 1 :b 2) :b)` => `2`
+/// `(getf '(:a 1) :z :none)` => `:NONE`
+#[builtin]
+fn getf(plist: &Value, indicator: &Value, default: Option<&Value>) -> Outcome {
+    lookup(plist, indicator, default)
 }
 
-fn putf(_: &mut Image, args: &[Value]) -> Outcome {
-    put(&args[0], &args[1], &args[2])
+/// The property list with a value for an indicator; an existing entry is changed.
+///
+/// `(system::putf '(:a 1) :b 2)` => `(:B 2 :A 1)`
+#[builtin]
+fn putf(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
+    put(plist, indicator, value)
 }
 
-fn removef(_: &mut Image, args: &[Value]) -> Outcome {
-    let (plist, found) = remove(&args[0], &args[1])?;
+/// The property list without an indicator, and whether it was there.
+///
+/// `(system::remove-property (list :a 1 :b 2) :b)` => `(:A 1) ; T`
+#[builtin("REMOVE-PROPERTY")]
+fn removef(plist: &Value, indicator: &Value) -> Outcome {
+    let (plist, found) = remove(plist, indicator)?;
     Ok(Value::values(vec![plist, found.into()]))
 }
 
-fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut walk = ListWalk::new(args[0].clone());
+/// The first indicator of a property list that is among the given ones, its value, and the list
+/// from there.
+///
+/// `(get-properties '(:a 1 :b 2) '(:b :c))` => `:B ; 2 ; (:B 2)`
+#[builtin]
+fn get_properties(plist: &Value, indicators: &Value) -> Outcome {
+    let mut walk = ListWalk::new(plist.clone());
     while let Some(cons) = walk.next_cons()? {
         let Some(value) = walk.next()? else {
-            return Err(malformed(&args[0]));
+            return Err(malformed(plist));
         };
-        let mut indicators = args[1].iter_list();
+        let mut indicators = indicators.iter_list();
         let is_among = indicators.any(|i| i.is_eq(&cons.car()));
         if !is_among && !indicators.rest.is_nil() {
             return Err(Raise::type_error(&indicators.rest, known::LIST));
@@ -119,109 +138,62 @@ pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
-fn get(image: &mut Image, args: &[Value]) -> Outcome {
-    let plist = &image.symbol(symbol(&args[0])?).plist;
-    lookup(plist, &args[1], args.get(2))
+/// The value of an indicator in a symbol's property list.
+///
+/// `(get 'no-such-thing 'color 'grey)` => `GREY`
+#[builtin]
+fn get(image: &mut Image, symbol: Sym, indicator: &Value, default: Option<&Value>) -> Outcome {
+    let plist = &image.symbol(symbol).plist;
+    lookup(plist, indicator, default)
 }
 
-fn set_get(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[1])?;
-    let plist = put(&image.symbol(sym).plist, &args[2], &args[0])?;
+/// Sets an indicator in a symbol's property list.
+#[builtin("GET")]
+fn set_get(
+    image: &mut Image,
+    value: &Value,
+    symbol: Sym,
+    indicator: &Value,
+    _default: Option<&Value>,
+) -> Outcome {
+    let sym = symbol;
+    let plist = put(&image.symbol(sym).plist, indicator, value)?;
     image.symbols.get_mut(sym).plist = plist;
-    Ok(args[0].clone())
+    Ok(value.clone())
 }
 
-fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let (plist, found) = remove(&image.symbol(sym).plist, &args[1])?;
+/// Takes an indicator out of a symbol's property list.
+///
+/// `(remprop 'no-such-thing 'color)` => `NIL`
+#[builtin]
+fn remprop(image: &mut Image, symbol: Sym, indicator: &Value) -> Outcome {
+    let sym = symbol;
+    let (plist, found) = remove(&image.symbol(sym).plist, indicator)?;
     image.symbols.get_mut(sym).plist = plist;
     Ok(found.into())
 }
 
-fn symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(image.symbol(symbol(&args[0])?).plist.clone())
+/// A symbol's property list.
+///
+/// `(symbol-plist 'no-such-thing)` => `NIL`
+#[builtin]
+fn symbol_plist(image: &mut Image, symbol: Sym) -> Outcome {
+    Ok(image.symbol(symbol).plist.clone())
 }
 
-fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[1])?;
-    image.symbols.get_mut(sym).plist = args[0].clone();
-    Ok(args[0].clone())
+/// Replaces a symbol's property list.
+#[builtin("SYMBOL-PLIST")]
+fn set_symbol_plist(image: &mut Image, value: &Value, symbol: Sym) -> Outcome {
+    let sym = symbol;
+    image.symbols.get_mut(sym).plist = value.clone();
+    Ok(value.clone())
 }
 
 /// Property lists.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "GETF",
-        "plist indicator &optional default",
-        "The value of an indicator in a property list.",
-        &[
-            "(getf '(:a 1 :b 2) :b) => 2",
-            "(getf '(:a 1) :z :none) => :NONE",
-        ],
-        getf,
-    ),
-    pure(
-        "GET-PROPERTIES",
-        "plist indicators",
-        "The first indicator of a property list that is among the given ones, its value, and the list from there.",
-        &["(get-properties '(:a 1 :b 2) '(:b :c)) => :B ; 2 ; (:B 2)"],
-        get_properties,
-    ),
-    pure(
-        "GET",
-        "symbol indicator &optional default",
-        "The value of an indicator in a symbol's property list.",
-        &["(get 'no-such-thing 'color 'grey) => GREY"],
-        get,
-    ),
-    pure(
-        "REMPROP",
-        "symbol indicator",
-        "Takes an indicator out of a symbol's property list.",
-        &["(remprop 'no-such-thing 'color) => NIL"],
-        remprop,
-    ),
-    pure(
-        "SYMBOL-PLIST",
-        "symbol",
-        "A symbol's property list.",
-        &["(symbol-plist 'no-such-thing) => NIL"],
-        symbol_plist,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![getf, get_properties, get, remprop, symbol_plist,];
 
 /// What `setf` and `remf` of `getf` expand into; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "PUTF",
-        "plist indicator value",
-        "The property list with a value for an indicator; an existing entry is changed.",
-        &["(system::putf '(:a 1) :b 2) => (:B 2 :A 1)"],
-        putf,
-    ),
-    pure(
-        "REMOVE-PROPERTY",
-        "plist indicator",
-        "The property list without an indicator, and whether it was there.",
-        &["(system::remove-property (list :a 1 :b 2) :b) => (:A 1) ; T"],
-        removef,
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![putf, removef,];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "GET",
-        "value symbol indicator &optional default",
-        "Sets an indicator in a symbol's property list.",
-        &[],
-        set_get,
-    ),
-    pure(
-        "SYMBOL-PLIST",
-        "value symbol",
-        "Replaces a symbol's property list.",
-        &[],
-        set_symbol_plist,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_get, set_symbol_plist,];

@@ -2,14 +2,15 @@
 
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::or_method;
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::print;
 use crate::reader::readtable::{LetterCase, Readtable};
 use crate::reader::{Completeness, ReadError, Reader, is_complete};
 use crate::stream::{self, Stream};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -20,177 +21,125 @@ use crate::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "READ",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a form from a stream.",
-        &["(with-input-from-string (s \"(1 2) 3\") (read s)) => (1 2)"],
-        |m, args| read(m, args, false),
-    ),
-    control(
-        "READ-PRESERVING-WHITESPACE",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Like READ, without reading the blank after the form.",
-        &[
-            "(with-input-from-string (s \"a b\") (list (read-preserving-whitespace s) (read-char s) (read s))) => (A #\\  B)",
-        ],
-        |m, args| read(m, args, true),
-    ),
-    control(
-        "READ-FROM-STRING",
-        "string &optional eof-error-p eof-value &key start end preserve-whitespace",
-        "Reads a form from a string; also where reading ended.",
-        &["(read-from-string \"(a b) c\") => (A B) ; 6"],
-        read_from_string,
-    ),
-    control(
-        "READ-DELIMITED-LIST",
-        "character &optional stream recursive-p",
-        "Reads forms up to a character.",
-        &["(with-input-from-string (s \"1 2 ]\") (read-delimited-list #\\] s)) => (1 2)"],
-        read_delimited_list,
-    ),
-    pure(
-        "COPY-READTABLE",
-        "&optional readtable to",
-        "A copy of a readtable; of the standard one if the argument is NIL.",
-        &["(readtablep (copy-readtable nil)) => T"],
-        copy_readtable,
-    ),
-    pure(
-        "READTABLEP",
-        "object",
-        "Is the object a readtable?",
-        &["(readtablep 1) => NIL"],
-        |_, args| Ok(Value::bool(args[0].as_foreign::<Readtable>().is_some())),
-    ),
-    pure(
-        "READTABLE-CASE",
-        "readtable",
-        "What the reader does with letters that are not escaped: `:upcase`, `:downcase`, `:preserve` or `:invert`.",
-        &[
-            "(readtable-case *readtable*) => :UPCASE",
-            "(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :preserve) (symbol-name (read-from-string \"Cup\"))) => \"Cup\"",
-        ],
-        |_, args| match args[0].as_foreign::<Readtable>() {
-            Some(table) => Ok(table.case.get().keyword().into()),
-            None => Err(Raise::type_error(&args[0], known::READTABLE)),
-        },
-    ),
-    pure(
-        "SET-MACRO-CHARACTER",
-        "character function &optional non-terminating-p readtable",
-        "Lets a function of stream and character read what begins with the character.",
-        &[],
-        set_macro_character,
-    ),
-];
+/// Reads a form from a stream.
+///
+/// `(with-input-from-string (s "(1 2) 3") (read s))` => `(1 2)`
+#[builtin("READ", "&optional stream eof-error-p eof-value recursive-p")]
+fn read_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    read(machine, args, false)
+}
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%WHOLE-FORM-P",
-        "text",
-        "Is nothing open at the end of the text?",
-        &["(system::%whole-form-p \"(a\") => NIL"],
-        |_, args| {
-            let text = args[0].as_text().unwrap_or_default();
-            let is_open = matches!(is_complete(&text), Completeness::Incomplete { .. });
-            Ok(Value::bool(!is_open))
-        },
-    ),
-    pure(
-        "%MACRO-CHARACTER",
-        "character readtable",
-        "The function that a program has set for a macro character, and whether the character may be in a symbol.",
-        &["(system::%macro-character #\\! nil) => NIL ; NIL"],
-        macro_character,
-    ),
-    pure(
-        "%RESET-MACRO-CHARACTER",
-        "character readtable",
-        "Lets a character mean what it means in the standard syntax.",
-        &[],
-        |image, args| {
-            let c = character(&args[0])?;
-            with_readtable(image, args.get(1), |table| {
-                table.macros.borrow_mut().remove(&c);
-                table.constituents.borrow_mut().remove(&c);
-                Value::T
-            })
-        },
-    ),
-    pure(
-        "%SET-CONSTITUENT",
-        "character readtable",
-        "Lets a character be a part of symbols like a letter.",
-        &[],
-        |image, args| {
-            let c = character(&args[0])?;
-            with_readtable(image, args.get(1), |table| {
-                table.macros.borrow_mut().remove(&c);
-                table.constituents.borrow_mut().insert(c);
-                Value::T
-            })
-        },
-    ),
-    pure(
-        "%DISPATCH-MACRO-CHARACTER",
-        "character sub-character readtable",
-        "The function that a program has set for two characters, or NIL.",
-        &["(system::%dispatch-macro-character #\\# #\\? nil) => NIL"],
-        |image, args| {
-            let key = (character(&args[0])?, upper(character(&args[1])?));
-            with_readtable(image, args.get(2), |table| {
-                let functions = table.dispatch.borrow();
-                functions.get(&key).cloned().unwrap_or(Value::NIL)
-            })
-        },
-    ),
-    pure(
-        "%SET-DISPATCH-MACRO-CHARACTER",
-        "character sub-character function readtable",
-        "Sets the function of two characters.",
-        &[],
-        |image, args| {
-            let key = (character(&args[0])?, upper(character(&args[1])?));
-            with_readtable(image, args.get(3), |table| {
-                table.dispatch.borrow_mut().insert(key, args[2].clone());
-                Value::T
-            })
-        },
-    ),
-];
+/// Like READ, without reading the blank after the form.
+///
+/// `(with-input-from-string (s "a b") (list (read-preserving-whitespace s) (read-char s) (read s)))` => `(A #\  B)`
+#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
+fn read_preserving_whitespace(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    read(machine, args, true)
+}
 
-/// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[pure(
-    "READTABLE-CASE",
-    "case readtable",
-    "Sets what the reader does with letters.",
-    &[],
-    |_, args| {
-        let Some(table) = args[1].as_foreign::<Readtable>() else {
-            return Err(Raise::type_error(&args[1], known::READTABLE));
-        };
-        let Some(case) = args[0].as_symbol().and_then(LetterCase::named) else {
-            let names = [
-                known::K_UPCASE,
-                known::K_DOWNCASE,
-                known::K_PRESERVE,
-                known::K_INVERT,
-            ];
-            let expected = [known::MEMBER].into_iter().chain(names).map(Value::symbol);
-            return Err(Raise::type_error(
-                &args[0],
-                Value::list(expected.collect::<Vec<_>>()),
-            ));
-        };
-        table.case.set(case);
-        Ok(args[0].clone())
-    },
-)];
+/// Is the object a readtable?
+///
+/// `(readtablep 1)` => `NIL`
+#[builtin]
+fn readtablep(object: &Value) -> bool {
+    object.as_foreign::<Readtable>().is_some()
+}
+
+/// What the reader does with letters that are not escaped: `:upcase`, `:downcase`, `:preserve` or
+/// `:invert`.
+///
+/// `(readtable-case *readtable*)` => `:UPCASE`
+/// `(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :preserve) (symbol-name (read-from-string "Cup")))` => `"Cup"`
+#[builtin]
+fn readtable_case(readtable: &Value) -> Outcome {
+    match readtable.as_foreign::<Readtable>() {
+        Some(table) => Ok(table.case.get().keyword().into()),
+        None => Err(Raise::type_error(readtable, known::READTABLE)),
+    }
+}
+
+/// Is nothing open at the end of the text?
+///
+/// `(system::%whole-form-p "(a")` => `NIL`
+#[builtin("%WHOLE-FORM-P")]
+fn whole_form_p(text: &Value) -> bool {
+    let text = text.as_text().unwrap_or_default();
+    let is_open = matches!(is_complete(&text), Completeness::Incomplete { .. });
+    !is_open
+}
+
+/// Lets a character mean what it means in the standard syntax.
+#[builtin("%RESET-MACRO-CHARACTER", "character readtable")]
+fn reset_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let c = character(&args[0])?;
+    with_readtable(image, args.get(1), |table| {
+        table.macros.borrow_mut().remove(&c);
+        table.constituents.borrow_mut().remove(&c);
+        Value::T
+    })
+}
+
+/// Lets a character be a part of symbols like a letter.
+#[builtin("%SET-CONSTITUENT", "character readtable")]
+fn set_constituent(image: &mut Image, args: &[Value]) -> Outcome {
+    let c = character(&args[0])?;
+    with_readtable(image, args.get(1), |table| {
+        table.macros.borrow_mut().remove(&c);
+        table.constituents.borrow_mut().insert(c);
+        Value::T
+    })
+}
+
+/// The function that a program has set for two characters, or NIL.
+///
+/// `(system::%dispatch-macro-character #\# #\? nil)` => `NIL`
+#[builtin("%DISPATCH-MACRO-CHARACTER", "character sub-character readtable")]
+fn dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let key = (character(&args[0])?, upper(character(&args[1])?));
+    with_readtable(image, args.get(2), |table| {
+        let functions = table.dispatch.borrow();
+        functions.get(&key).cloned().unwrap_or(Value::NIL)
+    })
+}
+
+/// Sets the function of two characters.
+#[builtin(
+    "%SET-DISPATCH-MACRO-CHARACTER",
+    "character sub-character function readtable"
+)]
+fn set_dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let key = (character(&args[0])?, upper(character(&args[1])?));
+    with_readtable(image, args.get(3), |table| {
+        table.dispatch.borrow_mut().insert(key, args[2].clone());
+        Value::T
+    })
+}
+
+/// Sets what the reader does with letters.
+#[builtin("READTABLE-CASE", "case readtable")]
+fn set_readtable_case(case_value: &Value, readtable: &Value) -> Outcome {
+    let Some(table) = readtable.as_foreign::<Readtable>() else {
+        return Err(Raise::type_error(readtable, known::READTABLE));
+    };
+    let Some(case) = case_value.as_symbol().and_then(LetterCase::named) else {
+        let names = [
+            known::K_UPCASE,
+            known::K_DOWNCASE,
+            known::K_PRESERVE,
+            known::K_INVERT,
+        ];
+        let expected = [known::MEMBER].into_iter().chain(names).map(Value::symbol);
+        return Err(Raise::type_error(
+            case_value,
+            Value::list(expected.collect::<Vec<_>>()),
+        ));
+    };
+    table.case.set(case);
+    Ok(case_value.clone())
+}
 
 /// Gives `*readtable*` its value.
 pub fn define_variables(image: &mut Image) {
@@ -445,6 +394,13 @@ fn ask_for_form(image: &Image) {
     }
 }
 
+/// Reads a form from a string; also where reading ended.
+///
+/// `(read-from-string "(a b) c")` => `(A B) ; 6`
+#[builtin(
+    _,
+    "string &optional eof-error-p eof-value &key start end preserve-whitespace"
+)]
 fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let Value::Str(string) = &args[0] else {
         return Err(Raise::type_error(&args[0], known::STRING));
@@ -482,6 +438,10 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
     compute(machine, "READ", reading)
 }
 
+/// Reads forms up to a character.
+///
+/// `(with-input-from-string (s "1 2 ]") (read-delimited-list #\] s))` => `(1 2)`
+#[builtin(_, "character &optional stream recursive-p")]
 fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let end = character(&args[0])?;
     let designator = args.get(1).cloned().unwrap_or(Value::NIL);
@@ -526,13 +486,21 @@ fn with_readtable<R>(
     }
 }
 
-fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
-    let copy = if args.first().is_some_and(Value::is_nil) {
+/// A copy of a readtable; of the standard one if the argument is NIL.
+///
+/// `(readtablep (copy-readtable nil))` => `T`
+#[builtin(_, "&optional readtable to")]
+fn copy_readtable(
+    image: &mut Image,
+    readtable: Option<&Value>,
+    to_value: Option<&Value>,
+) -> Outcome {
+    let copy = if readtable.is_some_and(Value::is_nil) {
         Readtable::default()
     } else {
-        with_readtable(image, args.first(), Readtable::clone)?
+        with_readtable(image, readtable, Readtable::clone)?
     };
-    match args.get(1).filter(|to| to.is_true()) {
+    match to_value.filter(|to| to.is_true()) {
         Some(to) => with_readtable(image, Some(to), |table| {
             table.become_like(copy);
             to.clone()
@@ -541,16 +509,29 @@ fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn set_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    let inside = args.get(2).is_some_and(Value::is_true);
-    with_readtable(image, args.get(3), |table| {
-        let entry = (args[1].clone(), inside);
+/// Lets a function of stream and character read what begins with the character.
+#[builtin]
+fn set_macro_character(
+    image: &mut Image,
+    character: char,
+    function: Value,
+    #[default(false)] non_terminating_p: bool,
+    readtable: Option<&Value>,
+) -> Outcome {
+    let c = character;
+    let inside = non_terminating_p;
+    with_readtable(image, readtable, |table| {
+        let entry = (function, inside);
         table.macros.borrow_mut().insert(c, entry);
         Value::T
     })
 }
 
+/// The function that a program has set for a macro character, and whether the character may be in a
+/// symbol.
+///
+/// `(system::%macro-character #\! nil)` => `NIL ; NIL`
+#[builtin("%MACRO-CHARACTER", "character readtable")]
 fn macro_character(image: &mut Image, args: &[Value]) -> Outcome {
     let c = character(&args[0])?;
     with_readtable(image, args.get(1), |table| {
@@ -561,3 +542,28 @@ fn macro_character(image: &mut Image, args: &[Value]) -> Outcome {
         Value::values(vec![function, Value::bool(inside)])
     })
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    read_builtin,
+    read_preserving_whitespace,
+    read_from_string,
+    read_delimited_list,
+    copy_readtable,
+    readtablep,
+    readtable_case,
+    set_macro_character,
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    whole_form_p,
+    macro_character,
+    reset_macro_character,
+    set_constituent,
+    dispatch_macro_character,
+    set_dispatch_macro_character,
+];
+
+/// Places for `setf`; the new value is the first argument.
+pub(crate) static SETTERS: &[Builtin] = builtins![set_readtable_case,];

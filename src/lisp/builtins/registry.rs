@@ -23,6 +23,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     mapping::TABLE,
     object_printing::TABLE,
     objects::TABLE,
+    pairs::PATHS,
+    pairs::ORDINALS,
     pairs::TABLE,
     property_lists::TABLE,
     sequence_access::TABLE,
@@ -35,12 +37,14 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     signalling::TABLE,
     sort::TABLE,
     string_compare::TABLE,
+    string_compare::COMPARISONS,
     strings::TABLE,
     types::TABLE,
     array_adjust::TABLE,
     array_make::TABLE,
     arrays::TABLE,
     bits::TABLE,
+    bits::OPERATIONS,
     pathnames::TABLE,
     fill_pointers::TABLE,
     hash_tables::TABLE,
@@ -86,7 +90,9 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
-pub static SETTERS: &[&[Builtin]] = &[
+pub(crate) static SETTERS: &[&[Builtin]] = &[
+    pairs::PATH_SETTERS,
+    pairs::ORDINAL_SETTERS,
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,

@@ -2,94 +2,36 @@
 
 use std::cell::RefCell;
 
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::evaluator::restart::Restart;
-use crate::image::Image;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::vm::calls::{Args, Calls, run};
-use crate::vm::machine::Machine;
+use crate::value::symbol::Sym;
+use crate::vm::calls::{Args, Calls};
 use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "INVOKE-RESTART",
-        "restart &rest arguments",
-        "Calls the function of a restart.",
-        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
-        invoke_restart,
-    ),
-    control(
-        "INVOKE-RESTART-INTERACTIVELY",
-        "restart",
-        "Calls the function of a restart with the arguments that its :interactive function returns.",
-        &[
-            "(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x)) => 1",
-        ],
-        invoke_restart_interactively,
-    ),
-    control(
-        "FIND-RESTART",
-        "restart &optional condition",
-        "The innermost restart of a name that applies to the condition, or NIL.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        find_restart,
-    ),
-    control(
-        "COMPUTE-RESTARTS",
-        "&optional condition",
-        "All restarts in force that apply to the condition, innermost first.",
-        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
-        compute_restarts,
-    ),
-    pure(
-        "RESTART-NAME",
-        "restart",
-        "The name of a restart.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        restart_name,
-    ),
-];
+/// Lets restarts belong to a condition; the condition.
+#[builtin]
+fn associate_restarts(condition: &Value, restarts: &Value) -> Result<Value> {
+    change_conditions(condition, restarts, |conditions, condition| {
+        conditions.push(condition)
+    })
+}
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-RESTART",
-        "name function report interactive &optional test",
-        "A restart object.",
-        &[],
-        make_restart,
-    ),
-    pure(
-        "ASSOCIATE-RESTARTS",
-        "condition restarts",
-        "Lets restarts belong to a condition; the condition.",
-        &[],
-        |image, args| {
-            change_conditions(image, args, |conditions, condition| {
-                conditions.push(condition)
-            })
-        },
-    ),
-    pure(
-        "DISSOCIATE-RESTARTS",
-        "condition restarts",
-        "Ends that restarts belong to a condition; the condition.",
-        &[],
-        |image, args| {
-            change_conditions(image, args, |conditions, condition| {
-                if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
-                    conditions.remove(at);
-                }
-            })
-        },
-    ),
-];
+/// Ends that restarts belong to a condition; the condition.
+#[builtin]
+fn dissociate_restarts(condition: &Value, restarts: &Value) -> Result<Value> {
+    change_conditions(condition, restarts, |conditions, condition| {
+        if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
+            conditions.remove(at);
+        }
+    })
+}
 
 /// The restarts in force that apply to a condition, or to none in particular (`NIL`), innermost
 /// first: a restart that belongs to conditions applies to no others, and its test has to hold.
@@ -112,23 +54,24 @@ async fn applicable(calls: &Calls, condition: Value) -> Vec<Value> {
     applicable
 }
 
-fn condition_argument(args: &[Value], index: usize) -> Value {
-    args.get(index).cloned().unwrap_or(Value::NIL)
+/// All restarts in force that apply to the condition, innermost first.
+///
+/// `(restart-case (restart-name (first (compute-restarts))) (r () 1))` => `R`
+#[builtin]
+async fn compute_restarts(calls: Calls, #[default(Value::NIL)] condition: Value) -> Result<Value> {
+    Ok(Value::list(applicable(&calls, condition).await))
 }
 
-fn compute_restarts(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "COMPUTE-RESTARTS", |calls| async move {
-        let restarts = applicable(&calls, condition_argument(&args, 0)).await;
-        Ok(Step::Return(Value::list(restarts)))
-    })
-}
-
-fn find_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "FIND-RESTART", |calls| async move {
-        let condition = condition_argument(&args, 1);
-        let found = found(&calls, &args[0], condition).await;
-        Ok(Step::Return(found.unwrap_or(Value::NIL)))
-    })
+/// The innermost restart of a name that applies to the condition, or NIL.
+///
+/// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
+#[builtin]
+async fn find_restart(
+    calls: Calls,
+    restart: Value,
+    #[default(Value::NIL)] condition: Value,
+) -> Result<Value> {
+    Ok(found(&calls, &restart, condition).await.into())
 }
 
 /// The restart that a designator means: the object itself if it is in force, or the innermost one of
@@ -154,31 +97,31 @@ async fn active(calls: &Calls, designator: Value) -> Result<Value> {
     Err(Raise::control(format!("No restart {shown} is active.")))
 }
 
-fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "INVOKE-RESTART", |calls| async move {
-        let restart = active(&calls, args[0].clone()).await?;
-        Ok(call_restart(&restart, args[1..].to_vec()))
-    })
+/// Calls the function of a restart.
+///
+/// `(restart-case (invoke-restart 'r 1) (r (x) x))` => `1`
+#[builtin]
+async fn invoke_restart(calls: Calls, restart: Value, arguments: Vec<Value>) -> Result<Step> {
+    let restart = active(&calls, restart).await?;
+    Ok(call_restart(&restart, arguments))
 }
 
-fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(
-        machine,
-        "INVOKE-RESTART-INTERACTIVELY",
-        |calls| async move {
-            let restart = active(&calls, args[0].clone()).await?;
-            let asks = restart.as_foreign::<Restart>();
-            let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
-            if asks.is_nil() {
-                return Ok(call_restart(&restart, Vec::new()));
-            }
-            let args = calls.call(&asks, Args::Many(Vec::new())).await;
-            let args = args
-                .list_to_vec()
-                .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
-            Ok(call_restart(&restart, args))
-        },
-    )
+/// Calls the function of a restart with the arguments that its :interactive function returns.
+///
+/// `(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x))` => `1`
+#[builtin]
+async fn invoke_restart_interactively(calls: Calls, restart: Value) -> Result<Step> {
+    let restart = active(&calls, restart).await?;
+    let asks = restart.as_foreign::<Restart>();
+    let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
+    if asks.is_nil() {
+        return Ok(call_restart(&restart, Vec::new()));
+    }
+    let args = calls.call(&asks, Args::Many(Vec::new())).await;
+    let args = args
+        .list_to_vec()
+        .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
+    Ok(call_restart(&restart, args))
 }
 
 fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
@@ -188,37 +131,59 @@ fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
     Step::TailCall { function, args }
 }
 
-fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
-    match args[0].as_foreign::<Restart>() {
+/// The name of a restart.
+///
+/// `(restart-case (restart-name (find-restart 'r)) (r () 1))` => `R`
+#[builtin(_, "restart")]
+fn restart_name(restart_value: &Value) -> Result<Value> {
+    match restart_value.as_foreign::<Restart>() {
         Some(restart) => Ok(restart.name.into()),
-        None => Err(Raise::type_error(&args[0], known::RESTART)),
+        None => Err(Raise::type_error(restart_value, known::RESTART)),
     }
 }
 
-fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
-    Ok(Value::foreign(Restart {
+/// A restart object.
+#[builtin]
+fn make_restart(
+    name: Sym,
+    function: Value,
+    report: Value,
+    interactive: Value,
+    #[default(Value::NIL)] test: Value,
+) -> Value {
+    Value::foreign(Restart {
         name,
-        function: args[1].clone(),
-        report: args[2].clone(),
-        interactive: args[3].clone(),
-        test: condition_argument(args, 4),
+        function,
+        report,
+        interactive,
+        test,
         conditions: RefCell::default(),
-    }))
+    })
 }
 
 fn change_conditions(
-    _: &mut Image,
-    args: &[Value],
+    condition: &Value,
+    restarts: &Value,
     change: fn(&mut Vec<Value>, Value),
 ) -> Result<Value> {
-    for restart in args[1].iter_list() {
+    for restart in restarts.iter_list() {
         let known = restart
             .as_foreign::<Restart>()
             .ok_or_else(|| Raise::type_error(&restart, known::RESTART))?;
-        change(&mut known.conditions.borrow_mut(), args[0].clone());
+        change(&mut known.conditions.borrow_mut(), condition.clone());
     }
-    Ok(args[0].clone())
+    Ok(condition.clone())
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    invoke_restart,
+    invoke_restart_interactively,
+    find_restart,
+    compute_restarts,
+    restart_name,
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![make_restart, associate_restarts, dissociate_restarts,];

@@ -1,46 +1,71 @@
 //! Parts of sequences: length, elements, subsequences, copies, filling, joining.
 
+use crate::builtins::lists::Size;
 use std::rc::Rc;
 
 use super::array_index;
-use super::keywords;
-use super::lists::{nreverse_onto, size};
+use super::lists::nreverse_onto;
 use super::settled_types::sequence_type;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::guard::reserve;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Vector;
-use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{self, Bounds, Kind, Sequence, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-fn length(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Sequence::of(&args[0])?.len()?.into())
+/// The number of elements of a sequence.
+///
+/// `(length '(1 2 3))` => `3`
+/// `(length "naïve")` => `5`
+#[builtin]
+fn length(sequence: Sequence) -> Outcome {
+    Ok(sequence.len()?.into())
 }
 
-fn elt(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
-    let at = index(&args[1])?;
+/// The element of a sequence at an index from 0.
+///
+/// `(elt '(a b c) 1)` => `B`
+/// `(elt "abc" 1)` => `#\b`
+#[builtin(_, "sequence index")]
+fn elt(sequence_value: &Value, index_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
+    let at = index(index_value)?;
     match &sequence {
         Sequence::List(_) => sequence.get(at),
         _ if at < sequence.len()? => sequence.get(at),
-        _ => Err(array_index::invalid(&args[0], &args[1], sequence.len()?)),
+        _ => Err(array_index::invalid(
+            sequence_value,
+            index_value,
+            sequence.len()?,
+        )),
     }
 }
 
-fn set_elt(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[1])?;
-    let at = index(&args[2])?;
+/// Replaces an element of a sequence.
+#[builtin("ELT", "value sequence index")]
+fn set_elt(value: &Value, sequence_value: &Value, index_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
+    let at = index(index_value)?;
     if !matches!(sequence, Sequence::List(_)) && at >= sequence.len()? {
-        return Err(array_index::invalid(&args[1], &args[2], sequence.len()?));
+        return Err(array_index::invalid(
+            sequence_value,
+            index_value,
+            sequence.len()?,
+        ));
     }
-    sequence.set(at, args[0].clone())?;
-    Ok(args[0].clone())
+    sequence.set(at, value.clone())?;
+    Ok(value.clone())
 }
 
+/// A copy of a part of a sequence.
+///
+/// `(subseq '(1 2 3 4) 1 3)` => `(2 3)`
+/// `(subseq "hello" 2)` => `"llo"`
+#[builtin(_, "sequence start &optional end")]
 fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
     let sequence = Sequence::of(&args[0])?;
     let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
@@ -50,7 +75,9 @@ fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
     sequence.kind().make(sequence.items(bounds)?)
 }
 
-/// `(setf (subseq sequence start end) new)`.
+/// Replaces elements of a sequence.
+// `(setf (subseq sequence start end) new)`.
+#[builtin("SUBSEQ", "value sequence start &optional end")]
 fn set_subseq(_: &mut Image, args: &[Value]) -> Outcome {
     let target = Sequence::of(&args[1])?;
     let bounds = Bounds::new(&target, args.get(2), args.get(3))?;
@@ -89,60 +116,85 @@ fn overwrite(target: &Sequence, bounds: Bounds, items: Vec<Value>) -> Result<(),
     Ok(())
 }
 
-fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+/// A copy of a sequence; the elements are the same.
+///
+/// `(copy-seq #(1 2))` => `#(1 2)`
+#[builtin]
+fn copy_seq(sequence: Sequence) -> Outcome {
     match &sequence {
         Sequence::Str(string) => Ok(Value::string(string.text())),
         _ => sequence.kind().make(sequence.all()?),
     }
 }
 
-fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+/// A sequence of the same elements in reverse order.
+///
+/// `(reverse '(1 2 3))` => `(3 2 1)`
+/// `(reverse "abc")` => `"cba"`
+#[builtin]
+fn reverse(sequence: Sequence) -> Outcome {
     let mut items = sequence.all()?;
     items.reverse();
     sequence.kind().make(items)
 }
 
-fn nreverse(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
+/// Like `reverse`, but reuses the sequence; use the result.
+///
+/// `(nreverse (list 1 2 3))` => `(3 2 1)`
+#[builtin(_, "sequence")]
+fn nreverse(sequence_value: &Value) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
     if let Sequence::List(list) = &sequence {
         return nreverse_onto(list, Value::NIL);
     }
     let mut items = sequence.all()?;
     items.reverse();
     sequence.set_all(&items)?;
-    Ok(args[0].clone())
+    Ok(sequence_value.clone())
 }
 
-fn fill(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let sequence = Sequence::of(&args[0])?;
+/// Replaces all elements of a sequence by an item.
+///
+/// `(fill (list 1 2 3) 0 :start 1)` => `(1 0 0)`
+#[builtin(_, "sequence item &key start end")]
+fn fill(
+    sequence_value: &Value,
+    item: Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let sequence = Sequence::of(sequence_value)?;
     let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let count = bounds.end_of(sequence.len()?) - bounds.start;
-    overwrite(&sequence, bounds, vec![args[1].clone(); count])?;
-    Ok(args[0].clone())
+    overwrite(&sequence, bounds, vec![item; count])?;
+    Ok(sequence_value.clone())
 }
 
-fn replace(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start1, end1, start2, end2] = keywords::parse(
-        image,
-        &args[2..],
-        [
-            known::K_START1,
-            known::K_END1,
-            known::K_START2,
-            known::K_END2,
-        ],
-    )?;
-    let target = Sequence::of(&args[0])?;
-    let source = Sequence::of(&args[1])?;
+/// Copies elements of one sequence over those of another.
+///
+/// `(replace (list 1 2 3 4) '(a b) :start1 1)` => `(1 A B 4)`
+#[builtin(_, "target source &key start1 end1 start2 end2")]
+fn replace(
+    _image: &mut Image,
+    target_value: &Value,
+    source: Sequence,
+    #[key] start1: Option<Value>,
+    #[key] end1: Option<Value>,
+    #[key] start2: Option<Value>,
+    #[key] end2: Option<Value>,
+) -> Outcome {
+    let target = Sequence::of(target_value)?;
     let to = Bounds::new(&target, start1.as_ref(), end1.as_ref())?;
     let from = Bounds::new(&source, start2.as_ref(), end2.as_ref())?;
     overwrite(&target, to, source.items(from)?)?;
-    Ok(args[0].clone())
+    Ok(target_value.clone())
 }
 
+/// A sequence of the elements of all sequences.
+///
+/// `(concatenate 'string "foo" "bar")` => `"foobar"`
+/// `(concatenate 'list '(1) #(2))` => `(1 2)`
+#[builtin(_, "result-type &rest sequences")]
 fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
     let result = sequence_type(image, &args[0])?;
     if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
@@ -163,12 +215,20 @@ fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
     result.make(items)
 }
 
-fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [element] = keywords::parse(image, &args[2..], [known::K_INITIAL_ELEMENT])?;
-    let result = sequence_type(image, &args[0])?;
-    let count = size(&args[1])?;
-    let element = element.unwrap_or_else(|| default_element(result.kind));
-    result.make(vec![element; count])
+/// A sequence of equal elements.
+///
+/// `(make-sequence 'list 2 :initial-element 0)` => `(0 0)`
+#[builtin]
+fn make_sequence(
+    image: &mut Image,
+    result_type: &Value,
+    size: Size,
+    #[key] initial_element: Option<Value>,
+) -> Outcome {
+    let result = sequence_type(image, result_type)?;
+    let count = size.0;
+    let initial_element = initial_element.unwrap_or_else(|| default_element(result.kind));
+    result.make(vec![initial_element; count])
 }
 
 /// The default element of a sequence that is made without elements.
@@ -180,114 +240,28 @@ pub(crate) fn default_element(kind: Kind) -> Value {
     }
 }
 
-fn vector(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::Vector(Rc::new(Vector::simple(args.to_vec()))))
+/// A fresh vector of the arguments.
+///
+/// `(vector 1 2)` => `#(1 2)`
+#[builtin]
+fn vector(elements: &[Value]) -> Outcome {
+    Ok(Value::Vector(Rc::new(Vector::simple(elements.to_vec()))))
 }
 
 /// Parts of sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "LENGTH",
-        "sequence",
-        "The number of elements of a sequence.",
-        &["(length '(1 2 3)) => 3", "(length \"naïve\") => 5"],
-        length,
-    ),
-    pure(
-        "ELT",
-        "sequence index",
-        "The element of a sequence at an index from 0.",
-        &["(elt '(a b c) 1) => B", "(elt \"abc\" 1) => #\\b"],
-        elt,
-    ),
-    pure(
-        "SUBSEQ",
-        "sequence start &optional end",
-        "A copy of a part of a sequence.",
-        &[
-            "(subseq '(1 2 3 4) 1 3) => (2 3)",
-            "(subseq \"hello\" 2) => \"llo\"",
-        ],
-        subseq,
-    ),
-    pure(
-        "COPY-SEQ",
-        "sequence",
-        "A copy of a sequence; the elements are the same.",
-        &["(copy-seq #(1 2)) => #(1 2)"],
-        copy_seq,
-    ),
-    pure(
-        "REVERSE",
-        "sequence",
-        "A sequence of the same elements in reverse order.",
-        &[
-            "(reverse '(1 2 3)) => (3 2 1)",
-            "(reverse \"abc\") => \"cba\"",
-        ],
-        reverse,
-    ),
-    pure(
-        "NREVERSE",
-        "sequence",
-        "Like `reverse`, but reuses the sequence; use the result.",
-        &["(nreverse (list 1 2 3)) => (3 2 1)"],
-        nreverse,
-    ),
-    pure(
-        "FILL",
-        "sequence item &key start end",
-        "Replaces all elements of a sequence by an item.",
-        &["(fill (list 1 2 3) 0 :start 1) => (1 0 0)"],
-        fill,
-    ),
-    pure(
-        "REPLACE",
-        "target source &key start1 end1 start2 end2",
-        "Copies elements of one sequence over those of another.",
-        &["(replace (list 1 2 3 4) '(a b) :start1 1) => (1 A B 4)"],
-        replace,
-    ),
-    pure(
-        "CONCATENATE",
-        "result-type &rest sequences",
-        "A sequence of the elements of all sequences.",
-        &[
-            "(concatenate 'string \"foo\" \"bar\") => \"foobar\"",
-            "(concatenate 'list '(1) #(2)) => (1 2)",
-        ],
-        concatenate,
-    ),
-    pure(
-        "MAKE-SEQUENCE",
-        "result-type size &key initial-element",
-        "A sequence of equal elements.",
-        &["(make-sequence 'list 2 :initial-element 0) => (0 0)"],
-        make_sequence,
-    ),
-    pure(
-        "VECTOR",
-        "&rest elements",
-        "A fresh vector of the arguments.",
-        &["(vector 1 2) => #(1 2)"],
-        vector,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    length,
+    elt,
+    subseq,
+    copy_seq,
+    reverse,
+    nreverse,
+    fill,
+    replace,
+    concatenate,
+    make_sequence,
+    vector,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub(crate) static SETTERS: &[Builtin] = &[
-    pure(
-        "ELT",
-        "value sequence index",
-        "Replaces an element of a sequence.",
-        &[],
-        set_elt,
-    ),
-    pure(
-        "SUBSEQ",
-        "value sequence start &optional end",
-        "Replaces elements of a sequence.",
-        &[],
-        set_subseq,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] = builtins![set_elt, set_subseq,];

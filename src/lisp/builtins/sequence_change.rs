@@ -2,9 +2,10 @@
 //! their `-if` forms.
 
 use super::criterion::{Criterion, Key, Test};
-use super::keywords;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -22,10 +23,11 @@ enum Change {
 }
 
 /// How the elements to change are chosen.
-#[derive(Clone, Copy)]
 enum By {
-    Item,
-    Predicate { expected: bool },
+    /// They match an item.
+    Item(Value),
+    /// They satisfy a predicate, or not.
+    Predicate { predicate: Value, expected: bool },
 }
 
 struct Changing {
@@ -38,8 +40,13 @@ struct Changing {
 }
 
 impl Changing {
-    /// From the arguments item or predicate, sequence and keywords.
-    fn new(image: &Image, args: &[Value], by: By, change: Change) -> Result<Changing, Box<Raise>> {
+    fn new(
+        image: &Image,
+        by: By,
+        sequence: Sequence,
+        keywords: &[Value],
+        change: Change,
+    ) -> Result<Changing, Box<Raise>> {
         let bounding = [
             known::K_KEY,
             known::K_START,
@@ -47,9 +54,9 @@ impl Changing {
             known::K_FROM_END,
             known::K_COUNT,
         ];
-        let ([key, start, end, from_end, count], test) = match by {
-            By::Predicate { .. } => (keywords::parse(image, &args[2..], bounding)?, None),
-            By::Item => {
+        let ([key, start, end, from_end, count], test) = match &by {
+            By::Predicate { .. } => (keywords::parse(image, keywords, bounding)?, None),
+            By::Item(_) => {
                 let [key, start, end, from_end, count] = bounding;
                 let names = [
                     key,
@@ -61,20 +68,23 @@ impl Changing {
                     known::K_TEST_NOT,
                 ];
                 let [key, start, end, from_end, count, test, test_not] =
-                    keywords::parse(image, &args[2..], names)?;
+                    keywords::parse(image, keywords, names)?;
                 (
                     [key, start, end, from_end, count],
                     Some(Test::new(image, test, test_not)?),
                 )
             }
         };
-        let sequence = Sequence::of(&args[1])?;
         let key = Key::new(image, key)?;
         let criterion = match (by, test) {
-            (By::Predicate { expected }, _) => {
-                Criterion::predicate(image, &args[0], expected, key)?
-            }
-            (By::Item, test) => Criterion::item(args[0].clone(), test.unwrap_or(Test::Eql), key),
+            (
+                By::Predicate {
+                    predicate,
+                    expected,
+                },
+                _,
+            ) => Criterion::predicate(image, &predicate, expected, key)?,
+            (By::Item(item), test) => Criterion::item(item, test.unwrap_or(Test::Eql), key),
         };
         Ok(Changing {
             bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
@@ -169,173 +179,331 @@ pub(crate) fn removed(
     }
 }
 
-fn remove_by(
+fn change(
     machine: &mut Machine<'_>,
-    args: &[Value],
     name: &'static str,
     by: By,
-    in_place: bool,
+    sequence: Sequence,
+    keywords: &[Value],
+    change: Change,
 ) -> Result<Step, Box<Raise>> {
-    let changing = Changing::new(machine.image, args, by, Change::Remove { in_place })?;
+    let changing = Changing::new(machine.image, by, sequence, keywords, change)?;
     run(machine, name, |calls| changing.run(calls))
 }
 
-fn replace_by(
+/// A sequence without the elements that match an item.
+///
+/// `(remove 2 '(1 2 3 2))` => `(1 3)`
+/// `(remove #\a "banana")` => `"bnn"`
+#[builtin(_, "item sequence &key key start end from-end count test test-not")]
+fn remove(
     machine: &mut Machine<'_>,
-    args: &[Value],
-    name: &'static str,
-    by: By,
-    in_place: bool,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
 ) -> Result<Step, Box<Raise>> {
-    let new = args[0].clone();
-    let change = Change::Replace { new, in_place };
-    let changing = Changing::new(machine.image, &args[1..], by, change)?;
-    run(machine, name, |calls| changing.run(calls))
+    let by = By::Item(item);
+    change(
+        machine,
+        "REMOVE",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: false },
+    )
 }
 
-const IF: By = By::Predicate { expected: true };
-const IF_NOT: By = By::Predicate { expected: false };
-
-fn remove(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "REMOVE", By::Item, false)
+/// A sequence without the elements that satisfy a predicate.
+///
+/// `(remove-if #'evenp '(1 2 3 4))` => `(1 3)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
+fn remove_if(
+    machine: &mut Machine<'_>,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: true,
+    };
+    change(
+        machine,
+        "REMOVE-IF",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: false },
+    )
 }
 
-fn remove_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "REMOVE-IF", IF, false)
+/// A sequence of the elements that satisfy a predicate.
+///
+/// `(remove-if-not #'evenp '(1 2 3 4))` => `(2 4)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
+fn remove_if_not(
+    machine: &mut Machine<'_>,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: false,
+    };
+    change(
+        machine,
+        "REMOVE-IF-NOT",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: false },
+    )
 }
 
-fn remove_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "REMOVE-IF-NOT", IF_NOT, false)
+/// Like `remove`, but may change the sequence; use the result.
+///
+/// `(delete 2 (list 1 2 3))` => `(1 3)`
+#[builtin(_, "item sequence &key key start end from-end count test test-not")]
+fn delete(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Item(item);
+    change(
+        machine,
+        "DELETE",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: true },
+    )
 }
 
-fn delete(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "DELETE", By::Item, true)
+/// Like `remove-if`, but may change the sequence; use the result.
+///
+/// `(delete-if #'evenp (list 1 2 3))` => `(1 3)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
+fn delete_if(
+    machine: &mut Machine<'_>,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: true,
+    };
+    change(
+        machine,
+        "DELETE-IF",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: true },
+    )
 }
 
-fn delete_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "DELETE-IF", IF, true)
+/// Like `remove-if-not`, but may change the sequence; use the result.
+///
+/// `(delete-if-not #'evenp (list 1 2 3))` => `(2)`
+#[builtin(_, "predicate sequence &key key start end from-end count")]
+fn delete_if_not(
+    machine: &mut Machine<'_>,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: false,
+    };
+    change(
+        machine,
+        "DELETE-IF-NOT",
+        by,
+        sequence,
+        keywords,
+        Change::Remove { in_place: true },
+    )
 }
 
-fn delete_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    remove_by(machine, &args, "DELETE-IF-NOT", IF_NOT, true)
+/// A sequence with the elements that match `old` replaced by `new`.
+///
+/// `(substitute 9 2 '(1 2 3 2) :count 1)` => `(1 9 3 2)`
+#[builtin(_, "new old sequence &key key start end from-end count test test-not")]
+fn substitute(
+    machine: &mut Machine<'_>,
+    new: Value,
+    old: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Item(old);
+    change(
+        machine,
+        "SUBSTITUTE",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: false,
+        },
+    )
 }
 
-fn substitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "SUBSTITUTE", By::Item, false)
+/// A sequence with the elements that satisfy a predicate replaced by `new`.
+///
+/// `(substitute-if 0 #'evenp '(1 2 3 4))` => `(1 0 3 0)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
+fn substitute_if(
+    machine: &mut Machine<'_>,
+    new: Value,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: true,
+    };
+    change(
+        machine,
+        "SUBSTITUTE-IF",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: false,
+        },
+    )
 }
 
-fn substitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "SUBSTITUTE-IF", IF, false)
+/// A sequence with the elements that do not satisfy a predicate replaced by `new`.
+///
+/// `(substitute-if-not 0 #'evenp '(1 2 3 4))` => `(0 2 0 4)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
+fn substitute_if_not(
+    machine: &mut Machine<'_>,
+    new: Value,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: false,
+    };
+    change(
+        machine,
+        "SUBSTITUTE-IF-NOT",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: false,
+        },
+    )
 }
 
-fn substitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "SUBSTITUTE-IF-NOT", IF_NOT, false)
+/// Like `substitute`, but changes the sequence.
+///
+/// `(nsubstitute 9 2 (list 1 2 3))` => `(1 9 3)`
+#[builtin(_, "new old sequence &key key start end from-end count test test-not")]
+fn nsubstitute(
+    machine: &mut Machine<'_>,
+    new: Value,
+    old: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Item(old);
+    change(
+        machine,
+        "NSUBSTITUTE",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: true,
+        },
+    )
 }
 
-fn nsubstitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "NSUBSTITUTE", By::Item, true)
+/// Like `substitute-if`, but changes the sequence.
+///
+/// `(nsubstitute-if 0 #'evenp (list 1 2))` => `(1 0)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
+fn nsubstitute_if(
+    machine: &mut Machine<'_>,
+    new: Value,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: true,
+    };
+    change(
+        machine,
+        "NSUBSTITUTE-IF",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: true,
+        },
+    )
 }
 
-fn nsubstitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "NSUBSTITUTE-IF", IF, true)
+/// Like `substitute-if-not`, but changes the sequence.
+///
+/// `(nsubstitute-if-not 0 #'evenp (list 1 2))` => `(0 2)`
+#[builtin(_, "new predicate sequence &key key start end from-end count")]
+fn nsubstitute_if_not(
+    machine: &mut Machine<'_>,
+    new: Value,
+    predicate: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let by = By::Predicate {
+        predicate,
+        expected: false,
+    };
+    change(
+        machine,
+        "NSUBSTITUTE-IF-NOT",
+        by,
+        sequence,
+        keywords,
+        Change::Replace {
+            new,
+            in_place: true,
+        },
+    )
 }
-
-fn nsubstitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    replace_by(machine, &args, "NSUBSTITUTE-IF-NOT", IF_NOT, true)
-}
-
-const REMOVE_ITEM: &str = "item sequence &key key start end from-end count test test-not";
-const REMOVE_IF: &str = "predicate sequence &key key start end from-end count";
-const REPLACE_ITEM: &str = "new old sequence &key key start end from-end count test test-not";
-const REPLACE_IF: &str = "new predicate sequence &key key start end from-end count";
 
 /// Removing and replacing elements.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "REMOVE",
-        REMOVE_ITEM,
-        "A sequence without the elements that match an item.",
-        &[
-            "(remove 2 '(1 2 3 2)) => (1 3)",
-            "(remove #\\a \"banana\") => \"bnn\"",
-        ],
-        remove,
-    ),
-    control(
-        "REMOVE-IF",
-        REMOVE_IF,
-        "A sequence without the elements that satisfy a predicate.",
-        &["(remove-if #'evenp '(1 2 3 4)) => (1 3)"],
-        remove_if,
-    ),
-    control(
-        "REMOVE-IF-NOT",
-        REMOVE_IF,
-        "A sequence of the elements that satisfy a predicate.",
-        &["(remove-if-not #'evenp '(1 2 3 4)) => (2 4)"],
-        remove_if_not,
-    ),
-    control(
-        "DELETE",
-        REMOVE_ITEM,
-        "Like `remove`, but may change the sequence; use the result.",
-        &["(delete 2 (list 1 2 3)) => (1 3)"],
-        delete,
-    ),
-    control(
-        "DELETE-IF",
-        REMOVE_IF,
-        "Like `remove-if`, but may change the sequence; use the result.",
-        &["(delete-if #'evenp (list 1 2 3)) => (1 3)"],
-        delete_if,
-    ),
-    control(
-        "DELETE-IF-NOT",
-        REMOVE_IF,
-        "Like `remove-if-not`, but may change the sequence; use the result.",
-        &["(delete-if-not #'evenp (list 1 2 3)) => (2)"],
-        delete_if_not,
-    ),
-    control(
-        "SUBSTITUTE",
-        REPLACE_ITEM,
-        "A sequence with the elements that match `old` replaced by `new`.",
-        &["(substitute 9 2 '(1 2 3 2) :count 1) => (1 9 3 2)"],
-        substitute,
-    ),
-    control(
-        "SUBSTITUTE-IF",
-        REPLACE_IF,
-        "A sequence with the elements that satisfy a predicate replaced by `new`.",
-        &["(substitute-if 0 #'evenp '(1 2 3 4)) => (1 0 3 0)"],
-        substitute_if,
-    ),
-    control(
-        "SUBSTITUTE-IF-NOT",
-        REPLACE_IF,
-        "A sequence with the elements that do not satisfy a predicate replaced by `new`.",
-        &["(substitute-if-not 0 #'evenp '(1 2 3 4)) => (0 2 0 4)"],
-        substitute_if_not,
-    ),
-    control(
-        "NSUBSTITUTE",
-        REPLACE_ITEM,
-        "Like `substitute`, but changes the sequence.",
-        &["(nsubstitute 9 2 (list 1 2 3)) => (1 9 3)"],
-        nsubstitute,
-    ),
-    control(
-        "NSUBSTITUTE-IF",
-        REPLACE_IF,
-        "Like `substitute-if`, but changes the sequence.",
-        &["(nsubstitute-if 0 #'evenp (list 1 2)) => (1 0)"],
-        nsubstitute_if,
-    ),
-    control(
-        "NSUBSTITUTE-IF-NOT",
-        REPLACE_IF,
-        "Like `substitute-if-not`, but changes the sequence.",
-        &["(nsubstitute-if-not 0 #'evenp (list 1 2)) => (0 2)"],
-        nsubstitute_if_not,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    remove,
+    remove_if,
+    remove_if_not,
+    delete,
+    delete_if,
+    delete_if_not,
+    substitute,
+    substitute_if,
+    substitute_if_not,
+    nsubstitute,
+    nsubstitute_if,
+    nsubstitute_if_not,
 ];

@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 
 use super::criterion::{Key, Test};
-use super::keywords;
 use super::sequence_change::removed;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::hash_table::{HashKey, HashTest};
 use crate::value::known;
@@ -122,30 +123,21 @@ fn duplicates(
     run(machine, name, |calls| duplicates.run(calls))
 }
 
+/// A sequence without the elements that come again later (or, from the end, came before).
+///
+/// `(remove-duplicates '(1 2 1 3 2))` => `(1 3 2)`
+#[builtin(_, "sequence &key key start end from-end test test-not")]
 fn remove_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     duplicates(machine, &args, "REMOVE-DUPLICATES", false)
 }
 
+/// Like `remove-duplicates`, but may change the sequence; use the result.
+///
+/// `(delete-duplicates (list 1 2 1))` => `(2 1)`
+#[builtin(_, "sequence &key key start end from-end test test-not")]
 fn delete_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     duplicates(machine, &args, "DELETE-DUPLICATES", true)
 }
 
-const LAMBDA_LIST: &str = "sequence &key key start end from-end test test-not";
-
 /// Removing duplicates.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "REMOVE-DUPLICATES",
-        LAMBDA_LIST,
-        "A sequence without the elements that come again later (or, from the end, came before).",
-        &["(remove-duplicates '(1 2 1 3 2)) => (1 3 2)"],
-        remove_duplicates,
-    ),
-    control(
-        "DELETE-DUPLICATES",
-        LAMBDA_LIST,
-        "Like `remove-duplicates`, but may change the sequence; use the result.",
-        &["(delete-duplicates (list 1 2 1)) => (2 1)"],
-        delete_duplicates,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![remove_duplicates, delete_duplicates,];

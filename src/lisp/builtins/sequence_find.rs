@@ -2,9 +2,10 @@
 //! `-if` forms.
 
 use super::criterion::{Criterion, Key, Test};
-use super::keywords;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -30,11 +31,15 @@ struct Search {
 }
 
 impl Search {
-    /// From the arguments item, sequence and keywords.
-    fn by_item(image: &Image, args: &[Value]) -> Result<Search, Box<Raise>> {
+    fn by_item(
+        image: &Image,
+        item: Value,
+        sequence: Sequence,
+        keywords: &[Value],
+    ) -> Result<Search, Box<Raise>> {
         let [key, start, end, from_end, test, test_not] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_START,
@@ -44,21 +49,25 @@ impl Search {
                 known::K_TEST_NOT,
             ],
         )?;
-        let sequence = Sequence::of(&args[1])?;
         let test = Test::new(image, test, test_not)?;
         Ok(Search {
             bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
             from_end: from_end.is_some_and(|v| v.is_true()),
-            criterion: Criterion::item(args[0].clone(), test, Key::new(image, key)?),
+            criterion: Criterion::item(item, test, Key::new(image, key)?),
             sequence,
         })
     }
 
-    /// From the arguments predicate, sequence and keywords.
-    fn by_predicate(image: &Image, args: &[Value], expected: bool) -> Result<Search, Box<Raise>> {
+    fn by_predicate(
+        image: &Image,
+        predicate: &Value,
+        expected: bool,
+        sequence: Sequence,
+        keywords: &[Value],
+    ) -> Result<Search, Box<Raise>> {
         let [key, start, end, from_end] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_START,
@@ -66,12 +75,11 @@ impl Search {
                 known::K_FROM_END,
             ],
         )?;
-        let sequence = Sequence::of(&args[1])?;
         let key = Key::new(image, key)?;
         Ok(Search {
             bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
             from_end: from_end.is_some_and(|v| v.is_true()),
-            criterion: Criterion::predicate(image, &args[0], expected, key)?,
+            criterion: Criterion::predicate(image, predicate, expected, key)?,
             sequence,
         })
     }
@@ -110,132 +118,154 @@ impl Search {
     }
 }
 
-fn find(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+/// The first element that matches an item, or `NIL`.
+///
+/// `(find 2 '((1 a) (2 b)) :key #'first)` => `(2 B)`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
+fn find(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "FIND", |calls| search.find(calls, Goal::Element))
 }
 
-fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+/// The first element that satisfies a predicate, or `NIL`.
+///
+/// `(find-if #'evenp '(1 2 3 4))` => `2`
+/// `(find-if #'evenp '(1 2 3 4) :from-end t)` => `4`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn find_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "FIND-IF", |calls| {
         search.find(calls, Goal::Element)
     })
 }
 
-fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+/// The first element that does not satisfy a predicate, or `NIL`.
+///
+/// `(find-if-not #'evenp '(2 4 5))` => `5`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn find_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "FIND-IF-NOT", |calls| {
         search.find(calls, Goal::Element)
     })
 }
 
-fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+/// The index of the first element that matches an item, or `NIL`.
+///
+/// `(position #\l "hello")` => `2`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
+fn position(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "POSITION", |calls| {
         search.find(calls, Goal::Position)
     })
 }
 
-fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+/// The index of the first element that satisfies a predicate, or `NIL`.
+///
+/// `(position-if #'evenp #(1 2 3))` => `1`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn position_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "POSITION-IF", |calls| {
         search.find(calls, Goal::Position)
     })
 }
 
-fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+/// The index of the first element that does not satisfy a predicate, or `NIL`.
+///
+/// `(position-if-not #'evenp '(2 4 5))` => `2`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn position_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "POSITION-IF-NOT", |calls| {
         search.find(calls, Goal::Position)
     })
 }
 
-fn count(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_item(machine.image, &args)?;
+/// The number of elements that match an item.
+///
+/// `(count #\a "banana")` => `3`
+#[builtin(_, "item sequence &key key start end from-end test test-not")]
+fn count(
+    machine: &mut Machine<'_>,
+    item: Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, item, sequence, keywords)?;
     run(machine, "COUNT", |calls| search.find(calls, Goal::Count))
 }
 
-fn count_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, true)?;
+/// The number of elements that satisfy a predicate.
+///
+/// `(count-if #'evenp '(1 2 4))` => `2`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn count_if(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, true, sequence, keywords)?;
     run(machine, "COUNT-IF", |calls| search.find(calls, Goal::Count))
 }
 
-fn count_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let search = Search::by_predicate(machine.image, &args, false)?;
+/// The number of elements that do not satisfy a predicate.
+///
+/// `(count-if-not #'evenp '(1 2 4))` => `1`
+#[builtin(_, "predicate sequence &key key start end from-end")]
+fn count_if_not(
+    machine: &mut Machine<'_>,
+    predicate: &Value,
+    sequence: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, predicate, false, sequence, keywords)?;
     run(machine, "COUNT-IF-NOT", |calls| {
         search.find(calls, Goal::Count)
     })
 }
 
-const BY_ITEM: &str = "item sequence &key key start end from-end test test-not";
-const BY_PREDICATE: &str = "predicate sequence &key key start end from-end";
-
 /// Finding and counting elements.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "FIND",
-        BY_ITEM,
-        "The first element that matches an item, or `NIL`.",
-        &["(find 2 '((1 a) (2 b)) :key #'first) => (2 B)"],
-        find,
-    ),
-    control(
-        "FIND-IF",
-        BY_PREDICATE,
-        "The first element that satisfies a predicate, or `NIL`.",
-        &[
-            "(find-if #'evenp '(1 2 3 4)) => 2",
-            "(find-if #'evenp '(1 2 3 4) :from-end t) => 4",
-        ],
-        find_if,
-    ),
-    control(
-        "FIND-IF-NOT",
-        BY_PREDICATE,
-        "The first element that does not satisfy a predicate, or `NIL`.",
-        &["(find-if-not #'evenp '(2 4 5)) => 5"],
-        find_if_not,
-    ),
-    control(
-        "POSITION",
-        BY_ITEM,
-        "The index of the first element that matches an item, or `NIL`.",
-        &["(position #\\l \"hello\") => 2"],
-        position,
-    ),
-    control(
-        "POSITION-IF",
-        BY_PREDICATE,
-        "The index of the first element that satisfies a predicate, or `NIL`.",
-        &["(position-if #'evenp #(1 2 3)) => 1"],
-        position_if,
-    ),
-    control(
-        "POSITION-IF-NOT",
-        BY_PREDICATE,
-        "The index of the first element that does not satisfy a predicate, or `NIL`.",
-        &["(position-if-not #'evenp '(2 4 5)) => 2"],
-        position_if_not,
-    ),
-    control(
-        "COUNT",
-        BY_ITEM,
-        "The number of elements that match an item.",
-        &["(count #\\a \"banana\") => 3"],
-        count,
-    ),
-    control(
-        "COUNT-IF",
-        BY_PREDICATE,
-        "The number of elements that satisfy a predicate.",
-        &["(count-if #'evenp '(1 2 4)) => 2"],
-        count_if,
-    ),
-    control(
-        "COUNT-IF-NOT",
-        BY_PREDICATE,
-        "The number of elements that do not satisfy a predicate.",
-        &["(count-if-not #'evenp '(1 2 4)) => 1"],
-        count_if_not,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    find,
+    find_if,
+    find_if_not,
+    position,
+    position_if,
+    position_if_not,
+    count,
+    count_if,
+    count_if_not,
 ];

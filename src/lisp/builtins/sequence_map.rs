@@ -2,9 +2,9 @@
 //! `notevery`, `reduce`.
 
 use super::criterion::Key;
-use super::keywords;
 use super::settled_types::sequence_type;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -44,6 +44,12 @@ impl Side {
     }
 }
 
+/// A sequence of the results of a function for the elements of sequences; `NIL` as type collects
+/// nothing.
+///
+/// `(map 'vector #'1+ '(1 2 3))` => `#(2 3 4)`
+/// `(map 'list #'+ #(1 2) '(10 20))` => `(11 22)`
+#[builtin(_, "result-type function sequence &rest sequences")]
 fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let result = match &args[0] {
         Value::Symbol(known::NIL, ..) => None,
@@ -66,6 +72,10 @@ fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> 
     })
 }
 
+/// Writes the results of a function for the elements of sequences into a sequence.
+///
+/// `(map-into (list 0 0) #'+ '(1 2) '(10 20))` => `(11 22)`
+#[builtin(_, "target function &rest sequences")]
 fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let target = Sequence::of(&args[0])?;
     let function = callable(machine.image, &args[1])?;
@@ -147,42 +157,60 @@ fn quantify(
     })
 }
 
-fn every(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "EVERY", Quantifier::Every)
+/// Do all elements satisfy a predicate?
+///
+/// `(every #'evenp '(2 4))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
+fn every(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "EVERY", Quantifier::Every)
 }
 
-fn some(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "SOME", Quantifier::Some)
+/// The first true result of a predicate for the elements, or `NIL`.
+///
+/// `(some #'evenp '(1 2))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
+fn some(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "SOME", Quantifier::Some)
 }
 
-fn notany(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "NOTANY", Quantifier::NotAny)
+/// Does no element satisfy a predicate?
+///
+/// `(notany #'evenp '(1 3))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
+fn notany(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "NOTANY", Quantifier::NotAny)
 }
 
-fn notevery(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &args, "NOTEVERY", Quantifier::NotEvery)
+/// Is there an element that does not satisfy a predicate?
+///
+/// `(notevery #'evenp '(2 3))` => `T`
+#[builtin(_, "predicate sequence &rest sequences")]
+fn notevery(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &sequences, "NOTEVERY", Quantifier::NotEvery)
 }
 
-fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+/// Combines the elements of a sequence two by two.
+///
+/// `(reduce #'+ '(1 2 3 4))` => `10`
+/// `(reduce #'list '(1 2 3) :from-end t)` => `(1 (2 3))`
+#[builtin]
+fn reduce(
+    machine: &mut Machine<'_>,
+    function: Value,
+    sequence: Sequence,
+    #[key] key: Option<Value>,
+    #[key] from_end: Option<Value>,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+    #[key] initial_value: Option<Value>,
+) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let [key, start, end, from_end, initial] = keywords::parse(
-        image,
-        &args[2..],
-        [
-            known::K_KEY,
-            known::K_START,
-            known::K_END,
-            known::K_FROM_END,
-            known::K_INITIAL_VALUE,
-        ],
-    )?;
-    let function = callable(image, &args[0])?;
+    let function = callable(image, &function)?;
     let key = Key::new(image, key)?;
-    let sequence = Sequence::of(&args[1])?;
     let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let from_end = from_end.is_some_and(|v| v.is_true());
     run(machine, "REDUCE", |calls| async move {
-        let mut result = initial;
+        let mut result = initial_value;
         if from_end {
             for item in sequence.items(bounds)?.into_iter().rev() {
                 let item = key.of(&calls, item).await;
@@ -209,60 +237,5 @@ fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 }
 
 /// Functions over the elements of sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "MAP",
-        "result-type function sequence &rest sequences",
-        "A sequence of the results of a function for the elements of sequences; `NIL` as type collects nothing.",
-        &[
-            "(map 'vector #'1+ '(1 2 3)) => #(2 3 4)",
-            "(map 'list #'+ #(1 2) '(10 20)) => (11 22)",
-        ],
-        map,
-    ),
-    control(
-        "MAP-INTO",
-        "target function &rest sequences",
-        "Writes the results of a function for the elements of sequences into a sequence.",
-        &["(map-into (list 0 0) #'+ '(1 2) '(10 20)) => (11 22)"],
-        map_into,
-    ),
-    control(
-        "EVERY",
-        "predicate sequence &rest sequences",
-        "Do all elements satisfy a predicate?",
-        &["(every #'evenp '(2 4)) => T"],
-        every,
-    ),
-    control(
-        "SOME",
-        "predicate sequence &rest sequences",
-        "The first true result of a predicate for the elements, or `NIL`.",
-        &["(some #'evenp '(1 2)) => T"],
-        some,
-    ),
-    control(
-        "NOTANY",
-        "predicate sequence &rest sequences",
-        "Does no element satisfy a predicate?",
-        &["(notany #'evenp '(1 3)) => T"],
-        notany,
-    ),
-    control(
-        "NOTEVERY",
-        "predicate sequence &rest sequences",
-        "Is there an element that does not satisfy a predicate?",
-        &["(notevery #'evenp '(2 3)) => T"],
-        notevery,
-    ),
-    control(
-        "REDUCE",
-        "function sequence &key key from-end start end initial-value",
-        "Combines the elements of a sequence two by two.",
-        &[
-            "(reduce #'+ '(1 2 3 4)) => 10",
-            "(reduce #'list '(1 2 3) :from-end t) => (1 (2 3))",
-        ],
-        reduce,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] =
+    builtins![map, map_into, every, some, notany, notevery, reduce,];

@@ -1,8 +1,10 @@
 //! Comparing sequences: `search` and `mismatch`.
 
 use super::criterion::{Key, Test};
-use super::keywords;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
+use crate::image::Image;
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -23,11 +25,15 @@ struct Pair {
 }
 
 impl Pair {
-    fn new(machine: &Machine<'_>, args: &[Value]) -> Result<Pair, Box<Raise>> {
-        let image = &machine.image;
+    fn new(
+        image: &Image,
+        first: Sequence,
+        second: Sequence,
+        keywords: &[Value],
+    ) -> Result<Pair, Box<Raise>> {
         let [key, from_end, test, test_not, start1, end1, start2, end2] = keywords::parse(
             image,
-            &args[2..],
+            keywords,
             [
                 known::K_KEY,
                 known::K_FROM_END,
@@ -39,8 +45,6 @@ impl Pair {
                 known::K_END2,
             ],
         )?;
-        let first = Sequence::of(&args[0])?;
-        let second = Sequence::of(&args[1])?;
         let first_bounds = Bounds::new(&first, start1.as_ref(), end1.as_ref())?;
         let second_bounds = Bounds::new(&second, start2.as_ref(), end2.as_ref())?;
         Ok(Pair {
@@ -111,39 +115,41 @@ impl Pair {
     }
 }
 
-fn search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let pair = Pair::new(machine, &args)?;
+/// The index at which the first sequence occurs in the second, or `NIL`.
+///
+/// `(search "ll" "hello")` => `2`
+/// `(search '(2 3) '(1 2 3 4))` => `1`
+#[builtin(
+    _,
+    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
+)]
+fn search(
+    machine: &mut Machine<'_>,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let pair = Pair::new(machine.image, sequence_1, sequence_2, keywords)?;
     run(machine, "SEARCH", |calls| pair.search(calls))
 }
 
-fn mismatch(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let pair = Pair::new(machine, &args)?;
+/// The index at which two sequences begin to differ, or `NIL`.
+///
+/// `(mismatch "hello" "help")` => `3`
+/// `(mismatch '(1) '(1))` => `NIL`
+#[builtin(
+    _,
+    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2"
+)]
+fn mismatch(
+    machine: &mut Machine<'_>,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    keywords: &[Value],
+) -> Result<Step, Box<Raise>> {
+    let pair = Pair::new(machine.image, sequence_1, sequence_2, keywords)?;
     run(machine, "MISMATCH", |calls| pair.mismatch(calls))
 }
 
-const LAMBDA_LIST: &str =
-    "sequence-1 sequence-2 &key from-end test test-not key start1 end1 start2 end2";
-
 /// Comparing sequences.
-pub(crate) static TABLE: &[Builtin] = &[
-    control(
-        "SEARCH",
-        LAMBDA_LIST,
-        "The index at which the first sequence occurs in the second, or `NIL`.",
-        &[
-            "(search \"ll\" \"hello\") => 2",
-            "(search '(2 3) '(1 2 3 4)) => 1",
-        ],
-        search,
-    ),
-    control(
-        "MISMATCH",
-        LAMBDA_LIST,
-        "The index at which two sequences begin to differ, or `NIL`.",
-        &[
-            "(mismatch \"hello\" \"help\") => 3",
-            "(mismatch '(1) '(1)) => NIL",
-        ],
-        mismatch,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![search, mismatch,];

@@ -1,9 +1,10 @@
 //! Signalling conditions, and throwing.
 
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::evaluator::signal::Declined;
 use crate::image::Image;
 use crate::print;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -14,55 +15,39 @@ use crate::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "SIGNAL",
-        "datum &rest arguments",
-        "Signals a condition; NIL if every handler declines.",
-        &["(signal \"nothing happens\") => NIL"],
-        |m, args| signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return),
-    ),
-    control(
-        "ERROR",
-        "datum &rest arguments",
-        "Signals an error: a condition object, the name of a class with initargs, or a format control with arguments.",
-        &["(handler-case (error \"no ~a\" 1) (error (e) (princ-to-string e))) => \"no 1\""],
-        |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
-    ),
-    control(
-        "INVOKE-DEBUGGER",
-        "condition",
-        "Stops with a condition.",
-        &[],
-        |_, args| Ok(Step::Unhandled(args[0].clone())),
-    ),
-    control(
-        "BREAK",
-        "&optional control &rest arguments",
-        "Stops with a text.",
-        &[],
-        |m, args| signal_break(m, &args),
-    ),
-];
+/// Signals a condition; NIL if every handler declines.
+///
+/// `(signal "nothing happens")` => `NIL`
+#[builtin(_, "datum &rest arguments")]
+fn signal(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(
+        machine,
+        arguments,
+        known::SIMPLE_CONDITION,
+        Declined::Return,
+    )
+}
 
-/// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "CASE-FAILED",
-        "key operator wanted",
-        "The error of ECASE and its kin.",
-        &[],
-        case_failed,
-    ),
-    pure(
-        "CHECK-TYPE-FAILED",
-        "value place type string",
-        "The error of CHECK-TYPE.",
-        &[],
-        check_type_failed,
-    ),
-];
+/// Signals an error: a condition object, the name of a class with initargs, or a format control
+/// with arguments.
+///
+/// `(handler-case (error "no ~a" 1) (error (e) (princ-to-string e)))` => `"no 1"`
+#[builtin(_, "datum &rest arguments")]
+fn error(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_with(machine, arguments, known::SIMPLE_ERROR, Declined::Stop)
+}
+
+/// Stops with a condition.
+#[builtin]
+fn invoke_debugger(condition: Value) -> Result<Step> {
+    Ok(Step::Unhandled(condition))
+}
+
+/// Stops with a text.
+#[builtin("BREAK", "&optional control &rest arguments")]
+fn lisp_break(machine: &mut Machine<'_>, arguments: Vec<Value>) -> Result<Step> {
+    signal_break(machine, &arguments)
+}
 
 /// The condition that a datum and arguments designate.
 async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> Result<Value> {
@@ -136,38 +121,59 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
     })
 }
 
-fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+/// The error of ECASE and its kin.
+#[builtin]
+fn case_failed(
+    machine: &mut Machine<'_>,
+    key: &Value,
+    operator: &Value,
+    wanted: &Value,
+) -> Result<Step> {
     let image = &mut *machine.image;
     let show = |v: &Value| print::to_string(image, v, true);
     let report = format!(
         "{} fell through {} expression.\nWanted one of {}.",
-        show(&args[0]),
-        show(&args[1]),
-        show(&args[2])
+        show(key),
+        show(operator),
+        show(wanted)
     );
     let is_by_type = matches!(
-        args[1].as_symbol(),
+        operator.as_symbol(),
         Some(known::ETYPECASE | known::CTYPECASE)
     );
     let kind = if is_by_type { known::OR } else { known::MEMBER };
-    let expected = Value::cons(kind.into(), args[2].clone());
+    let expected = Value::cons(kind.into(), wanted.clone());
     Err(Raise::new(known::TYPE_ERROR, report)
-        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_DATUM, key.clone())
         .with(known::K_EXPECTED_TYPE, expected))
 }
 
-fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
+/// The error of CHECK-TYPE.
+#[builtin]
+fn check_type_failed(
+    image: &mut Image,
+    value: &Value,
+    place: &Value,
+    type_: &Value,
+    string: &Value,
+) -> Result<Value> {
     let show = |v: &Value| print::to_string(image, v, true);
-    let wanted = match args[3].as_text() {
+    let wanted = match string.as_text() {
         Some(text) => text,
-        None => format!("of type {}", show(&args[2])),
+        None => format!("of type {}", show(type_)),
     };
     let report = format!(
         "The value of {} is {}, which is not {wanted}.",
-        show(&args[1]),
-        show(&args[0])
+        show(place),
+        show(value)
     );
     Err(Raise::new(known::SIMPLE_TYPE_ERROR, report)
-        .with(known::K_DATUM, args[0].clone())
-        .with(known::K_EXPECTED_TYPE, args[2].clone()))
+        .with(known::K_DATUM, value.clone())
+        .with(known::K_EXPECTED_TYPE, type_.clone()))
 }
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = builtins![signal, error, invoke_debugger, lisp_break,];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![case_failed, check_type_failed,];

@@ -1,9 +1,9 @@
 //! Sorting: `sort`, `stable-sort`, `merge`. Both sorts are stable.
 
 use super::criterion::Key;
-use super::keywords;
 use super::settled_types::sequence_type;
-use crate::builtin::{Builtin, control};
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -142,34 +142,63 @@ async fn sort_sequence(
 
 fn sort_named(
     machine: &mut Machine<'_>,
-    args: &[Value],
     name: &'static str,
+    sequence: Sequence,
+    predicate: &Value,
+    key: Option<Value>,
 ) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let [key] = keywords::parse(image, &args[2..], [known::K_KEY])?;
-    let sequence = Sequence::of(&args[0])?;
-    let before = callable(image, &args[1])?;
+    let before = callable(image, predicate)?;
     let key = Key::new(image, key)?;
     run(machine, name, |calls| {
         sort_sequence(calls, sequence, before, key)
     })
 }
 
-fn sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    sort_named(machine, &args, "SORT")
+/// Sorts a sequence, which is changed; use the result.
+///
+/// `(sort (list 3 1 2) #'<)` => `(1 2 3)`
+/// `(sort (list "b" "a") #'string<)` => `("a" "b")`
+#[builtin]
+fn sort(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    predicate: &Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    sort_named(machine, "SORT", sequence, predicate, key)
 }
 
-fn stable_sort(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    sort_named(machine, &args, "STABLE-SORT")
+/// Like `sort`; elements that are equal keep their order.
+///
+/// `(stable-sort (list '(1 a) '(0 b) '(1 c)) #'< :key #'first)` => `((0 B) (1 A) (1 C))`
+#[builtin]
+fn stable_sort(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    predicate: &Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    sort_named(machine, "STABLE-SORT", sequence, predicate, key)
 }
 
-fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let result = sequence_type(machine.image, &args[0])?;
+/// Merges two sorted sequences into one.
+///
+/// `(merge 'list (list 1 3 5) (list 2 4) #'<)` => `(1 2 3 4 5)`
+#[builtin]
+fn merge(
+    machine: &mut Machine<'_>,
+    result_type: Value,
+    sequence_1: Sequence,
+    sequence_2: Sequence,
+    predicate: Value,
+    #[key] key: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    let result = sequence_type(machine.image, &result_type)?;
     let image = &machine.image;
-    let [key] = keywords::parse(image, &args[4..], [known::K_KEY])?;
-    let left = Sequence::of(&args[1])?.all()?;
-    let right = Sequence::of(&args[2])?.all()?;
-    let before = callable(image, &args[3])?;
+    let left = sequence_1.all()?;
+    let right = sequence_2.all()?;
+    let before = callable(image, &predicate)?;
     let key = Key::new(image, key)?;
     run(machine, "MERGE", |calls| async move {
         let left = left.into_iter().map(|v| (v.clone(), v)).collect();
@@ -183,29 +212,4 @@ fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Sorting.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "SORT",
-        "sequence predicate &key key",
-        "Sorts a sequence, which is changed; use the result.",
-        &[
-            "(sort (list 3 1 2) #'<) => (1 2 3)",
-            "(sort (list \"b\" \"a\") #'string<) => (\"a\" \"b\")",
-        ],
-        sort,
-    ),
-    control(
-        "STABLE-SORT",
-        "sequence predicate &key key",
-        "Like `sort`; elements that are equal keep their order.",
-        &["(stable-sort (list '(1 a) '(0 b) '(1 c)) #'< :key #'first) => ((0 B) (1 A) (1 C))"],
-        stable_sort,
-    ),
-    control(
-        "MERGE",
-        "result-type sequence-1 sequence-2 predicate &key key",
-        "Merges two sorted sequences into one.",
-        &["(merge 'list (list 1 3 5) (list 2 4) #'<) => (1 2 3 4 5)"],
-        merge,
-    ),
-];
+pub(crate) static TABLE: &[Builtin] = builtins![sort, stable_sort, merge,];

@@ -3,12 +3,12 @@
 use std::io::{Seek as _, SeekFrom};
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::{at_end, stream_of};
 use super::strings::string;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Stream, StreamKind};
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -16,16 +16,25 @@ use crate::value::sequence::{Bounds, Sequence, index, text_of};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let target = Sequence::of(&args[0])?;
+/// Reads characters or bytes into a sequence; the index after the last one.
+///
+/// `(read-sequence (make-string 2) (make-string-input-stream "abc"))` => `2`
+#[builtin]
+fn read_sequence(
+    image: &mut Image,
+    sequence: Sequence,
+    stream: &Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let target = sequence;
     let bounds = Bounds::new(&target, start.as_ref(), end.as_ref())?;
     let end = bounds.end_of(target.len()?);
-    let source = stream::input_stream(image, &args[1])?;
+    let source = stream::input_stream(image, stream)?;
     let reads_bytes = stream::has_integers(image, &source)?;
     let read = |image: &mut Image| match reads_bytes {
         true => stream::read_byte(image, &source),
-        false => Ok(stream::read_char(image, &args[1])?.map(Value::Char)),
+        false => Ok(stream::read_char(image, stream)?.map(Value::Char)),
     };
     let mut at = bounds.start;
     while at < end
@@ -37,23 +46,36 @@ fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(at.into())
 }
 
-fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
-    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
-    let source = Sequence::of(&args[0])?;
+/// Writes the characters or bytes of a sequence.
+///
+/// `(with-output-to-string (s) (write-sequence "hello" s :start 1 :end 3))` => `"el"`
+#[builtin]
+fn write_sequence(
+    image: &mut Image,
+    sequence: &Value,
+    stream: &Value,
+    #[key] start: Option<Value>,
+    #[key] end: Option<Value>,
+) -> Outcome {
+    let source = Sequence::of(sequence)?;
     let bounds = Bounds::new(&source, start.as_ref(), end.as_ref())?;
     let items = source.items(bounds)?;
-    let target = stream::output_stream(image, &args[1])?;
+    let target = stream::output_stream(image, stream)?;
     if stream::has_integers(image, &target)? {
         for item in &items {
             stream::write_byte(image, &target, item)?;
         }
     } else {
-        stream::write(image, &args[1], &text_of(&items)?)?;
+        stream::write(image, stream, &text_of(&items)?)?;
     }
-    Ok(args[0].clone())
+    Ok(sequence.clone())
 }
 
-/// `(read-byte stream eof-error-p eof-value)`.
+/// Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.
+///
+/// `(handler-case (read-byte (make-string-input-stream "a")) (stream-error () 'characters))` => `CHARACTERS`
+// `(read-byte stream eof-error-p eof-value)`.
+#[builtin(_, "stream &optional eof-error-p eof-value")]
 fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
     match stream::read_byte(image, stream_of(&args[0])?)? {
         Some(byte) => Ok(byte),
@@ -61,29 +83,40 @@ fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::write_byte(image, stream_of(&args[1])?, &args[0])?;
-    Ok(args[0].clone())
+/// Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.
+///
+/// `(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters))` => `CHARACTERS`
+#[builtin]
+fn write_byte(image: &mut Image, integer: &Value, stream: &Rc<Stream>) -> Outcome {
+    stream::write_byte(image, stream, integer)?;
+    Ok(integer.clone())
 }
 
-/// How many bytes a character or a string takes in a file.
-fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::output_stream(image, &args[0])?;
+/// How many bytes a character or string would take in a file.
+///
+/// `(file-string-length *standard-output* "naïve")` => `6`
+// How many bytes a character or a string takes in a file.
+#[builtin]
+fn file_string_length(image: &mut Image, stream: &Value, object: &Value) -> Outcome {
+    let stream = stream::output_stream(image, stream)?;
     // A stream that writes nowhere takes no more than one element.
     if matches!(&*stream.kind.borrow(), StreamKind::Broadcast { targets } if targets.is_empty()) {
         return Ok(Value::Int(1));
     }
-    Ok(match &args[1] {
+    Ok(match object {
         Value::Char(c) => c.len_utf8(),
         other => string(other)?.borrow().len(),
     }
     .into())
 }
 
-/// The position in a stream: in characters, or in bytes for a stream that writes a file.
-fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream_of(&args[0])?;
-    match (&mut *stream.kind.borrow_mut(), args.get(1)) {
+/// How far a stream has come, or sets that.
+///
+/// `(file-position (make-string-input-stream "x"))` => `0`
+// The position in a stream: in characters, or in bytes for a stream that writes a file.
+#[builtin(_, "stream &optional position")]
+fn file_position(stream: &Rc<Stream>, position_value: Option<&Value>) -> Outcome {
+    match (&mut *stream.kind.borrow_mut(), position_value) {
         (StreamKind::StringInput { text, position }, None) => {
             let before = text.get(..*position).unwrap_or("");
             Ok(before.chars().count().into())
@@ -152,8 +185,12 @@ fn measured(stream: &Rc<Stream>) -> Option<Rc<Stream>> {
     Some(stream)
 }
 
-fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+/// The length of the file behind a stream.
+///
+/// `(file-length (make-broadcast-stream))` => `0`
+#[builtin(_, "stream")]
+fn file_length(image: &mut Image, stream_value: &Value) -> Outcome {
+    let stream = stream::followed(image, stream_of(stream_value)?)?;
     let Some(stream) = measured(&stream) else {
         return Ok(Value::Int(0));
     };
@@ -165,64 +202,18 @@ fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
             let written = file.get_ref().metadata().map_or(0, |data| data.len());
             usize::try_from(written).unwrap_or(usize::MAX) + buffered
         }
-        _ => return Err(Raise::type_error(&args[0], known::FILE_STREAM)),
+        _ => return Err(Raise::type_error(stream_value, known::FILE_STREAM)),
     };
     Ok((bytes / stream.width()).into())
 }
 
 /// Elements of streams.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "READ-SEQUENCE",
-        "sequence stream &key start end",
-        "Reads characters or bytes into a sequence; the index after the last one.",
-        &["(read-sequence (make-string 2) (make-string-input-stream \"abc\")) => 2"],
-        read_sequence,
-    ),
-    pure(
-        "WRITE-SEQUENCE",
-        "sequence stream &key start end",
-        "Writes the characters or bytes of a sequence.",
-        &["(with-output-to-string (s) (write-sequence \"hello\" s :start 1 :end 3)) => \"el\""],
-        write_sequence,
-    ),
-    pure(
-        "FILE-POSITION",
-        "stream &optional position",
-        "How far a stream has come, or sets that.",
-        &["(file-position (make-string-input-stream \"x\")) => 0"],
-        file_position,
-    ),
-    pure(
-        "FILE-LENGTH",
-        "stream",
-        "The length of the file behind a stream.",
-        &["(file-length (make-broadcast-stream)) => 0"],
-        file_length,
-    ),
-    pure(
-        "READ-BYTE",
-        "stream &optional eof-error-p eof-value",
-        "Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.",
-        &[
-            "(handler-case (read-byte (make-string-input-stream \"a\")) (stream-error () 'characters)) => CHARACTERS",
-        ],
-        read_byte,
-    ),
-    pure(
-        "WRITE-BYTE",
-        "integer stream",
-        "Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.",
-        &[
-            "(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters)) => CHARACTERS",
-        ],
-        write_byte,
-    ),
-    pure(
-        "FILE-STRING-LENGTH",
-        "stream object",
-        "How many bytes a character or string would take in a file.",
-        &["(file-string-length *standard-output* \"naïve\") => 6"],
-        file_string_length,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    read_sequence,
+    write_sequence,
+    file_position,
+    file_length,
+    read_byte,
+    write_byte,
+    file_string_length,
 ];

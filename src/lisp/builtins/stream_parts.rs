@@ -1,13 +1,15 @@
 //! Making streams, combining them, and what they are made of.
 
+use crate::value::string::LispString;
+use crate::value::symbol::Sym;
 use std::rc::Rc;
 
-use super::keywords;
 use super::streams::stream_of;
-use super::strings::string;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Stream, StreamKind};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -19,30 +21,50 @@ fn made(stream: Stream) -> Value {
     Value::Stream(Rc::new(stream))
 }
 
+/// A stream that collects what is written.
+///
+/// `(let ((s (make-string-output-stream))) (princ 1 s) (get-output-stream-string s))` => `"1"`
+#[builtin(_, "&key element-type")]
 fn make_string_output_stream(image: &mut Image, args: &[Value]) -> Outcome {
     keywords::parse(image, args, [known::K_ELEMENT_TYPE])?;
     Ok(made(Stream::to_text()))
 }
 
-fn get_output_stream_string(_: &mut Image, args: &[Value]) -> Outcome {
-    match stream_of(&args[0])?.take_text() {
+/// Takes the text that a string output stream has collected.
+///
+/// `(get-output-stream-string (make-string-output-stream))` => `""`
+#[builtin]
+fn get_output_stream_string(stream: &Value) -> Outcome {
+    match stream_of(stream)?.take_text() {
         Some(text) => Ok(Value::string(text)),
-        None => Err(Raise::type_error(&args[0], known::STRING_STREAM)),
+        None => Err(Raise::type_error(stream, known::STRING_STREAM)),
     }
 }
 
-fn make_string_input_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let string = string(&args[0])?.clone();
+/// A stream that gives the characters of a string.
+///
+/// `(read-char (make-string-input-stream "abc" 1))` => `#\b`
+#[builtin]
+fn make_string_input_stream(
+    string: &Rc<LispString>,
+    start: Option<&Value>,
+    end: Option<&Value>,
+) -> Outcome {
+    let string = string.clone();
     let sequence = Sequence::Str(string.clone());
-    let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
+    let bounds = Bounds::new(&sequence, start, end)?;
     Ok(made(Stream::from_text(
         string.slice(bounds.start, bounds.end),
     )))
 }
 
 /// A stream that appends to a string with a fill pointer.
-fn make_fill_pointer_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let target = string(&args[0])?.clone();
+///
+/// `(streamp (system::%make-fill-pointer-stream (make-array 0 :element-type 'character :fill-pointer 0)))` => `T`
+// A stream that appends to a string with a fill pointer.
+#[builtin("%MAKE-FILL-POINTER-STREAM", "string")]
+fn make_fill_pointer_stream(string_argument: &Rc<LispString>) -> Outcome {
+    let target = string_argument.clone();
     if !target.has_fill_pointer.get() {
         return Err(Raise::simple(
             "The string has no fill pointer, so nothing can be appended to it.",
@@ -79,16 +101,24 @@ fn outputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>>
     parts(image, args, Stream::is_output, "OUTPUT-STREAM-P")
 }
 
-fn make_broadcast_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    let targets = outputs(image, args)?;
+/// A stream that writes to several others.
+///
+/// `(princ 1 (make-broadcast-stream))` => `1`
+#[builtin]
+fn make_broadcast_stream(image: &mut Image, streams: &[Value]) -> Outcome {
+    let targets = outputs(image, streams)?;
     let kind = StreamKind::Broadcast {
         targets: targets.clone(),
     };
     Stream::compound(kind, &targets).map(made)
 }
 
-fn make_concatenated_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    let inputs = inputs(image, args)?;
+/// A stream that reads several others one after the other.
+///
+/// `(read-line (make-concatenated-stream (make-string-input-stream "a") (make-string-input-stream "b")))` => `"ab" ; T`
+#[builtin]
+fn make_concatenated_stream(image: &mut Image, streams: &[Value]) -> Outcome {
+    let inputs = inputs(image, streams)?;
     let kind = StreamKind::Concatenated {
         inputs: inputs.clone(),
         unread: None,
@@ -111,16 +141,27 @@ fn two_way(image: &Image, args: &[Value], echo: bool) -> Outcome {
     Stream::compound(kind, &parts).map(made)
 }
 
+/// A stream that reads one stream and writes another.
+///
+/// `(read-char (make-two-way-stream (make-string-input-stream "a") (make-broadcast-stream)))` => `#\a`
+#[builtin(_, "input output")]
 fn make_two_way_stream(image: &mut Image, args: &[Value]) -> Outcome {
     two_way(image, args, false)
 }
 
+/// A stream that writes what it reads to another.
+///
+/// `(let* ((out (make-string-output-stream)) (s (make-echo-stream (make-string-input-stream "ab") out))) (read-char s) (get-output-stream-string out))` => `"a"`
+#[builtin(_, "input output")]
 fn make_echo_stream(image: &mut Image, args: &[Value]) -> Outcome {
     two_way(image, args, true)
 }
 
-fn make_synonym_stream(_: &mut Image, args: &[Value]) -> Outcome {
-    let symbol = super::property_lists::symbol(&args[0])?;
+/// A stream that stands for the value of a variable.
+///
+/// `(streamp (make-synonym-stream '*standard-output*))` => `T`
+#[builtin]
+fn make_synonym_stream(symbol: Sym) -> Outcome {
     Ok(made(Stream::new(StreamKind::Synonym { symbol })))
 }
 
@@ -129,7 +170,7 @@ fn stream_list(streams: &[Rc<Stream>]) -> Value {
 }
 
 /// The parts of a combined stream, as a list.
-fn components(value: &Value) -> Result<Value, Box<Raise>> {
+fn components(value: &Value) -> Outcome {
     match &*stream_of(value)?.kind.borrow() {
         StreamKind::Broadcast { targets } => Ok(stream_list(targets)),
         StreamKind::Concatenated { inputs, .. } => Ok(stream_list(inputs)),
@@ -141,160 +182,89 @@ fn components(value: &Value) -> Result<Value, Box<Raise>> {
     }
 }
 
-fn all_components(_: &mut Image, args: &[Value]) -> Outcome {
-    components(&args[0])
+/// The streams that a broadcast stream writes to.
+///
+/// `(broadcast-stream-streams (make-broadcast-stream))` => `NIL`
+#[builtin("BROADCAST-STREAM-STREAMS")]
+fn all_components(stream: &Value) -> Outcome {
+    components(stream)
 }
 
-fn first_component(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(components(&args[0])?.car_or_nil())
+/// The stream that is read.
+///
+/// `(streamp (two-way-stream-input-stream *terminal-io*))` => `T`
+#[builtin("TWO-WAY-STREAM-INPUT-STREAM")]
+fn first_component(stream: &Value) -> Outcome {
+    Ok(components(stream)?.car_or_nil())
 }
 
-fn second_component(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(components(&args[0])?.cdr_or_nil().car_or_nil())
+/// The stream that is written.
+///
+/// `(streamp (two-way-stream-output-stream *terminal-io*))` => `T`
+#[builtin("TWO-WAY-STREAM-OUTPUT-STREAM")]
+fn second_component(stream: &Value) -> Outcome {
+    Ok(components(stream)?.cdr_or_nil().car_or_nil())
 }
 
-fn stream_file(_: &mut Image, args: &[Value]) -> Outcome {
-    let file = &stream_of(&args[0])?.file;
+/// The name of the file that a stream reads or writes, or `NIL`.
+///
+/// `(system::%stream-file *standard-input*)` => `NIL`
+#[builtin("%STREAM-FILE")]
+fn stream_file(stream: &Rc<Stream>) -> Outcome {
+    let file = &stream.file;
     Ok(file.as_deref().map_or(Value::NIL, Value::string))
 }
 
+/// The streams that a concatenated stream has still to read.
+///
+/// `(concatenated-stream-streams (make-concatenated-stream))` => `NIL`
+#[builtin]
+fn concatenated_stream_streams(stream: &Value) -> Outcome {
+    all_components(stream)
+}
+
+/// The stream that is read.
+///
+/// `(streamp (echo-stream-input-stream (make-echo-stream *standard-input* *standard-output*)))` => `T`
+#[builtin]
+fn echo_stream_input_stream(stream: &Value) -> Outcome {
+    first_component(stream)
+}
+
+/// The stream that is written.
+///
+/// `(streamp (echo-stream-output-stream (make-echo-stream *standard-input* *standard-output*)))` => `T`
+#[builtin]
+fn echo_stream_output_stream(stream: &Value) -> Outcome {
+    second_component(stream)
+}
+
+/// The variable that a synonym stream stands for.
+///
+/// `(synonym-stream-symbol (make-synonym-stream '*x*))` => `*X*`
+#[builtin]
+fn synonym_stream_symbol(stream: &Value) -> Outcome {
+    first_component(stream)
+}
+
 /// Making and combining streams.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "MAKE-STRING-OUTPUT-STREAM",
-        "&key element-type",
-        "A stream that collects what is written.",
-        &[
-            "(let ((s (make-string-output-stream))) (princ 1 s) (get-output-stream-string s)) => \"1\"",
-        ],
-        make_string_output_stream,
-    ),
-    pure(
-        "GET-OUTPUT-STREAM-STRING",
-        "stream",
-        "Takes the text that a string output stream has collected.",
-        &["(get-output-stream-string (make-string-output-stream)) => \"\""],
-        get_output_stream_string,
-    ),
-    pure(
-        "MAKE-STRING-INPUT-STREAM",
-        "string &optional start end",
-        "A stream that gives the characters of a string.",
-        &["(read-char (make-string-input-stream \"abc\" 1)) => #\\b"],
-        make_string_input_stream,
-    ),
-    pure(
-        "MAKE-BROADCAST-STREAM",
-        "&rest streams",
-        "A stream that writes to several others.",
-        &["(princ 1 (make-broadcast-stream)) => 1"],
-        make_broadcast_stream,
-    ),
-    pure(
-        "MAKE-CONCATENATED-STREAM",
-        "&rest streams",
-        "A stream that reads several others one after the other.",
-        &[
-            "(read-line (make-concatenated-stream (make-string-input-stream \"a\") (make-string-input-stream \"b\"))) => \"ab\" ; T",
-        ],
-        make_concatenated_stream,
-    ),
-    pure(
-        "MAKE-TWO-WAY-STREAM",
-        "input output",
-        "A stream that reads one stream and writes another.",
-        &[
-            "(read-char (make-two-way-stream (make-string-input-stream \"a\") (make-broadcast-stream))) => #\\a",
-        ],
-        make_two_way_stream,
-    ),
-    pure(
-        "MAKE-ECHO-STREAM",
-        "input output",
-        "A stream that writes what it reads to another.",
-        &[
-            "(let* ((out (make-string-output-stream)) (s (make-echo-stream (make-string-input-stream \"ab\") out))) (read-char s) (get-output-stream-string out)) => \"a\"",
-        ],
-        make_echo_stream,
-    ),
-    pure(
-        "MAKE-SYNONYM-STREAM",
-        "symbol",
-        "A stream that stands for the value of a variable.",
-        &["(streamp (make-synonym-stream '*standard-output*)) => T"],
-        make_synonym_stream,
-    ),
-    pure(
-        "BROADCAST-STREAM-STREAMS",
-        "stream",
-        "The streams that a broadcast stream writes to.",
-        &["(broadcast-stream-streams (make-broadcast-stream)) => NIL"],
-        all_components,
-    ),
-    pure(
-        "CONCATENATED-STREAM-STREAMS",
-        "stream",
-        "The streams that a concatenated stream has still to read.",
-        &["(concatenated-stream-streams (make-concatenated-stream)) => NIL"],
-        all_components,
-    ),
-    pure(
-        "TWO-WAY-STREAM-INPUT-STREAM",
-        "stream",
-        "The stream that is read.",
-        &["(streamp (two-way-stream-input-stream *terminal-io*)) => T"],
-        first_component,
-    ),
-    pure(
-        "TWO-WAY-STREAM-OUTPUT-STREAM",
-        "stream",
-        "The stream that is written.",
-        &["(streamp (two-way-stream-output-stream *terminal-io*)) => T"],
-        second_component,
-    ),
-    pure(
-        "ECHO-STREAM-INPUT-STREAM",
-        "stream",
-        "The stream that is read.",
-        &[
-            "(streamp (echo-stream-input-stream (make-echo-stream *standard-input* *standard-output*))) => T",
-        ],
-        first_component,
-    ),
-    pure(
-        "ECHO-STREAM-OUTPUT-STREAM",
-        "stream",
-        "The stream that is written.",
-        &[
-            "(streamp (echo-stream-output-stream (make-echo-stream *standard-input* *standard-output*))) => T",
-        ],
-        second_component,
-    ),
-    pure(
-        "SYNONYM-STREAM-SYMBOL",
-        "stream",
-        "The variable that a synonym stream stands for.",
-        &["(synonym-stream-symbol (make-synonym-stream '*x*)) => *X*"],
-        first_component,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    make_string_output_stream,
+    get_output_stream_string,
+    make_string_input_stream,
+    make_broadcast_stream,
+    make_concatenated_stream,
+    make_two_way_stream,
+    make_echo_stream,
+    make_synonym_stream,
+    all_components,
+    concatenated_stream_streams,
+    first_component,
+    second_component,
+    echo_stream_input_stream,
+    echo_stream_output_stream,
+    synonym_stream_symbol,
 ];
 
 /// What expansions call; in `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%MAKE-FILL-POINTER-STREAM",
-        "string",
-        "A stream that appends to a string with a fill pointer.",
-        &[
-            "(streamp (system::%make-fill-pointer-stream (make-array 0 :element-type 'character :fill-pointer 0))) => T",
-        ],
-        make_fill_pointer_stream,
-    ),
-    pure(
-        "%STREAM-FILE",
-        "stream",
-        "The name of the file that a stream reads or writes, or `NIL`.",
-        &["(system::%stream-file *standard-input*) => NIL"],
-        stream_file,
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![make_fill_pointer_stream, stream_file,];

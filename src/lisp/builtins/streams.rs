@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use super::keywords;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Elements, Stream, StreamKind};
+use crate::typed::keywords;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::sequence::character;
 use crate::value::symbol::Sym;
 use crate::vm::step::Step;
 
@@ -38,36 +38,59 @@ pub(crate) fn or_method(
     }
 }
 
-fn streamp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(match &args[0] {
+/// Is the object a stream?
+///
+/// `(streamp *standard-output*)` => `T`
+#[builtin]
+fn streamp(object: &Value) -> bool {
+    match object {
         Value::Stream(_) => true,
         Value::Instance(instance) => instance.is_a(known::STREAM),
         _ => false,
-    }))
+    }
 }
 
-fn input_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+/// Can the stream be read?
+///
+/// `(input-stream-p (make-string-input-stream "x"))` => `T`
+#[builtin]
+fn input_stream_p(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream)?;
     Ok(Value::bool(stream.is_input()))
 }
 
-fn output_stream_p(image: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream::followed(image, stream_of(&args[0])?)?;
+/// Can the stream be written?
+///
+/// `(output-stream-p (make-string-input-stream "x"))` => `NIL`
+#[builtin]
+fn output_stream_p(image: &mut Image, stream: &Rc<Stream>) -> Outcome {
+    let stream = stream::followed(image, stream)?;
     Ok(Value::bool(stream.is_output()))
 }
 
-fn interactive_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
-    stream_of(&args[0]).map(|_| Value::NIL)
+/// Is somebody at the other end?
+///
+/// `(interactive-stream-p *standard-input*)` => `NIL`
+#[builtin]
+fn interactive_stream_p(stream: &Value) -> Outcome {
+    stream_of(stream).map(|_| Value::NIL)
 }
 
-fn open_stream_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let stream = stream_of(&args[0])?;
+/// Is the stream open?
+///
+/// `(open-stream-p (make-string-input-stream "x"))` => `T`
+#[builtin]
+fn open_stream_p(stream: &Rc<Stream>) -> bool {
     let open = !matches!(&*stream.kind.borrow(), StreamKind::Closed);
-    Ok(Value::bool(open))
+    open
 }
 
-fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(match stream_of(&args[0])?.elements {
+/// The type of what the stream carries.
+///
+/// `(stream-element-type (make-string-input-stream "x"))` => `CHARACTER`
+#[builtin]
+fn stream_element_type(stream: &Rc<Stream>) -> Outcome {
+    Ok(match stream.elements {
         Elements::Characters => known::CHARACTER.into(),
         Elements::Integers { bits, signed } => {
             let name = if signed {
@@ -80,27 +103,42 @@ fn stream_element_type(_: &mut Image, args: &[Value]) -> Outcome {
     })
 }
 
-fn external_format(image: &mut Image, args: &[Value]) -> Outcome {
-    stream_of(&args[0])?;
+/// How characters are encoded in files: UTF-8.
+///
+/// `(stream-external-format (make-string-input-stream "x"))` => `:DEFAULT`
+#[builtin("STREAM-EXTERNAL-FORMAT")]
+fn external_format(image: &mut Image, _stream: &Rc<Stream>) -> Outcome {
     Ok(image.keyword("DEFAULT").into())
 }
 
+/// Closes a stream; was it open?
+///
+/// `(close (make-string-input-stream "x"))` => `T`
+#[builtin(_, "stream &key abort")]
 fn close(image: &mut Image, args: &[Value]) -> Outcome {
     keywords::parse(image, &args[1..], [known::K_ABORT])?;
     stream::close(stream_of(&args[0])?).map(Value::bool)
 }
 
-/// Flushes the buffer of a file stream.
-fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
-    let target = args.first().unwrap_or(&Value::NIL);
+/// Writes out what is held back.
+///
+/// `(finish-output)` => `NIL`
+// Flushes the buffer of a file stream.
+#[builtin]
+fn finish_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    let target = stream.unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
     stream::flush(&stream)?;
     image.output.finish();
     Ok(Value::NIL)
 }
 
-fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::input_stream(image, args.first().unwrap_or(&Value::NIL))?;
+/// Does nothing: no input waits.
+///
+/// `(clear-input)` => `NIL`
+#[builtin]
+fn clear_input(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    stream::input_stream(image, stream.unwrap_or(&Value::NIL))?;
     Ok(Value::NIL)
 }
 
@@ -123,20 +161,42 @@ pub fn at_end(
     .with(known::K_STREAM, stream))
 }
 
-fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+/// Reads a character.
+///
+/// `(read-char (make-string-input-stream "abc"))` => `#\a`
+#[builtin]
+fn read_char(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     match stream::read_char(image, source)? {
         Some(c) => Ok(Value::Char(c)),
-        None => at_end(image, args.first(), args.get(1), args.get(2)),
+        None => at_end(image, stream, eof_error_p, eof_value),
     }
 }
 
-/// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
-/// before it.
-fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.get(1).unwrap_or(&Value::NIL);
+/// Looks at the next character; with `T` the next that is not blank, with a character the next such
+/// one.
+///
+/// `(peek-char t (make-string-input-stream "  x"))` => `#\x`
+// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
+// before it.
+#[builtin]
+fn peek_char(
+    image: &mut Image,
+    type_: Option<&Value>,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     while let Some(c) = stream::peek_char(image, source)? {
-        let skipped = match args.first() {
+        let skipped = match type_ {
             Some(Value::Symbol(known::T, ..)) => c.is_whitespace(),
             Some(Value::Char(wanted)) => c != *wanted,
             _ => false,
@@ -146,17 +206,25 @@ fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
         }
         stream::advance(image, source, c.len_utf8())?;
     }
-    at_end(image, args.get(1), args.get(2), args.get(3))
+    at_end(image, stream, eof_error_p, eof_value)
 }
 
-fn unread_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    stream::unread_char(image, args.get(1).unwrap_or(&Value::NIL), c)?;
+/// Gives the character back that was read last.
+///
+/// `(let ((s (make-string-input-stream "ab"))) (unread-char (read-char s) s) (read-char s))` => `#\a`
+#[builtin]
+fn unread_char(image: &mut Image, character: char, stream: Option<&Value>) -> Outcome {
+    let c = character;
+    stream::unread_char(image, stream.unwrap_or(&Value::NIL), c)?;
     Ok(Value::NIL)
 }
 
-fn listen(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+/// Is there a character to read?
+///
+/// `(listen (make-string-input-stream ""))` => `NIL`
+#[builtin]
+fn listen(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     // Nobody is asked.
     if stream::is_standard_input(image, source) {
         return Ok(Value::bool(!image.input.unread().is_empty()));
@@ -164,12 +232,22 @@ fn listen(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(stream::peek_char(image, source)?.is_some()))
 }
 
-fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
-    let source = args.first().unwrap_or(&Value::NIL);
+/// Reads a line; the second value tells whether it ended without a newline.
+///
+/// `(read-line (make-string-input-stream "only"))` => `"only" ; T`
+#[builtin]
+fn read_line(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    _recursive_p: Option<&Value>,
+) -> Outcome {
+    let source = stream.unwrap_or(&Value::NIL);
     let (text, from) = stream::rest(image, source)?;
     let rest = text.get(from..).unwrap_or("");
     if rest.is_empty() {
-        let value = at_end(image, args.first(), args.get(1), args.get(2))?;
+        let value = at_end(image, stream, eof_error_p, eof_value)?;
         return Ok(Value::values(vec![value, Value::T]));
     }
     let (line, ended) = match rest.split_once('\n') {
@@ -183,134 +261,54 @@ fn read_line(image: &mut Image, args: &[Value]) -> Outcome {
     ]))
 }
 
+/// Writes out what is held back.
+///
+/// `(force-output)` => `NIL`
+#[builtin]
+fn force_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    finish_output(image, stream)
+}
+
+/// Does nothing: all output is written.
+///
+/// `(clear-output)` => `NIL`
+#[builtin]
+fn clear_output(image: &mut Image, stream: Option<&Value>) -> Outcome {
+    finish_output(image, stream)
+}
+
+/// Reads a character.
+///
+/// `(read-char-no-hang (make-string-input-stream "abc"))` => `#\a`
+#[builtin]
+fn read_char_no_hang(
+    image: &mut Image,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    recursive_p: Option<&Value>,
+) -> Outcome {
+    read_char(image, stream, eof_error_p, eof_value, recursive_p)
+}
+
 /// Streams.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "STREAMP",
-        "object",
-        "Is the object a stream?",
-        &["(streamp *standard-output*) => T"],
-        streamp,
-    ),
-    pure(
-        "INPUT-STREAM-P",
-        "stream",
-        "Can the stream be read?",
-        &["(input-stream-p (make-string-input-stream \"x\")) => T"],
-        input_stream_p,
-    ),
-    pure(
-        "OUTPUT-STREAM-P",
-        "stream",
-        "Can the stream be written?",
-        &["(output-stream-p (make-string-input-stream \"x\")) => NIL"],
-        output_stream_p,
-    ),
-    pure(
-        "INTERACTIVE-STREAM-P",
-        "stream",
-        "Is somebody at the other end?",
-        &["(interactive-stream-p *standard-input*) => NIL"],
-        interactive_stream_p,
-    ),
-    pure(
-        "OPEN-STREAM-P",
-        "stream",
-        "Is the stream open?",
-        &["(open-stream-p (make-string-input-stream \"x\")) => T"],
-        open_stream_p,
-    ),
-    pure(
-        "STREAM-ELEMENT-TYPE",
-        "stream",
-        "The type of what the stream carries.",
-        &["(stream-element-type (make-string-input-stream \"x\")) => CHARACTER"],
-        stream_element_type,
-    ),
-    pure(
-        "STREAM-EXTERNAL-FORMAT",
-        "stream",
-        "How characters are encoded in files: UTF-8.",
-        &["(stream-external-format (make-string-input-stream \"x\")) => :DEFAULT"],
-        external_format,
-    ),
-    pure(
-        "CLOSE",
-        "stream &key abort",
-        "Closes a stream; was it open?",
-        &["(close (make-string-input-stream \"x\")) => T"],
-        close,
-    ),
-    pure(
-        "FINISH-OUTPUT",
-        "&optional stream",
-        "Writes out what is held back.",
-        &["(finish-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "FORCE-OUTPUT",
-        "&optional stream",
-        "Writes out what is held back.",
-        &["(force-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "CLEAR-OUTPUT",
-        "&optional stream",
-        "Does nothing: all output is written.",
-        &["(clear-output) => NIL"],
-        finish_output,
-    ),
-    pure(
-        "CLEAR-INPUT",
-        "&optional stream",
-        "Does nothing: no input waits.",
-        &["(clear-input) => NIL"],
-        clear_input,
-    ),
-    pure(
-        "READ-CHAR",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a character.",
-        &["(read-char (make-string-input-stream \"abc\")) => #\\a"],
-        read_char,
-    ),
-    pure(
-        "READ-CHAR-NO-HANG",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a character.",
-        &["(read-char-no-hang (make-string-input-stream \"abc\")) => #\\a"],
-        read_char,
-    ),
-    pure(
-        "PEEK-CHAR",
-        "&optional type stream eof-error-p eof-value recursive-p",
-        "Looks at the next character; with `T` the next that is not blank, with a character the next such one.",
-        &["(peek-char t (make-string-input-stream \"  x\")) => #\\x"],
-        peek_char,
-    ),
-    pure(
-        "UNREAD-CHAR",
-        "character &optional stream",
-        "Gives the character back that was read last.",
-        &[
-            "(let ((s (make-string-input-stream \"ab\"))) (unread-char (read-char s) s) (read-char s)) => #\\a",
-        ],
-        unread_char,
-    ),
-    pure(
-        "LISTEN",
-        "&optional stream",
-        "Is there a character to read?",
-        &["(listen (make-string-input-stream \"\")) => NIL"],
-        listen,
-    ),
-    pure(
-        "READ-LINE",
-        "&optional stream eof-error-p eof-value recursive-p",
-        "Reads a line; the second value tells whether it ended without a newline.",
-        &["(read-line (make-string-input-stream \"only\")) => \"only\" ; T"],
-        read_line,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    streamp,
+    input_stream_p,
+    output_stream_p,
+    interactive_stream_p,
+    open_stream_p,
+    stream_element_type,
+    external_format,
+    close,
+    finish_output,
+    force_output,
+    clear_output,
+    clear_input,
+    read_char,
+    read_char_no_hang,
+    peek_char,
+    unread_char,
+    listen,
+    read_line,
 ];

@@ -2,46 +2,72 @@
 
 use super::property_lists::symbol;
 use super::strings::string;
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::index;
+use crate::value::string::LispString;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::vm::callable::callable;
+use std::rc::Rc;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-fn symbolp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(args[0].as_symbol().is_some()))
+/// Is the object a symbol?
+///
+/// `(symbolp 'a)` => `T`
+#[builtin]
+fn symbolp(object: &Value) -> bool {
+    object.as_symbol().is_some()
 }
 
-fn keywordp(image: &mut Image, args: &[Value]) -> Outcome {
-    let is = args[0].as_symbol().is_some_and(|s| image.is_keyword(s));
-    Ok(Value::bool(is))
+/// Is the object a keyword?
+///
+/// `(keywordp :a)` => `T`
+#[builtin]
+fn keywordp(image: &mut Image, object: &Value) -> bool {
+    let is = object.as_symbol().is_some_and(|s| image.is_keyword(s));
+    is
 }
 
-fn symbol_name(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::string(image.name(symbol(&args[0])?)))
+/// A symbol's name.
+///
+/// `(symbol-name 'foo)` => `"FOO"`
+#[builtin]
+fn symbol_name(image: &mut Image, symbol: Sym) -> Outcome {
+    Ok(Value::string(image.name(symbol)))
 }
 
-fn symbol_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = image.symbol(symbol(&args[0])?).package;
+/// A symbol's home package, or `NIL`.
+///
+/// `(symbol-package 'car)` => `#<PACKAGE "COMMON-LISP">`
+#[builtin]
+fn symbol_package(image: &mut Image, symbol: Sym) -> Outcome {
+    let package = image.symbol(symbol).package;
     Ok(package.map_or(Value::NIL, Value::Package))
 }
 
-fn make_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
+/// A fresh symbol without a package.
+///
+/// `(make-symbol "A")` => `#:A`
+#[builtin]
+fn make_symbol(image: &mut Image, name: &Rc<LispString>) -> Outcome {
+    let name = name.text();
     Ok(image.symbols.make_passing(name.into()))
 }
 
-fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let from = symbol(&args[0])?;
+/// A fresh symbol of the same name without a package.
+///
+/// `(copy-symbol 'foo)` => `#:FOO`
+#[builtin(_, "symbol &optional copy-properties")]
+fn copy_symbol(image: &mut Image, from: Sym, #[default(false)] copy_properties: bool) -> Outcome {
     let name = image.name(from).to_owned();
     let copy = image.symbols.make_passing(name.into());
-    if args.get(1).is_some_and(Value::is_true) {
+    if copy_properties {
         let data = image.symbol(from);
         let (value, function, plist, kind) = (
             data.value.clone(),
@@ -58,8 +84,12 @@ fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(copy)
 }
 
-fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = match args.first() {
+/// A fresh symbol without a package, with a number in its name.
+///
+/// `(symbol-package (gensym))` => `NIL`
+#[builtin(_, "&optional prefix")]
+fn gensym(image: &mut Image, prefix_value: Option<&Value>) -> Outcome {
+    let name = match prefix_value {
         None => image.fresh_name("G"),
         Some(Value::Str(prefix)) => image.fresh_name(&prefix.text()),
         Some(number) => format!("G{}", index(number)?),
@@ -67,13 +97,21 @@ fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(image.symbols.make_passing(name.into()))
 }
 
-/// A fresh symbol of the current package; names are counted from 1 for each prefix.
-fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
-    let prefix = match args.first() {
+/// A symbol whose name was not taken.
+///
+/// `(symbolp (gentemp "NEW"))` => `T`
+// A fresh symbol of the current package; names are counted from 1 for each prefix.
+#[builtin(_, "&optional prefix package")]
+fn gentemp(
+    image: &mut Image,
+    prefix_value: Option<&Value>,
+    package_value: Option<&Value>,
+) -> Outcome {
+    let prefix = match prefix_value {
         Some(prefix) => string(prefix)?.text(),
         None => "T".to_owned(),
     };
-    let package = match args.get(1) {
+    let package = match package_value {
         Some(package) => super::packages::designated(image, package)?,
         None => image.current_package(),
     };
@@ -87,13 +125,21 @@ fn gentemp(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn boundp(image: &mut Image, args: &[Value]) -> Outcome {
-    let bound = !image.special(symbol(&args[0])?).is_unbound();
-    Ok(Value::bool(bound))
+/// Has the symbol a value as a global variable?
+///
+/// `(boundp 'pi)` => `T`
+#[builtin]
+fn boundp(image: &mut Image, symbol: Sym) -> bool {
+    let bound = !image.special(symbol).is_unbound();
+    bound
 }
 
-fn symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
+/// The value of a global variable.
+///
+/// `(symbol-value :a)` => `:A`
+#[builtin]
+fn symbol_value(image: &mut Image, symbol: Sym) -> Outcome {
+    let sym = symbol;
     match image.special(sym) {
         Value::Unbound => Err(Raise::unbound_variable(sym)),
         value => Ok(value.clone()),
@@ -111,33 +157,52 @@ fn assign(image: &mut Image, sym: Sym, value: &Value) -> Outcome {
     Ok(value.clone())
 }
 
-fn set(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[0])?, &args[1])
+/// Assigns a global variable.
+///
+/// `(progn (set 'set-example 6) (symbol-value 'set-example))` => `6`
+#[builtin]
+fn set(image: &mut Image, symbol: Sym, value: &Value) -> Outcome {
+    assign(image, symbol, value)
 }
 
-fn set_symbol_value(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[1])?, &args[0])
+/// Assigns a global variable.
+#[builtin("SYMBOL-VALUE")]
+fn set_symbol_value(image: &mut Image, value: &Value, symbol: Sym) -> Outcome {
+    assign(image, symbol, value)
 }
 
-fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
-    assign(image, symbol(&args[0])?, &Value::Unbound)?;
-    Ok(args[0].clone())
+/// Takes a global variable's value away.
+///
+/// `(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example))` => `NIL`
+#[builtin(_, "symbol")]
+fn makunbound(image: &mut Image, symbol_value: &Value) -> Outcome {
+    assign(image, symbol(symbol_value)?, &Value::Unbound)?;
+    Ok(symbol_value.clone())
 }
 
-/// Does a form always have the same value: is it a constant, a quoted object, or something that
-/// evaluates to itself?
-fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
-    let constant = match &args[0] {
+/// Does the form always have the same value?
+///
+/// `(constantp :a)` => `T`
+/// `(constantp 'x)` => `NIL`
+// Does a form always have the same value: is it a constant, a quoted object, or something that
+// evaluates to itself?
+#[builtin]
+fn constantp(image: &mut Image, form: &Value, _environment: Option<&Value>) -> bool {
+    let constant = match form {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE, ..)),
         _ => true,
     };
-    Ok(Value::bool(constant))
+    constant
 }
 
-fn compiled_function_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let is_compiled = matches!(&args[0], Value::Function(f) if !matches!(f.body, Body::Generic(_)));
-    Ok(Value::bool(is_compiled))
+/// Is the object a function that is not generic? All of these are compiled.
+///
+/// `(compiled-function-p #'car)` => `T`
+#[builtin]
+fn compiled_function_p(object: &Value) -> bool {
+    let is_compiled = matches!(object, Value::Function(f) if !matches!(f.body, Body::Generic(_)));
+    is_compiled
 }
 
 /// A symbol, or the place name in `(setf name)`.
@@ -160,17 +225,25 @@ fn function_name(value: &Value) -> Result<FunctionName, Box<Raise>> {
     }
 }
 
-fn fboundp(image: &mut Image, args: &[Value]) -> Outcome {
-    let bound = match function_name(&args[0])? {
+/// Names this a function, macro or special operator?
+///
+/// `(fboundp 'car)` => `T`
+#[builtin]
+fn fboundp(image: &mut Image, name: &Value) -> Outcome {
+    let bound = match function_name(name)? {
         FunctionName::Plain(sym) => !matches!(image.symbol(sym).function, FunctionCell::Unbound),
         FunctionName::Setf(sym) => image.symbol(sym).setf_function.is_some(),
     };
     Ok(Value::bool(bound))
 }
 
-fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
-    let undefined = || Raise::undefined_function(args[0].clone());
-    match function_name(&args[0])? {
+/// The function of a name.
+///
+/// `(funcall (fdefinition 'car) '(1))` => `1`
+#[builtin]
+fn fdefinition(image: &mut Image, name: &Value) -> Outcome {
+    let undefined = || Raise::undefined_function(name.clone());
+    match function_name(name)? {
         FunctionName::Plain(sym) => match &image.symbol(sym).function {
             FunctionCell::Function(function) | FunctionCell::Macro(function) => {
                 Ok(Value::Function(function.clone()))
@@ -193,33 +266,49 @@ fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn symbol_function(image: &mut Image, args: &[Value]) -> Outcome {
-    symbol(&args[0])?;
-    fdefinition(image, args)
+/// The function that a symbol names.
+///
+/// `(funcall (symbol-function 'car) '(1))` => `1`
+#[builtin]
+fn symbol_function(image: &mut Image, symbol: &Value) -> Outcome {
+    if symbol.as_symbol().is_none() {
+        return Err(Raise::type_error(symbol, known::SYMBOL));
+    }
+    fdefinition(image, symbol)
 }
 
-fn set_fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Function(function) = callable(image, &args[0])? else {
-        return Err(Raise::type_error(&args[0], known::FUNCTION));
+/// Sets the function that a symbol names.
+#[builtin("SYMBOL-FUNCTION")]
+fn set_fdefinition(image: &mut Image, value: &Value, symbol: &Value) -> Outcome {
+    let Value::Function(function) = callable(image, value)? else {
+        return Err(Raise::type_error(value, known::FUNCTION));
     };
-    match function_name(&args[1])? {
+    match function_name(symbol)? {
         FunctionName::Plain(sym) => image.set_function(sym, function),
         FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = Some(function),
     }
-    Ok(args[0].clone())
+    Ok(value.clone())
 }
 
-fn fmakunbound(image: &mut Image, args: &[Value]) -> Outcome {
-    match function_name(&args[0])? {
+/// Takes a name's function away.
+///
+/// `(fmakunbound 'no-such-function)` => `NO-SUCH-FUNCTION`
+#[builtin]
+fn fmakunbound(image: &mut Image, name: &Value) -> Outcome {
+    match function_name(name)? {
         FunctionName::Plain(sym) => image.symbols.get_mut(sym).function = FunctionCell::Unbound,
         FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = None,
     }
-    Ok(args[0].clone())
+    Ok(name.clone())
 }
 
-fn intern(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let package = super::packages::or_current(image, args.get(1))?;
+/// The symbol of a name, made if need be, and how it was accessible.
+///
+/// `(intern "SVREF")` => `SVREF ; :INHERITED`
+#[builtin]
+fn intern(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>) -> Outcome {
+    let name = name.text();
+    let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
     let sym = match found {
         Some((sym, _)) => sym,
@@ -229,9 +318,13 @@ fn intern(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(vec![sym.into(), status]))
 }
 
-fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
-    let name = string(&args[0])?.text();
-    let package = super::packages::or_current(image, args.get(1))?;
+/// The symbol of a name, and how it is accessible, or `NIL`.
+///
+/// `(find-symbol "CAR" :cl)` => `CAR ; :EXTERNAL`
+#[builtin]
+fn find_symbol(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>) -> Outcome {
+    let name = name.text();
+    let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
     Ok(Value::values(vec![
         found.map_or(Value::NIL, |(sym, _)| sym.into()),
@@ -239,173 +332,36 @@ fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     ]))
 }
 
+/// Sets the function of a name.
+#[builtin("FDEFINITION")]
+fn set_fdefinition_builtin(image: &mut Image, value: &Value, symbol: &Value) -> Outcome {
+    set_fdefinition(image, value, symbol)
+}
+
 /// Symbols.
-pub static TABLE: &[Builtin] = &[
-    pure(
-        "SYMBOLP",
-        "object",
-        "Is the object a symbol?",
-        &["(symbolp 'a) => T"],
-        symbolp,
-    ),
-    pure(
-        "KEYWORDP",
-        "object",
-        "Is the object a keyword?",
-        &["(keywordp :a) => T"],
-        keywordp,
-    ),
-    pure(
-        "SYMBOL-NAME",
-        "symbol",
-        "A symbol's name.",
-        &["(symbol-name 'foo) => \"FOO\""],
-        symbol_name,
-    ),
-    pure(
-        "SYMBOL-PACKAGE",
-        "symbol",
-        "A symbol's home package, or `NIL`.",
-        &["(symbol-package 'car) => #<PACKAGE \"COMMON-LISP\">"],
-        symbol_package,
-    ),
-    pure(
-        "MAKE-SYMBOL",
-        "name",
-        "A fresh symbol without a package.",
-        &["(make-symbol \"A\") => #:A"],
-        make_symbol,
-    ),
-    pure(
-        "COPY-SYMBOL",
-        "symbol &optional copy-properties",
-        "A fresh symbol of the same name without a package.",
-        &["(copy-symbol 'foo) => #:FOO"],
-        copy_symbol,
-    ),
-    pure(
-        "GENSYM",
-        "&optional prefix",
-        "A fresh symbol without a package, with a number in its name.",
-        &["(symbol-package (gensym)) => NIL"],
-        gensym,
-    ),
-    pure(
-        "GENTEMP",
-        "&optional prefix package",
-        "A symbol whose name was not taken.",
-        &["(symbolp (gentemp \"NEW\")) => T"],
-        gentemp,
-    ),
-    pure(
-        "BOUNDP",
-        "symbol",
-        "Has the symbol a value as a global variable?",
-        &["(boundp 'pi) => T"],
-        boundp,
-    ),
-    pure(
-        "SYMBOL-VALUE",
-        "symbol",
-        "The value of a global variable.",
-        &["(symbol-value :a) => :A"],
-        symbol_value,
-    ),
-    pure(
-        "SET",
-        "symbol value",
-        "Assigns a global variable.",
-        &["(progn (set 'set-example 6) (symbol-value 'set-example)) => 6"],
-        set,
-    ),
-    pure(
-        "MAKUNBOUND",
-        "symbol",
-        "Takes a global variable's value away.",
-        &[
-            "(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example)) => NIL",
-        ],
-        makunbound,
-    ),
-    pure(
-        "CONSTANTP",
-        "form &optional environment",
-        "Does the form always have the same value?",
-        &["(constantp :a) => T", "(constantp 'x) => NIL"],
-        constantp,
-    ),
-    pure(
-        "COMPILED-FUNCTION-P",
-        "object",
-        "Is the object a function that is not generic? All of these are compiled.",
-        &["(compiled-function-p #'car) => T"],
-        compiled_function_p,
-    ),
-    pure(
-        "FBOUNDP",
-        "name",
-        "Names this a function, macro or special operator?",
-        &["(fboundp 'car) => T"],
-        fboundp,
-    ),
-    pure(
-        "FDEFINITION",
-        "name",
-        "The function of a name.",
-        &["(funcall (fdefinition 'car) '(1)) => 1"],
-        fdefinition,
-    ),
-    pure(
-        "SYMBOL-FUNCTION",
-        "symbol",
-        "The function that a symbol names.",
-        &["(funcall (symbol-function 'car) '(1)) => 1"],
-        symbol_function,
-    ),
-    pure(
-        "FMAKUNBOUND",
-        "name",
-        "Takes a name's function away.",
-        &["(fmakunbound 'no-such-function) => NO-SUCH-FUNCTION"],
-        fmakunbound,
-    ),
-    pure(
-        "INTERN",
-        "name &optional package",
-        "The symbol of a name, made if need be, and how it was accessible.",
-        &["(intern \"SVREF\") => SVREF ; :INHERITED"],
-        intern,
-    ),
-    pure(
-        "FIND-SYMBOL",
-        "name &optional package",
-        "The symbol of a name, and how it is accessible, or `NIL`.",
-        &["(find-symbol \"CAR\" :cl) => CAR ; :EXTERNAL"],
-        find_symbol,
-    ),
+pub(crate) static TABLE: &[Builtin] = builtins![
+    symbolp,
+    keywordp,
+    symbol_name,
+    symbol_package,
+    make_symbol,
+    copy_symbol,
+    gensym,
+    gentemp,
+    boundp,
+    symbol_value,
+    set,
+    makunbound,
+    constantp,
+    compiled_function_p,
+    fboundp,
+    fdefinition,
+    symbol_function,
+    fmakunbound,
+    intern,
+    find_symbol,
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
-    pure(
-        "SYMBOL-VALUE",
-        "value symbol",
-        "Assigns a global variable.",
-        &[],
-        set_symbol_value,
-    ),
-    pure(
-        "SYMBOL-FUNCTION",
-        "value symbol",
-        "Sets the function that a symbol names.",
-        &[],
-        set_fdefinition,
-    ),
-    pure(
-        "FDEFINITION",
-        "value name",
-        "Sets the function of a name.",
-        &[],
-        set_fdefinition,
-    ),
-];
+pub(crate) static SETTERS: &[Builtin] =
+    builtins![set_symbol_value, set_fdefinition, set_fdefinition_builtin,];

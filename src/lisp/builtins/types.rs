@@ -1,8 +1,9 @@
 //! Builtins on types: `typep`, `subtypep`, `type-of`, `coerce`, `deftype`.
 
 use super::settled_types::element_type;
-use crate::builtin::{Builtin, control, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::types::asking;
 use crate::types::coerce::coerce;
 use crate::types::emptiness::is_subtype;
@@ -16,63 +17,57 @@ use crate::value::element_type::ElementType;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
+use crate::vm::machine::Machine;
+use crate::vm::step::Step;
 
-/// The builtins.
-pub static TABLE: &[Builtin] = &[
-    control(
-        "TYPEP",
-        "object type &optional environment",
-        "Is the object of the type?",
-        &[
-            "(typep 5 '(integer 0 10)) => T",
-            "(typep 4 '(satisfies oddp)) => NIL",
-        ],
-        |machine, args| asking::run(machine, "TYPEP", typep_operation, args),
-    ),
-    control(
-        "SUBTYPEP",
-        "type-1 type-2 &optional environment",
-        "Is every object of the first type one of the second? The second value tells whether the answer is certain.",
-        &[
-            "(subtypep 'integer 'number) => T ; T",
-            "(subtypep 'string 'number) => NIL ; T",
-        ],
-        |machine, args| asking::run(machine, "SUBTYPEP", subtypep_operation, args),
-    ),
-    pure(
-        "TYPE-OF",
-        "object",
-        "A type specifier that the object belongs to.",
-        &["(type-of 1.5) => SINGLE-FLOAT", "(type-of '(1)) => CONS"],
-        |image, args| Ok(type_of(image, &args[0])),
-    ),
-    control(
-        "COERCE",
-        "object result-type",
-        "Converts an object to an equivalent one of another type.",
-        &[
-            "(coerce 1/2 'float) => 0.5",
-            "(coerce '(1 2) 'vector) => #(1 2)",
-        ],
-        |machine, args| asking::run(machine, "COERCE", coerce_operation, args),
-    ),
-    pure(
-        "UPGRADED-ARRAY-ELEMENT-TYPE",
-        "type &optional environment",
-        "The element type that an array made for elements of the type really has.",
-        &["(upgraded-array-element-type 'symbol) => T"],
-        |image, args| element_type(image, &args[0]).map(ElementType::specifier),
-    ),
-];
+/// Is the object of the type?
+///
+/// `(typep 5 '(integer 0 10))` => `T`
+/// `(typep 4 '(satisfies oddp))` => `NIL`
+#[builtin(_, "object type &optional environment")]
+fn typep(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    asking::run(machine, "TYPEP", typep_operation, args)
+}
 
-/// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[pure(
-    "%DEFINE-TYPE",
-    "name expander alone",
-    "Defines a type whose specifiers the expander turns, from the list of their arguments, into others. The last argument is a list of what the name stands for by itself, if that is known.",
-    &[],
-    define_type,
-)];
+/// Is every object of the first type one of the second? The second value tells whether the answer
+/// is certain.
+///
+/// `(subtypep 'integer 'number)` => `T ; T`
+/// `(subtypep 'string 'number)` => `NIL ; T`
+#[builtin(_, "type-1 type-2 &optional environment")]
+fn subtypep(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    asking::run(machine, "SUBTYPEP", subtypep_operation, args)
+}
+
+/// A type specifier that the object belongs to.
+///
+/// `(type-of 1.5)` => `SINGLE-FLOAT`
+/// `(type-of '(1))` => `CONS`
+#[builtin("TYPE-OF")]
+fn type_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(type_of(image, object))
+}
+
+/// Converts an object to an equivalent one of another type.
+///
+/// `(coerce 1/2 'float)` => `0.5`
+/// `(coerce '(1 2) 'vector)` => `#(1 2)`
+#[builtin("COERCE", "object result-type")]
+fn coerce_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    asking::run(machine, "COERCE", coerce_operation, args)
+}
+
+/// The element type that an array made for elements of the type really has.
+///
+/// `(upgraded-array-element-type 'symbol)` => `T`
+#[builtin]
+fn upgraded_array_element_type(
+    image: &mut Image,
+    type_: &Value,
+    _environment: Option<&Value>,
+) -> Result<Value, Box<Raise>> {
+    element_type(image, type_).map(ElementType::specifier)
+}
 
 fn typep_operation(
     image: &mut Image,
@@ -144,8 +139,16 @@ fn coerce_operation(
     coerce(image, &args[0], &args[1], answers)
 }
 
-fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    match (&args[0], &args[1]) {
+/// Defines a type whose specifiers the expander turns, from the list of their arguments, into
+/// others. The last argument is a list of what the name stands for by itself, if that is known.
+#[builtin("%DEFINE-TYPE", "name expander alone")]
+fn define_type(
+    image: &mut Image,
+    name_value: &Value,
+    expander_value: &Value,
+    alone: &Value,
+) -> Result<Value, Box<Raise>> {
+    match (name_value, expander_value) {
         (Value::Symbol(name, ..), Value::Function(expander)) => {
             if image.class(*name).is_some() {
                 return Err(Raise::simple(format!(
@@ -154,12 +157,24 @@ fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
                 )));
             }
             image.types.insert(*name, expander.clone());
-            match &args[2] {
+            match alone {
                 Value::Cons(known) => image.type_names.insert(*name, known.car()),
                 _ => image.type_names.shift_remove(name),
             };
-            Ok(args[0].clone())
+            Ok(name_value.clone())
         }
         (name, _) => Err(Raise::type_error(name, Value::symbol(known::SYMBOL))),
     }
 }
+
+/// The builtins.
+pub(crate) static TABLE: &[Builtin] = builtins![
+    typep,
+    subtypep,
+    type_of_builtin,
+    coerce_builtin,
+    upgraded_array_element_type,
+];
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![define_type,];

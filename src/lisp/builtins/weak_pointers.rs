@@ -1,6 +1,7 @@
 //! Weak pointers: objects that refer to others without keeping them.
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::copy::Copier;
 use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
@@ -36,30 +37,29 @@ impl Foreign for WeakPointer {
     }
 }
 
+/// An object that refers to another one without keeping it.
+#[builtin("%MAKE-WEAK-POINTER")]
+fn make_weak_pointer(object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::foreign(WeakPointer(Some(Reference::to(object)))))
+}
+
+/// Is the object a weak pointer?
+///
+/// `(system::%weak-pointer-p 1)` => `NIL`
+#[builtin("%WEAK-POINTER-P")]
+fn weak_pointer_p(object: &Value) -> Result<Value, Box<Raise>> {
+    Ok(Value::bool(object.as_foreign::<WeakPointer>().is_some()))
+}
+
+/// The object to which a weak pointer refers; NIL if it is gone.
+#[builtin("%WEAK-POINTER-VALUE")]
+fn weak_pointer_value(weak_pointer: &Value) -> Result<Value, Box<Raise>> {
+    match weak_pointer.as_foreign::<WeakPointer>() {
+        Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
+        None => Err(Raise::type_error(weak_pointer, known::WEAK_POINTER)),
+    }
+}
+
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "%MAKE-WEAK-POINTER",
-        "object",
-        "An object that refers to another one without keeping it.",
-        &[],
-        |_, args| Ok(Value::foreign(WeakPointer(Some(Reference::to(&args[0]))))),
-    ),
-    pure(
-        "%WEAK-POINTER-P",
-        "object",
-        "Is the object a weak pointer?",
-        &["(system::%weak-pointer-p 1) => NIL"],
-        |_, args| Ok(Value::bool(args[0].as_foreign::<WeakPointer>().is_some())),
-    ),
-    pure(
-        "%WEAK-POINTER-VALUE",
-        "weak-pointer",
-        "The object to which a weak pointer refers; NIL if it is gone.",
-        &[],
-        |_, args| match args[0].as_foreign::<WeakPointer>() {
-            Some(pointer) => Ok(pointer.value().unwrap_or(Value::NIL)),
-            None => Err(Raise::type_error(&args[0], known::WEAK_POINTER)),
-        },
-    ),
-];
+pub(crate) static SYSTEM_TABLE: &[Builtin] =
+    builtins![make_weak_pointer, weak_pointer_p, weak_pointer_value,];

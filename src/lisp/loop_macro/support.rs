@@ -2,8 +2,9 @@
 
 use std::rc::Rc;
 
-use crate::builtin::{Builtin, pure};
+use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Vector;
 use crate::value::cons::Cons;
@@ -37,9 +38,13 @@ pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
     }
 }
 
-fn positive_step(_: &mut Image, args: &[Value]) -> Outcome {
-    check_positive(&args[0])?;
-    Ok(args[0].clone())
+/// The number, which must be greater than zero.
+///
+/// `(system::positive-step 2)` => `2`
+#[builtin]
+fn positive_step(number: &Value) -> Outcome {
+    check_positive(number)?;
+    Ok(number.clone())
 }
 
 fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
@@ -48,9 +53,13 @@ fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
         .ok_or_else(|| Raise::type_error(value, known::CONS))
 }
 
-fn extend_list(_: &mut Image, args: &[Value]) -> Outcome {
-    let tail = pair(&args[0])?;
-    let last = Value::cons(args[1].clone(), Value::NIL);
+/// Adds an element behind the last pair of a list; the new last pair.
+///
+/// `(system::extend-list (list 1) 2)` => `(2)`
+#[builtin]
+fn extend_list(last_pair: &Rc<Cons>, element: Value) -> Outcome {
+    let tail = last_pair;
+    let last = Value::cons(element, Value::NIL);
     tail.set_cdr(last.clone());
     Ok(last)
 }
@@ -62,25 +71,41 @@ fn join(tail: &Value, list: Value) -> Outcome {
     Ok(last.map_or_else(|| tail.clone(), Value::Cons))
 }
 
-fn extend_list_copying(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut iter = args[1].iter_list();
+/// Adds the elements of a list behind the last pair of a list; the new last pair.
+///
+/// `(system::extend-list-copying (list 1) '(2 3))` => `(3)`
+#[builtin]
+fn extend_list_copying(last_pair: &Value, list: &Value) -> Outcome {
+    let mut iter = list.iter_list();
     let items: Vec<Value> = iter.by_ref().collect();
-    join(&args[0], Value::list_with_tail(items, iter.rest))
+    join(last_pair, Value::list_with_tail(items, iter.rest))
 }
 
-fn extend_list_joining(_: &mut Image, args: &[Value]) -> Outcome {
-    join(&args[0], args[1].clone())
+/// Joins a list to the last pair of a list; the new last pair.
+///
+/// `(system::extend-list-joining (list 1) (list 2 3))` => `(3)`
+#[builtin]
+fn extend_list_joining(last_pair: &Value, list: Value) -> Outcome {
+    join(last_pair, list)
 }
 
-fn elements(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+/// The elements of a sequence as a list.
+///
+/// `(system::elements #(1 2))` => `(1 2)`
+#[builtin]
+fn elements(sequence: &Value) -> Outcome {
+    match sequence {
         list @ (Value::Cons(_) | Value::Symbol(known::NIL, ..)) => Ok(list.clone()),
         other => Ok(Value::list(Sequence::of(other)?.all()?)),
     }
 }
 
-fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
-    match &args[0] {
+/// The number of elements of a vector.
+///
+/// `(system::vector-length #(1 2))` => `2`
+#[builtin]
+fn vector_length(vector: &Value) -> Outcome {
+    match vector {
         Value::Vector(v) => Ok(Vector::len(v).into()),
         Value::Str(s) => Ok(s.len().into()),
         other => Err(Raise::type_error(other, known::VECTOR)),
@@ -88,47 +113,11 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Functions that loops call, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "EXTEND-LIST",
-        "last-pair element",
-        "Adds an element behind the last pair of a list; the new last pair.",
-        &["(system::extend-list (list 1) 2) => (2)"],
-        extend_list,
-    ),
-    pure(
-        "EXTEND-LIST-COPYING",
-        "last-pair list",
-        "Adds the elements of a list behind the last pair of a list; the new last pair.",
-        &["(system::extend-list-copying (list 1) '(2 3)) => (3)"],
-        extend_list_copying,
-    ),
-    pure(
-        "EXTEND-LIST-JOINING",
-        "last-pair list",
-        "Joins a list to the last pair of a list; the new last pair.",
-        &["(system::extend-list-joining (list 1) (list 2 3)) => (3)"],
-        extend_list_joining,
-    ),
-    pure(
-        "POSITIVE-STEP",
-        "number",
-        "The number, which must be greater than zero.",
-        &["(system::positive-step 2) => 2"],
-        positive_step,
-    ),
-    pure(
-        "ELEMENTS",
-        "sequence",
-        "The elements of a sequence as a list.",
-        &["(system::elements #(1 2)) => (1 2)"],
-        elements,
-    ),
-    pure(
-        "VECTOR-LENGTH",
-        "vector",
-        "The number of elements of a vector.",
-        &["(system::vector-length #(1 2)) => 2"],
-        vector_length,
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    extend_list,
+    extend_list_copying,
+    extend_list_joining,
+    positive_step,
+    elements,
+    vector_length,
 ];

@@ -197,6 +197,27 @@ pub const fn spare(number: u32) -> Sym {
     Sym(TABLE.len() as u32 + number)
 }
 
+/// The keyword of a name, if Rust code names it.
+pub(crate) const fn keyword(name: &str) -> Option<Sym> {
+    let mut number = 0;
+    while number < TABLE.len() {
+        let (package, known) = TABLE[number];
+        if package.0 == PackageTable::KEYWORD.0 && is_same(known.as_bytes(), name.as_bytes()) {
+            return Some(Sym(number as u32));
+        }
+        number += 1;
+    }
+    None
+}
+
+const fn is_same(a: &[u8], b: &[u8]) -> bool {
+    let mut index = 0;
+    while index < a.len() && index < b.len() && a[index] == b[index] {
+        index += 1;
+    }
+    index == a.len() && index == b.len()
+}
+
 /// Makes the known symbols in an empty table. `COMMON-LISP`'s are exported.
 pub(crate) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable) {
     for (package, name) in TABLE {

@@ -1,15 +1,15 @@
 //! Builtins for objects: spawning, moving, removing.
 
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_text_of};
 use cram::Reply;
 use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control};
-use lisp::builtins::keywords;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;

@@ -4,8 +4,8 @@ use crate::host::call::{done, host};
 use crate::person::Person;
 use cram::Reply;
 use lisp::builtin::{Builtin, control};
-use lisp::builtins::keywords;
 use lisp::image::Image;
+use lisp::typed::keywords;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 

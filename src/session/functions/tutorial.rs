@@ -1,8 +1,8 @@
 //! The functions of the tutorial's package that query or change the world.
 
 use super::objects::Spawning;
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::motions::side;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
 use crate::simulation::properties::property;
@@ -11,9 +11,9 @@ use cram::Reply;
 use cram::designator::value::current;
 use cram::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
 use lisp::builtin::{Builtin, control};
-use lisp::builtins::keywords::{self, optional};
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::keywords::{self, optional};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};

@@ -1,0 +1,494 @@
+//! The code that the macros make.
+
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+use syn::{Error, Ident, ItemFn, Path, Result, Type};
+
+use crate::attribute::Wording;
+use crate::doc::Doc;
+use crate::lambda_list;
+use crate::parameters::{Argument, Context, Parameters, Shape, names};
+
+/// The function, and the constant with its entry for the table.
+pub(crate) fn builtin(attribute: TokenStream, item: TokenStream) -> Result<TokenStream> {
+    let wording: Wording = syn::parse2(attribute)?;
+    let mut function: ItemFn = syn::parse2(item)?;
+    let parameters = Parameters::take(&mut function.sig)?;
+    let doc = Doc::of(&function.attrs);
+    if doc.text.is_empty() {
+        return Err(Error::new_spanned(
+            &function.sig.ident,
+            "a builtin has a doc comment, which is its documentation",
+        ));
+    }
+    let name = match &wording.name {
+        Some(name) => name.value(),
+        None => lisp_name(&function.sig.ident),
+    };
+    let lambda_list = match &wording.lambda_list {
+        Some(given) => {
+            if let Some(why) = lambda_list::mismatch(&given.value(), &parameters.arguments) {
+                return Err(Error::new(given.span(), why));
+            }
+            given.value()
+        }
+        None => lambda_list::of(&parameters.arguments),
+    };
+    let call = call(&function, &parameters, &name)?;
+    let entry = entry_name(&function.sig.ident);
+    let visibility = &function.vis;
+    let (text, examples) = (&doc.text, &doc.examples);
+    let about = format!("The entry of `{name}`.");
+    Ok(quote! {
+        #function
+
+        #[doc = #about]
+        #visibility const #entry: typed::Builtin = {
+            #call
+            typed::Builtin {
+                name: #name,
+                lambda_list: #lambda_list,
+                doc: #text,
+                examples: &[#(#examples),*],
+                call,
+            }
+        };
+    })
+}
+
+/// The entries of functions.
+pub(crate) fn builtins(mut functions: Vec<Path>) -> TokenStream {
+    for function in &mut functions {
+        if let Some(last) = function.segments.last_mut() {
+            last.ident = entry_name(&last.ident);
+        }
+    }
+    quote!(&[#(#functions),*])
+}
+
+/// `code_char` is `CODE-CHAR`.
+fn lisp_name(function: &Ident) -> String {
+    let name = function.to_string();
+    name.trim_start_matches("r#")
+        .replace('_', "-")
+        .to_uppercase()
+}
+
+/// The name of the constant for a function.
+fn entry_name(function: &Ident) -> Ident {
+    let name = function.to_string();
+    let name = name.trim_start_matches("r#").to_uppercase();
+    format_ident!("{name}_BUILTIN", span = function.span())
+}
+
+/// A function `wrapper` as the machine calls it, and the constant `call` of it.
+fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenStream> {
+    let ident = &function.sig.ident;
+    let is_async = function.sig.asyncness.is_some();
+    if is_async != parameters.has(Context::Calls) {
+        return Err(Error::new_spanned(
+            &function.sig,
+            "an `async` builtin has the parameter `calls: Calls`, and no other has it",
+        ));
+    }
+    let owner = parameters
+        .contexts
+        .iter()
+        .find(|(context, _)| *context == Context::Owner);
+    if let Some((_, owner)) = owner {
+        return acting(function, parameters, owner);
+    }
+    let is_control =
+        is_async || parameters.has(Context::Machine) || names(&function.sig.output, "Step");
+    let contexts = parameters
+        .contexts
+        .iter()
+        .map(|(context, _)| match context {
+            Context::Image if is_control => quote!(&mut *machine.image),
+            Context::Image => quote!(image),
+            Context::Machine => quote!(machine),
+            Context::Calls | Context::Owner => quote!(calls),
+        });
+    let passed = passed(parameters);
+    let called = quote!(#ident(#(#contexts,)* #(#passed),*));
+    if !is_control {
+        let converted = converted(parameters, &quote!(&mut *image), false);
+        return Ok(quote! {
+            fn wrapper(
+                image: &mut typed::Image,
+                args: &[typed::Value],
+            ) -> ::std::result::Result<typed::Value, ::std::boxed::Box<typed::Raise>> {
+                let _ = &image;
+                #converted
+                typed::Returned::returned(#called)
+            }
+            let call = typed::BuiltinCall::Pure(wrapper);
+        });
+    }
+    let converted = converted(parameters, &quote!(&mut *machine.image), true);
+    let called = if is_async {
+        quote!(typed::run(machine, #name, |calls| #called))
+    } else {
+        called
+    };
+    Ok(quote! {
+        fn wrapper(
+            machine: &mut typed::Machine<'_>,
+            args: ::std::vec::Vec<typed::Value>,
+        ) -> ::std::result::Result<typed::Step, ::std::boxed::Box<typed::Raise>> {
+            let _ = &machine;
+            #converted
+            #called
+        }
+        let call = typed::BuiltinCall::Control(wrapper);
+    })
+}
+
+/// The same of a function that acts on something in the world.
+fn acting(function: &ItemFn, parameters: &Parameters, owner: &Type) -> Result<TokenStream> {
+    let Type::Reference(owner) = owner else {
+        return Err(Error::new_spanned(owner, "a reference is expected"));
+    };
+    let owner = &owner.elem;
+    let ident = &function.sig.ident;
+    let name = ident.to_string();
+    let contexts = parameters
+        .contexts
+        .iter()
+        .map(|(context, _)| match context {
+            Context::Image => quote!(image),
+            _ => quote!(owner),
+        });
+    let passed = passed(parameters);
+    let converted = converted(parameters, &quote!(&mut *image), false);
+    let called = quote!(#ident(#(#contexts,)* #(#passed),*));
+    let called = if names(&function.sig.output, "Reply") {
+        called
+    } else {
+        quote!(typed::Returned::returned(#called).map(::std::convert::Into::into))
+    };
+    Ok(quote! {
+        fn act(
+            owner: &mut #owner,
+            image: &mut typed::Image,
+            args: &[typed::Value],
+        ) -> ::std::result::Result<
+            <#owner as typed::Owner>::Reply,
+            ::std::boxed::Box<typed::Raise>,
+        > {
+            let _ = &image;
+            #converted
+            #called
+        }
+        fn wrapper(
+            _: &mut typed::Machine<'_>,
+            args: ::std::vec::Vec<typed::Value>,
+        ) -> ::std::result::Result<typed::Step, ::std::boxed::Box<typed::Raise>> {
+            ::std::result::Result::Ok(<#owner as typed::Owner>::request(#name, act, args))
+        }
+        let call = typed::BuiltinCall::Control(wrapper);
+    })
+}
+
+/// The variables with the converted arguments.
+fn passed(parameters: &Parameters) -> Vec<Ident> {
+    let arguments = parameters.arguments.list.iter();
+    arguments.map(|a| variable("argument", &a.ident)).collect()
+}
+
+/// A variable that no user of the macro can name.
+fn variable(prefix: &str, ident: &Ident) -> Ident {
+    let name = ident.to_string();
+    let name = name.trim_start_matches("r#");
+    Ident::new(&format!("{prefix}_{name}"), Span::mixed_site())
+}
+
+/// Statements that convert `args`, a slice or, if `is_owned`, a vector.
+fn converted(parameters: &Parameters, image: &TokenStream, is_owned: bool) -> TokenStream {
+    let arguments = &parameters.arguments;
+    let required: Vec<&Argument> = arguments.of_shape(Shape::Required).collect();
+    let optional: Vec<&Argument> = arguments.of_shape(Shape::Optional).collect();
+    let keys: Vec<&Argument> = arguments.of_shape(Shape::Key).collect();
+    let rest = arguments.of_shape(Shape::Rest).next();
+    let before = required.len() + optional.len();
+    let mut statements = TokenStream::new();
+
+    // The rest of an owned vector is moved out of it.
+    let owned_rest =
+        rest.filter(|rest| is_owned && rest.element_type().is_some_and(|ty| names(ty, "Value")));
+    if let Some(rest) = owned_rest {
+        let variable = variable("argument", &rest.ident);
+        if before == 0 {
+            return quote!(let #variable = args;);
+        }
+        let count = Literal::usize_unsuffixed(before);
+        statements.extend(quote! {
+            let mut args = args;
+            let #variable = args.split_off(args.len().min(#count));
+        });
+    }
+    let slice = if is_owned {
+        quote!(args.as_slice())
+    } else {
+        quote!(args)
+    };
+    let names: Vec<Ident> = required
+        .iter()
+        .map(|a| variable("given", &a.ident))
+        .collect();
+    let is_open = !optional.is_empty() || !keys.is_empty() || rest.is_some();
+    let pattern = if is_open {
+        quote!([#(#names,)* more @ ..])
+    } else {
+        quote!([#(#names),*])
+    };
+    if names.is_empty() && is_open {
+        statements.extend(quote!(let more = #slice;));
+    } else if names.is_empty() {
+        statements.extend(quote!(let _ = args;));
+    } else {
+        statements.extend(quote! {
+            let #pattern = #slice else {
+                return ::std::result::Result::Err(typed::wrong_count());
+            };
+        });
+    }
+    if !keys.is_empty() {
+        let given: Vec<Ident> = keys.iter().map(|a| variable("given", &a.ident)).collect();
+        let symbols = keys.iter().map(|key| key.name().to_uppercase());
+        let count = Literal::usize_unsuffixed(before - required.len());
+        statements.extend(quote! {
+            let [#(#given),*] = typed::keys(
+                #image,
+                more.get(#count..).unwrap_or_default(),
+                const { [#(typed::keyword(#symbols)),*] },
+            )?;
+        });
+    }
+    let mut index = 0_usize;
+    for argument in &arguments.list {
+        let variable_name = variable("argument", &argument.ident);
+        let given = variable("given", &argument.ident);
+        let ty = &argument.ty;
+        let given = match argument.shape {
+            Shape::Required | Shape::Key => quote!(#given),
+            Shape::Optional => {
+                let at = Literal::usize_unsuffixed(index);
+                index += 1;
+                quote!(more.get(#at))
+            }
+            Shape::Rest => {
+                if owned_rest.is_some() {
+                    continue;
+                }
+                let at = Literal::usize_unsuffixed(optional.len());
+                if optional.is_empty() {
+                    quote!(more)
+                } else {
+                    quote!(more.get(#at..).unwrap_or_default())
+                }
+            }
+        };
+        let value = match (argument.shape, argument.optional_type(), &argument.default) {
+            (Shape::Rest, ..) => match argument.element_type() {
+                Some(element) => {
+                    quote!(typed::all::<#element>(#image, #given)?)
+                }
+                None => given,
+            },
+            (Shape::Required, ..) => {
+                quote!(typed::required::<#ty>(#image, #given)?)
+            }
+            (_, Some(inner), _) => {
+                quote!(typed::optional::<#inner>(#image, #given)?)
+            }
+            (_, None, default) => quote! {
+                match #given {
+                    ::std::option::Option::Some(given) => typed::required::<#ty>(#image, given)?,
+                    ::std::option::Option::None => #default,
+                }
+            },
+        };
+        statements.extend(quote!(let #variable_name = #value;));
+    }
+    statements
+}
+
+#[cfg(test)]
+mod tests {
+    use super::builtin;
+    use quote::quote;
+
+    /// The expansion without spaces.
+    fn expansion(attribute: proc_macro2::TokenStream, item: proc_macro2::TokenStream) -> String {
+        match builtin(attribute, item) {
+            Ok(tokens) => tokens.to_string().replace(' ', ""),
+            Err(error) => format!("error: {error}"),
+        }
+    }
+
+    #[track_caller]
+    fn holds(expansion: &str, part: &str) {
+        assert!(expansion.contains(part), "{part} is not in {expansion}");
+    }
+
+    #[test]
+    fn names_and_lambda_lists_come_from_the_function() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn digit_char(weight: usize, _given: Option<u32>, #[key] from_end: Option<bool>) {}
+            },
+        );
+        holds(&code, "name:\"DIGIT-CHAR\"");
+        holds(&code, "lambda_list:\"weight&optionalgiven&keyfrom-end\"");
+        holds(&code, "constDIGIT_CHAR_BUILTIN:typed::Builtin");
+        holds(&code, "BuiltinCall::Pure(wrapper)");
+    }
+
+    #[test]
+    fn the_attribute_replaces_them() {
+        let item = quote! {
+            /// Doc.
+            fn add(args: &[Value]) -> Outcome {}
+        };
+        let code = expansion(quote!("+", "number &rest numbers"), item.clone());
+        holds(&code, "name:\"+\",lambda_list:\"number&restnumbers\"");
+        let code = expansion(quote!(_, "number &rest numbers"), item);
+        holds(&code, "name:\"ADD\",lambda_list:\"number&restnumbers\"");
+    }
+
+    #[test]
+    fn a_step_or_the_machine_makes_a_control_builtin() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn f(x: Value) -> Result<Step, Box<Raise>> {}
+            },
+        );
+        holds(&code, "BuiltinCall::Control(wrapper)");
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn f(machine: &mut Machine<'_>, x: &Value, more: Vec<Value>) -> Outcome {}
+            },
+        );
+        holds(&code, "BuiltinCall::Control(wrapper)");
+        holds(&code, "args.split_off(args.len().min(1))");
+        holds(&code, "f(machine,argument_x,argument_more)");
+    }
+
+    #[test]
+    fn an_asynchronous_function_is_run() {
+        let code = expansion(
+            quote!("FIND"),
+            quote! {
+                /// Doc.
+                async fn find(calls: Calls, item: Value) -> Outcome {}
+            },
+        );
+        holds(
+            &code,
+            "typed::run(machine,\"FIND\",|calls|find(calls,argument_item))",
+        );
+        let wrong = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                async fn find(item: Value) -> Outcome {}
+            },
+        );
+        holds(&wrong, "error: an `async` builtin");
+    }
+
+    #[test]
+    fn a_function_on_something_else_is_a_request() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn spawn(world: &mut World, image: &mut Image, name: &Value) -> Result<Reply> {}
+            },
+        );
+        holds(&code, "<Worldastyped::Owner>::request(\"spawn\",act,args)");
+        holds(&code, "spawn(owner,image,argument_name)");
+    }
+
+    #[test]
+    fn defaults_replace_what_is_not_given() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn last(list: &Value, #[default(1)] n: usize, #[key] #[default(None)] x: u8) {}
+            },
+        );
+        holds(&code, "None=>1,");
+        holds(&code, "fnlast(list:&Value,n:usize,x:u8){}");
+        holds(&code, "const{[typed::keyword(\"X\")]}");
+    }
+
+    #[test]
+    fn what_does_not_fit_is_an_error() {
+        let errors = [
+            (
+                quote!(),
+                quote! { fn f() {} },
+                "a builtin has a doc comment",
+            ),
+            (
+                quote!("f"),
+                quote! { #[doc = "D"] fn f() {} },
+                "one word in upper case",
+            ),
+            (
+                quote!("F", "a b"),
+                quote! { #[doc = "D"] fn f(a: &Value) {} },
+                "1 required and 0",
+            ),
+            (
+                quote!("F", "a &rest b"),
+                quote! { #[doc = "D"] fn f(a: &Value) {} },
+                "the rest",
+            ),
+            (
+                quote!("F", "a"),
+                quote! { #[doc = "D"] fn f(a: u8, b: u8, c: &[Value]) {} },
+                "more",
+            ),
+            (
+                quote!("F", "&key a"),
+                quote! { #[doc = "D"] fn f(#[key] b: Option<u8>) {} },
+                "&key b",
+            ),
+            (
+                quote!(),
+                quote! { #[doc = "D"] fn f(a: Option<u8>, b: u8) {} },
+                "come first",
+            ),
+            (
+                quote!(),
+                quote! { #[doc = "D"] fn f(#[key] a: u8) {} },
+                "is an `Option`",
+            ),
+            (
+                quote!(),
+                quote! { #[doc = "D"] fn f((a, b): u8) {} },
+                "is a name",
+            ),
+            (
+                quote!(),
+                quote! { #[doc = "D"] fn f(&self) {} },
+                "no method",
+            ),
+        ];
+        for (attribute, item, part) in errors {
+            let error = expansion(attribute, item);
+            assert!(error.starts_with("error: "), "{error}");
+            holds(&error, part);
+        }
+    }
+}
