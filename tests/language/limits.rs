@@ -50,7 +50,7 @@ fn a_list_of_a_million_elements_is_worked_on_and_freed() {
 }
 
 /// How often a form looks whether it is to end before it is interrupted.
-const LOOKS: u64 = 100;
+const LOOKS: u64 = 20;
 
 #[test]
 fn endless_loops_can_be_interrupted() {

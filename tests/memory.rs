@@ -1,8 +1,14 @@
-//! Tasks that have ended leave nothing behind, nor do values that hold each other.
+//! Tasks that have ended leave nothing behind, nor do values that hold each other. In a process of
+//! its own, whose memory nobody else uses.
+
+#![cfg(target_os = "linux")]
+
+use std::sync::Mutex;
 
 use planwright::{Evaluate, Outcome, Session, SessionOptions};
 
-use super::alone;
+/// One test at a time: they measure the memory of the process.
+static MEMORY: Mutex<()> = Mutex::new(());
 
 /// Kilobytes of memory that this process holds.
 fn resident() -> u64 {
@@ -21,7 +27,7 @@ fn resident_after(session: &mut Session, text: &str) -> u64 {
 
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
-    let _alone = alone();
+    let _alone = MEMORY.lock();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defun many (n)
@@ -37,7 +43,7 @@ fn memory_stays_flat_over_a_million_tasks() {
 
 #[test]
 fn memory_stays_flat_over_a_million_circles_of_each_kind() {
-    let _alone = alone();
+    let _alone = MEMORY.lock();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defstruct node next) (defclass thing () ((part :accessor part)))");
@@ -72,7 +78,7 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
 
 #[test]
 fn sessions_that_have_ended_leave_nothing_behind() {
-    let _alone = alone();
+    let _alone = MEMORY.lock();
     let transport = "(in-package :pp-tut)
         (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
         (with-simulated-robot
@@ -108,7 +114,7 @@ fn sessions_that_have_ended_leave_nothing_behind() {
 
 #[test]
 fn threads_that_had_a_session_leave_nothing_behind() {
-    let _alone = alone();
+    let _alone = MEMORY.lock();
     let threads = |count: usize| {
         for _ in 0..count {
             let session = std::thread::spawn(|| {
