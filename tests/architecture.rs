@@ -424,10 +424,23 @@ fn crates_use_each_other_as_the_architecture_says() {
 #[test]
 fn rooms_use_each_other_as_the_architecture_says() {
     let mut wrong = Vec::new();
-    let written = written("The rooms of the physical half and of the views");
+    let halves = [("src/robotics", ""), ("src/view", "")];
+    let heading = "The rooms of the physical half and of the views";
+    compare(heading, &halves, &mut wrong);
+    let motion = [("src/robotics", "motion")];
+    compare("The rooms of motion", &motion, &mut wrong);
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// Adds the differences between a table and the sources; a module of a crate is given by the folder
+/// of the crate and its name, which is empty for the crate itself.
+fn compare(heading: &str, modules: &[(&str, &str)], wrong: &mut Vec<String>) {
+    let written = written(heading);
     let mut real: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for folder in ["src/robotics", "src/view"] {
-        for ((from, to), shown) in Sources::of(folder).uses_between_children(&[]) {
+    for (folder, module) in modules {
+        let names = module.split("::").filter(|name| !name.is_empty());
+        let module: Module = names.map(str::to_owned).collect();
+        for ((from, to), shown) in Sources::of(folder).uses_between_children(&module) {
             if !written.get(&from).is_some_and(|uses| uses.contains(&to)) {
                 wrong.push(format!("{from} must not use {to}: {shown}"));
             }
@@ -441,7 +454,6 @@ fn rooms_use_each_other_as_the_architecture_says() {
             }
         }
     }
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
 #[test]
@@ -474,6 +486,27 @@ fn circles(sources: &Sources, wrong: &mut Vec<String>) {
             wrong.push(format!("in {}: {}", folder.join("::"), shown.join("; ")));
         }
     }
+}
+
+/// Whatever a part needs of the session, it is given; the console evaluates, as the session does.
+#[test]
+fn of_the_folders_of_the_session_only_the_console_names_the_session() {
+    let sources = Sources::of("src/session");
+    let folders: BTreeSet<&String> = (sources.names.keys())
+        .filter(|module| module.len() > 1)
+        .filter_map(|module| module.first())
+        .collect();
+    let mut naming = BTreeSet::new();
+    for (module, names) in &sources.names {
+        let folder = module.first().filter(|folder| folders.contains(folder));
+        // `pub(crate)` names the root, and nothing in it.
+        let mut names = names.iter().filter(|name| !name.is_empty());
+        if names.any(|name| sources.target(name).is_empty()) {
+            naming.extend(folder);
+        }
+    }
+    let naming: Vec<&str> = naming.into_iter().map(String::as_str).collect();
+    assert_eq!(naming, ["console"]);
 }
 
 #[test]

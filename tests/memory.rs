@@ -111,3 +111,24 @@ fn sessions_that_have_ended_leave_nothing_behind() {
         "{before} kB after 10 sessions that do nothing, {after} kB after 70"
     );
 }
+
+#[test]
+fn threads_that_had_a_session_leave_nothing_behind() {
+    let _alone = MEMORY.lock();
+    let threads = |count: usize| {
+        for _ in 0..count {
+            let session = std::thread::spawn(|| {
+                let mut session = Session::new(&SessionOptions::default()).unwrap();
+                resident_after(&mut session, "(dotimes (i 1000) (list i i i i i i i i))");
+            });
+            session.join().unwrap();
+        }
+        resident()
+    };
+    let before = threads(10);
+    let after = threads(50);
+    assert!(
+        after < before + 1024,
+        "{before} kB after 10 threads, {after} kB after 60"
+    );
+}

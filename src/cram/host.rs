@@ -1,8 +1,10 @@
 //! The interface to the world, which carries out requests while simulated time passes.
 
-use std::any::Any;
+#[cfg(test)]
+use std::convert::Infallible;
 
 use super::task::TaskId;
+use crate::designator::MotionRequest;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
@@ -32,8 +34,14 @@ pub struct Advance {
 
 /// Carries out tasks' requests to the world.
 pub trait Host {
-    /// Handles a request that is not for the scheduler.
-    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply;
+    /// A call of a builtin that acts on the world.
+    type Call: 'static;
+
+    /// Carries out such a call.
+    fn call(&mut self, image: &mut Image, task: TaskId, call: Self::Call) -> Reply;
+
+    /// Carries out a motion.
+    fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply;
 
     /// Lets simulated time pass from `now` until a request is completed or until the given time, in
     /// seconds. Called only when every task is blocked and a request is pending. Returns early if
@@ -81,7 +89,13 @@ pub(crate) struct NullHost;
 
 #[cfg(test)]
 impl Host for NullHost {
-    fn request(&mut self, _: &mut Image, _: TaskId, _: Box<dyn Any>) -> Reply {
+    type Call = Infallible;
+
+    fn call(&mut self, _: &mut Image, _: TaskId, call: Infallible) -> Reply {
+        match call {}
+    }
+
+    fn perform(&mut self, _: &mut Image, _: TaskId, _: MotionRequest) -> Reply {
         Reply::Now(Err(Raise::control("There is no world to act in.")))
     }
 

@@ -1,6 +1,7 @@
 //! Source texts and places in them.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Handle of a span of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -37,7 +38,7 @@ pub struct Source {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Location {
     /// Name of the source.
-    pub name: Rc<str>,
+    pub name: Arc<str>,
     /// Line, from one.
     pub line: usize,
     /// Column, from one, in characters.
@@ -170,7 +171,7 @@ impl Sources {
         let before = source.text.get(line_start..span.start as usize)?;
         let covered = source.text.get(span.start as usize..span.end as usize)?;
         Some(Location {
-            name: source.name.clone(),
+            name: source.name.as_ref().into(),
             line: line + 1,
             column: before.chars().count() + 1,
             line_text: line_text.to_owned(),

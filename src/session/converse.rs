@@ -39,15 +39,15 @@ impl Converse for Session {
     }
 
     fn completions(&self, text: &str, at: usize) -> Completions {
-        self.complete(text, at)
+        self.assistant().complete(text, at)
     }
 
     fn hint(&self, text: &str, at: usize) -> Option<String> {
-        self.hint_at(text, at)
+        self.assistant().hint_at(text, at)
     }
 
     fn is_designator_type(&self, name: &str) -> bool {
-        self.is_type_name(name)
+        self.assistant().is_type_name(name)
     }
 
     fn set_source(&mut self, source: Option<Rc<Source>>) {
@@ -56,6 +56,10 @@ impl Converse for Session {
 
     fn world_hash(&self) -> u64 {
         self.host.simulation.world().hash()
+    }
+
+    fn set_hurried(&mut self, is_hurried: bool) {
+        self.host.audience.set_hurried(is_hurried);
     }
 
     fn finish(&mut self) -> Result<(), String> {

@@ -32,6 +32,7 @@ impl Session {
             told_names: assist::ToldNames::default(),
             objects: Objects::of(&mut image),
             image,
+            failed_with: None,
             _rest: FreesAll,
         })
     }

@@ -1,6 +1,7 @@
 //! What the followers of a session learn when an evaluation does not go on.
 
 use super::Session;
+use super::audience::task_news::class_name;
 use super::dialogue::{Abort, Event};
 use lisp::image::identity::aside;
 use lisp::print::report::report;
@@ -25,6 +26,7 @@ impl Session {
             name: task.name,
             state: TaskState::Stopped,
             failure: aside(image, || report(image, &condition)),
+            class: class_name(image, &condition),
             result: String::new(),
             about: None,
         });

@@ -8,7 +8,7 @@ use view::picture::{Image, View};
 
 impl Illustrate for Session {
     fn description(&self, text: &str, at: usize) -> Option<String> {
-        self.description_at(text, at)
+        self.assistant().description_at(text, at)
     }
 
     fn backtrace(&self, most: usize) -> String {

@@ -10,6 +10,7 @@ mod converse;
 mod copy;
 pub mod defect;
 pub mod dialogue;
+mod face;
 pub mod functions;
 mod halting;
 mod host;
@@ -18,6 +19,7 @@ mod live_host;
 mod log_level;
 mod objects;
 mod options;
+mod package_name;
 mod person;
 mod plans;
 mod printing;
@@ -28,8 +30,6 @@ mod serving;
 pub mod simulation;
 pub mod sweeping;
 mod tabulated;
-pub mod tape;
-mod taping;
 mod text;
 
 use std::path::Path;
@@ -40,21 +40,25 @@ use std::sync::atomic::AtomicBool;
 use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use cram::{Evaluation, Scheduler};
 use host::SimulationHost;
+use host::call::HostCall;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
-use lisp::value::package::{PackageId, PackageTable};
 use lisp::value::release::FreesAll;
 use live_host::LiveHost;
+use package_name::prompt_name;
 use robotics::world::Models;
 use simulation::Simulation;
 use view::picture::ViewError;
 use view::picture::animation::Shot;
 use view::watch::Cause;
 
-use printing::on_one_line;
-
 pub use audience::{Audience, Filming, WatchError};
+pub use face::{
+    Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
+    PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
+    Within,
+};
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions};
 
@@ -63,7 +67,7 @@ pub struct Session {
     /// What it began with.
     options: SessionOptions,
     image: Image,
-    scheduler: Scheduler,
+    scheduler: Scheduler<HostCall>,
     host: SimulationHost,
     /// What the checked texts define.
     checked: check::KnownNames,
@@ -73,6 +77,8 @@ pub struct Session {
     told_names: assist::ToldNames,
     /// What an editor refers to.
     objects: Rc<objects::Objects>,
+    /// The condition that has ended the evaluation of a form last.
+    failed_with: Option<Value>,
     /// The last to be dropped: what has been put off is freed.
     _rest: FreesAll,
 }
@@ -120,6 +126,7 @@ impl Session {
             console: console::Console::default(),
             told_names: assist::ToldNames::default(),
             objects,
+            failed_with: None,
             _rest: FreesAll,
         };
         session.image.limits.heap.set_limit(options.heap);
@@ -165,6 +172,11 @@ impl Session {
     /// The robot in its world.
     pub fn simulation(&self) -> &Simulation {
         &self.host.simulation
+    }
+
+    /// Who answers questions about what is being typed.
+    fn assistant(&self) -> assist::Assistant<'_> {
+        assist::Assistant::new(&self.image, &self.host.simulation)
     }
 
     /// The outputs that show the session.
@@ -223,10 +235,14 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
+        self.host
+            .begin_bounds(&Limits::NONE, self.image.interrupt());
+        let outcome = match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
             Ok(outcome) => outcome,
             Err(defect) => self.recover(&defect, sink),
-        }
+        };
+        self.host.bounds.end();
+        outcome
     }
 
     /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
@@ -253,7 +269,7 @@ impl Session {
         self.host
             .person
             .snapshots
-            .begin_form(&mut self.host.simulation, &self.image, form);
+            .begin_form(&self.host.simulation, form);
         let now = self.host.simulation.now();
         self.host.audience.tell_resumed(now);
         let tells_progress = self.console.is_interactive;
@@ -266,7 +282,8 @@ impl Session {
                 return Ended::Stopped(stopped);
             }
             Evaluation::Unhandled(condition) => {
-                let abort = self.describe(&condition);
+                let abort = printing::describe(&mut self.image, &condition);
+                self.failed_with = Some(condition);
                 self.abort(sink);
                 Ended::Aborted(Box::new(abort))
             }
@@ -372,7 +389,7 @@ impl Evaluate for Session {
     }
 
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
-        self.check_text(source_name, text)
+        check::check_text(&mut self.image, &mut self.checked, source_name, text)
     }
 
     fn prompt(&self) -> String {
@@ -382,16 +399,4 @@ impl Evaluate for Session {
     fn interrupt_handle(&self) -> Arc<AtomicBool> {
         Arc::clone(self.image.interrupt())
     }
-}
-
-/// The name of a package, or a nickname, as prompts show it.
-fn prompt_name(image: &Image, package: PackageId) -> String {
-    if package == PackageTable::USER {
-        return "CL-USER".to_owned();
-    }
-    let package = image.packages.get(package);
-    std::iter::once(&package.name)
-        .chain(&package.nicknames)
-        .min_by_key(|name| name.chars().count())
-        .map_or_else(String::new, |name| name.to_string())
 }

@@ -1,10 +1,11 @@
 //! The scheduler's host, with output reported as it is produced.
 
-use std::any::Any;
 use std::time::{Duration, Instant};
 
 use super::dialogue::Event;
 use super::host::SimulationHost;
+use super::host::call::HostCall;
+use cram::designator::MotionRequest;
 use cram::{Advance, Host, Reply, TaskId, Ticket};
 use lisp::image::Image;
 use view::watch::WatchEvent;
@@ -28,6 +29,14 @@ impl<'a> LiveHost<'a> {
             tells_progress,
         }
     }
+
+    /// Reports the pictures that have been made.
+    fn tell_pictures(&mut self, image: &mut Image) {
+        for picture in self.host.audience.take_pictures() {
+            flush(image, self.host, self.sink);
+            (self.sink)(Event::Picture(picture));
+        }
+    }
 }
 
 /// How long a motion runs before its progress is reported, and the interval between reports.
@@ -46,25 +55,35 @@ pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn
 }
 
 impl Host for LiveHost<'_> {
-    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        let reply = self.host.request(image, task, request);
-        for picture in self.host.audience.take_pictures() {
-            flush(image, self.host, self.sink);
-            (self.sink)(Event::Picture(picture));
-        }
+    type Call = HostCall;
+
+    fn call(&mut self, image: &mut Image, task: TaskId, call: HostCall) -> Reply {
+        let reply = self.host.call(image, task, call);
+        self.host.check_bounds();
+        self.tell_pictures(image);
+        reply
+    }
+
+    fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply {
+        let reply = self.host.perform(image, task, motion);
+        self.host.check_bounds();
+        self.tell_pictures(image);
         reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
         flush(image, self.host, self.sink);
+        let until = self.host.bounds.until(now, until);
         if !self.tells_progress {
-            return self.host.advance(image, now, until);
+            let check = &mut SimulationHost::check_bounds;
+            return self.host.advance_watched(image, now, until, check);
         }
         let begin = Instant::now();
         let mut told = begin;
         let sink = &mut *self.sink;
         let what = image.output.instead().map(str::to_owned);
         self.host.advance_watched(image, now, until, &mut |host| {
+            host.check_bounds();
             // Real time determines what is shown, never what happens.
             let is_long = begin.elapsed() > FIRST_PROGRESS;
             if is_long && told.elapsed() > BETWEEN_PROGRESS {
@@ -76,7 +95,10 @@ impl Host for LiveHost<'_> {
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
         flush(image, self.host, self.sink);
-        self.host.idle(image, now, until)
+        let until = self.host.bounds.until(now, Some(until)).unwrap_or(until);
+        let reached = self.host.idle(image, now, until);
+        self.host.check_bounds();
+        reached
     }
 
     fn show_output(&mut self, image: &mut Image) {
@@ -89,7 +111,9 @@ impl Host for LiveHost<'_> {
 
     fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
         flush(image, self.host, self.sink);
-        self.host.stand_still(image, now)
+        let advance = self.host.stand_still(image, now);
+        self.host.check_bounds();
+        advance
     }
 
     fn pause(&mut self, image: &mut Image, ticket: Ticket) {

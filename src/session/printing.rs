@@ -1,12 +1,12 @@
 //! Values and conditions as text.
 
-use super::Session;
 use super::check;
 use super::dialogue::screen::INTERRUPT;
 use super::dialogue::{Abort, ActionStep};
 use lisp::condition;
 use lisp::evaluator::nested;
 use lisp::guard::stoppable;
+use lisp::image::Image;
 use lisp::image::open_call::OpenCall;
 use lisp::print;
 use lisp::source::Location;
@@ -45,88 +45,85 @@ pub(super) fn on_line_of(shown: &str, longest: usize) -> String {
     }
 }
 
-impl Session {
-    /// A value as the prompt prints it.
-    pub(super) fn printed(&mut self, value: &Value) -> String {
-        self.printed_by(known::PRIN1_TO_STRING, value)
-    }
+/// A value as the prompt prints it.
+pub(super) fn printed(image: &mut Image, value: &Value) -> String {
+    printed_by(image, known::PRIN1_TO_STRING, value)
+}
 
-    /// What is shown for an unhandled condition.
-    pub(super) fn describe(&mut self, condition: &Value) -> Abort {
-        let calls = self.image.condition_calls(condition);
-        let sources = &self.image.sources;
-        let mut places = calls.iter().filter_map(|call| sources.locate(call.place));
-        let place = places.next();
-        let is_own = place.as_ref().is_some_and(is_built_in);
-        let user_place = places.find(|place| is_own && !is_built_in(place));
-        let is_interrupt = is_interrupt(condition);
-        Abort {
-            report: self.printed_by(known::PRINC_TO_STRING, condition),
-            class: if is_interrupt {
-                String::new()
-            } else {
-                let class = type_of(&self.image, condition);
-                print::to_string(&self.image, &class, false)
-            },
-            condition: if is_interrupt {
-                INTERRUPT.to_owned()
-            } else {
-                self.printed(condition)
-            },
-            hint: check::hint(&self.image, condition),
-            place,
-            user_place,
-            actions: self.actions(&calls),
-        }
+/// What is shown for an unhandled condition.
+pub(super) fn describe(image: &mut Image, condition: &Value) -> Abort {
+    let calls = image.condition_calls(condition);
+    let sources = &image.sources;
+    let mut places = calls.iter().filter_map(|call| sources.locate(call.place));
+    let place = places.next();
+    let is_own = place.as_ref().is_some_and(is_built_in);
+    let user_place = places.find(|place| is_own && !is_built_in(place));
+    let is_interrupt = is_interrupt(condition);
+    Abort {
+        report: printed_by(image, known::PRINC_TO_STRING, condition),
+        class: if is_interrupt {
+            String::new()
+        } else {
+            let class = type_of(image, condition);
+            print::to_string(image, &class, false)
+        },
+        condition: if is_interrupt {
+            INTERRUPT.to_owned()
+        } else {
+            printed(image, condition)
+        },
+        hint: check::hint(image, condition),
+        place,
+        user_place,
+        actions: actions(image, &calls),
     }
+}
 
-    /// The actions among the calls, each with the place where it is performed.
-    fn actions(&self, calls: &[OpenCall]) -> Vec<ActionStep> {
-        let image = &self.image;
-        let steps = calls.iter().enumerate().filter_map(|(at, call)| {
-            let shown = print::to_string(image, call.subject.as_ref()?, false);
-            let outer = calls.get(at + 1..).unwrap_or_default();
-            Some(ActionStep {
-                call: format!("(PERFORM {})", on_one_line(&shown)),
-                place: outer.iter().find_map(|c| image.sources.locate(c.place)),
-            })
-        });
-        steps.take(MOST_ACTIONS).collect()
-    }
+/// The actions among the calls, each with the place where it is performed.
+fn actions(image: &Image, calls: &[OpenCall]) -> Vec<ActionStep> {
+    let steps = calls.iter().enumerate().filter_map(|(at, call)| {
+        let shown = print::to_string(image, call.subject.as_ref()?, false);
+        let outer = calls.get(at + 1..).unwrap_or_default();
+        Some(ActionStep {
+            call: format!("(PERFORM {})", on_one_line(&shown)),
+            place: outer.iter().find_map(|c| image.sources.locate(c.place)),
+        })
+    });
+    steps.take(MOST_ACTIONS).collect()
+}
 
-    /// What is shown for an error in Rust code.
-    pub(super) fn raised(&mut self, raise: Box<Raise>) -> Abort {
-        let place = raise.place();
-        let mut abort = match condition::make(&self.image, &raise) {
-            Ok(condition) => self.describe(&condition),
-            Err(_) => Abort {
-                report: "An error could not be described.".to_owned(),
-                condition: "#<ERROR>".to_owned(),
-                ..Abort::default()
-            },
-        };
-        if abort.place.is_none() {
-            abort.place = self.image.sources.locate(place);
-        }
-        abort
+/// What is shown for an error in Rust code.
+pub(super) fn raised(image: &mut Image, raise: Box<Raise>) -> Abort {
+    let place = raise.place();
+    let mut abort = match condition::make(image, &raise) {
+        Ok(condition) => describe(image, &condition),
+        Err(_) => Abort {
+            report: "An error could not be described.".to_owned(),
+            condition: "#<ERROR>".to_owned(),
+            ..Abort::default()
+        },
+    };
+    if abort.place.is_none() {
+        abort.place = image.sources.locate(place);
     }
+    abort
+}
 
-    /// A value printed by a Lisp function, so that the user's print methods apply; if they
-    /// fail, by the printer alone.
-    fn printed_by(&mut self, function: Sym, value: &Value) -> String {
-        let args = vec![value.clone()];
-        match nested::call_nested(&mut self.image, function.into(), args) {
-            Ok(text) => text.as_text(),
-            Err(raise) if raise.is_interrupt() => return "(printing was interrupted)".to_owned(),
-            Err(_) => None,
-        }
-        .unwrap_or_else(|| self.printed_plainly(value, function == known::PRIN1_TO_STRING))
+/// A value printed by a Lisp function, so that the user's print methods apply; if they
+/// fail, by the printer alone.
+fn printed_by(image: &mut Image, function: Sym, value: &Value) -> String {
+    let args = vec![value.clone()];
+    match nested::call_nested(image, function.into(), args) {
+        Ok(text) => text.as_text(),
+        Err(raise) if raise.is_interrupt() => return "(printing was interrupted)".to_owned(),
+        Err(_) => None,
     }
+    .unwrap_or_else(|| printed_plainly(image, value, function == known::PRIN1_TO_STRING))
+}
 
-    /// A value printed by the printer alone, as far as nothing stops that.
-    fn printed_plainly(&self, value: &Value, escape: bool) -> String {
-        let _watch = self.image.limits.watch();
-        stoppable(|| print::to_string(&self.image, value, escape))
-            .unwrap_or_else(|_| "(printing was stopped)".to_owned())
-    }
+/// A value printed by the printer alone, as far as nothing stops that.
+fn printed_plainly(image: &Image, value: &Value, escape: bool) -> String {
+    let _watch = image.limits.watch();
+    stoppable(|| print::to_string(image, value, escape))
+        .unwrap_or_else(|_| "(printing was stopped)".to_owned())
 }

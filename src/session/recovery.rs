@@ -24,10 +24,7 @@ impl Session {
         self.image.output.set_shown(true);
         self.image.output.mute(None);
         let simulation = &mut self.host.simulation;
-        self.host
-            .person
-            .snapshots
-            .go_back_to_form(simulation, &mut self.image);
+        self.host.person.snapshots.go_back_to_form(simulation);
         self.flush(sink);
         let report = format!("planwright failed: {defect}.\n{REQUEST}");
         self.host.audience.show(&self.host.simulation, Cause::Rest);

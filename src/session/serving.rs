@@ -1,15 +1,17 @@
 //! The session's side of the dialogue with an editor.
 
+use crate::printing;
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::Session;
+use super::assist::Assistant;
 use super::dialogue::{
     Beginning, Inspection, Names, Need, ObjectNumber, Relation, Serve, StackFrame, Stop,
     Unrecorded, Use,
 };
 use super::host::parts::View;
-use super::on_one_line;
+use crate::printing::on_one_line;
 use lisp::image::identity::aside;
 use lisp::print;
 use lisp::value::Value;
@@ -63,7 +65,7 @@ impl Serve for Session {
     fn frame_variables(&mut self, frame: usize) -> Vec<(String, String)> {
         let variables = self.variables_of_frame(frame).into_iter();
         variables
-            .map(|(name, value)| (name, self.printed(&value)))
+            .map(|(name, value)| (name, printing::printed(&mut self.image, &value)))
             .collect()
     }
 
@@ -157,10 +159,15 @@ impl Serve for Session {
     }
 
     fn names(&mut self) -> Arc<Names> {
-        self.all_names()
+        self.told_names.all(&mut self.image)
     }
 
     fn uses(&mut self, way: Relation, package: &str, name: &str) -> Result<Vec<Use>, Unrecorded> {
-        self.all_uses(way, package, name)
+        Assistant::new(&self.image, &self.host.simulation).all_uses(
+            &mut self.told_names,
+            way,
+            package,
+            name,
+        )
     }
 }

@@ -1,7 +1,7 @@
 //! Lists of designators as tables.
 
 use super::dialogue::Table;
-use super::on_one_line;
+use crate::printing::on_one_line;
 use cram::designator::value::as_designator;
 use lisp::image::Image;
 use lisp::image::identity::aside;

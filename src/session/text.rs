@@ -1,5 +1,6 @@
 //! Evaluating a text: reading and evaluating one form after another.
 
+use crate::printing;
 use std::rc::Rc;
 
 use super::console::Suspended;
@@ -88,7 +89,10 @@ impl Session {
         values: &[Value],
         sink: &mut dyn FnMut(Event),
     ) -> Option<Outcome> {
-        let printed = values.iter().map(|v| self.printed(v)).collect();
+        let printed = values
+            .iter()
+            .map(|v| printing::printed(&mut self.image, v))
+            .collect();
         self.objects.keep_values(values);
         self.flush(sink);
         sink(Event::Values(printed));
@@ -109,16 +113,22 @@ impl Session {
         loop {
             let read = match next {
                 Ok(read) => read,
-                Err(reason) => return Err(Box::new(self.raised(reason.into()))),
+                Err(reason) => {
+                    return Err(Box::new(printing::raised(&mut self.image, reason.into())));
+                }
             };
             match read {
                 Ok(reader::Outcome::Form(form, place)) => return Ok(Some((form, place))),
                 Ok(reader::Outcome::End) => return Ok(None),
                 Ok(reader::Outcome::Evaluate(form)) => {
-                    let value = self.evaluate_now(&form).map_err(|r| self.raised(r))?;
+                    let value = self
+                        .evaluate_now(&form)
+                        .map_err(|r| printing::raised(&mut self.image, r))?;
                     next = stoppable(|| reader.supply(&mut self.image, value));
                 }
-                Err(error) => return Err(Box::new(self.raised(error.raise()))),
+                Err(error) => {
+                    return Err(Box::new(printing::raised(&mut self.image, error.raise())));
+                }
             }
         }
     }

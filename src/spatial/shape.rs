@@ -1,11 +1,9 @@
 //! Convex primitives that robots, furniture and objects are made of.
 
-use serde::{Deserialize, Serialize};
-
 use super::Pose;
 
 /// A convex solid in its own frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A box centred on the origin; full edge lengths (m) along x, y, z.
     Box {
@@ -38,7 +36,7 @@ impl Shape {
 }
 
 /// A shape with its pose in the frame of the link or object that it belongs to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacedShape {
     /// The solid.
     pub shape: Shape,

@@ -41,7 +41,6 @@ fn torture() {
     let kills = wanted.and_then(|n| n.parse().ok()).unwrap_or(500);
     let mut random = Pcg64::new(11, 0xa02b_dbf7_bb3c_0a7a);
     let mut number = |most: u64| random.next_u64() % most;
-    let mut quick = 0;
     for round in 0..kills {
         let state = State::new(&format!("torture-{round}"));
         let file = state.path().join("one.journal");
@@ -74,7 +73,6 @@ fn torture() {
         }
         let text = resumed.text();
         assert!(!text.contains("not the same"), "round {round}: {text}");
-        quick += usize::from(!text.contains("does not fit"));
     }
-    println!("{kills} sessions were killed; nothing was lost; the tape fitted {quick} times");
+    println!("{kills} sessions were killed; nothing was lost");
 }

@@ -1,12 +1,8 @@
-//! Resuming a session from its tape leads to the state of the session that was not interrupted.
+//! Resuming a session leads to the state of the session that was not interrupted.
 
-use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
-use std::sync::atomic::AtomicBool;
-
-use proptest::prelude::*;
+use std::time::{Duration, Instant};
 
 use crate::prompt::{Beginning, Keeper, Wanted, open, resume};
 use session::dialogue::screen::input_name;
@@ -18,7 +14,7 @@ pub(super) struct Folder(PathBuf);
 
 impl Folder {
     pub(super) fn new(name: &str) -> Folder {
-        let name = format!("planwright-tape-{}-{name}", std::process::id());
+        let name = format!("planwright-resume-{}-{name}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).unwrap();
         Folder(folder)
@@ -35,10 +31,6 @@ impl Drop for Folder {
     }
 }
 
-fn tape_of(journal: &Path) -> PathBuf {
-    journal.with_extension("journal.tape")
-}
-
 /// A session that is kept in a journal.
 pub(super) struct Sitting {
     pub(super) session: Session,
@@ -46,31 +38,29 @@ pub(super) struct Sitting {
     number: usize,
     /// What was told while it was resumed.
     pub(super) told: String,
-    /// How many steps motions took meanwhile.
-    steps: u64,
 }
 
 impl Sitting {
     pub(super) fn begin(journal: &Path) -> Sitting {
-        Sitting::open(Wanted::In(journal))
+        Sitting::open(Wanted::In(journal), None)
     }
 
     pub(super) fn resume(journal: &Path) -> Sitting {
-        Sitting::open(Wanted::Of(journal))
+        Sitting::open(Wanted::Of(journal), None)
     }
 
-    fn open(wanted: Wanted<'_>) -> Sitting {
+    /// With time that passes at that multiple of real time.
+    fn open(wanted: Wanted<'_>, realtime: Option<f64>) -> Sitting {
         let opened = open(wanted, &Beginning::default()).unwrap();
-        let mut session = Session::new(&SessionOptions::default()).unwrap();
-        let steps = Rc::new(Cell::new(0));
-        let counter = Rc::clone(&steps);
-        session.set_observer(Box::new(move |_| counter.set(counter.get() + 1)));
+        let options = SessionOptions {
+            realtime,
+            ..SessionOptions::default()
+        };
         let mut sitting = Sitting {
-            session,
+            session: Session::new(&options).unwrap(),
             keeper: Keeper::new(opened.journal),
             number: 0,
             told: String::new(),
-            steps: 0,
         };
         let Sitting {
             session,
@@ -78,23 +68,18 @@ impl Sitting {
             number,
             ..
         } = &mut sitting;
-        match opened.earlier {
-            None => keeper.begin_fresh_tape(session),
-            Some(earlier) => {
-                let mut told = Vec::new();
-                let never = AtomicBool::new(false);
-                resume(session, keeper, &earlier, number, &mut told, false, &never).unwrap();
-                session.set_interactive(true);
-                sitting.told = String::from_utf8(told).unwrap();
-            }
+        if let Some(earlier) = opened.earlier {
+            let mut told = Vec::new();
+            resume(session, keeper, &earlier, number, &mut told, false).unwrap();
+            session.set_interactive(true);
+            sitting.told = String::from_utf8(told).unwrap();
         }
-        sitting.steps = steps.get();
         sitting
     }
 
     /// Types an input; returns what the session says.
     pub(super) fn say(&mut self, text: &str) -> String {
-        self.keeper.begun(text, true, &mut self.session);
+        self.keeper.begun(text, true);
         self.number += 1;
         self.session.set_interactive(true);
         let mut said = String::new();
@@ -107,12 +92,14 @@ impl Sitting {
                 Event::Stopped(stop) => said.push_str(&format!("{stop:?}")),
                 _ => {}
             });
-        self.keeper.ended(&mut self.session);
+        self.keeper.ended(&self.session);
         said
     }
 
-    pub(super) fn was_quick(&self) -> bool {
-        !self.told.contains("does not fit") && self.told.contains("; Resumed ") && self.steps == 0
+    /// Whether these inputs have been resumed, and have led to the same world.
+    pub(super) fn has_resumed(&self, count: usize) -> bool {
+        let resumed = format!("; Resumed {count} inputs;");
+        self.told.starts_with(&resumed) && !self.told.contains("not the same")
     }
 }
 
@@ -157,7 +144,7 @@ fn assert_same(a: &mut Sitting, b: &mut Sitting) {
 }
 
 #[test]
-fn a_session_that_carried_a_bottle_is_resumed_without_the_physics() {
+fn a_session_that_carried_a_bottle_is_resumed() {
     let folder = Folder::new("carry");
     let journal = folder.journal();
     let mut first = Sitting::begin(&journal);
@@ -166,19 +153,17 @@ fn a_session_that_carried_a_bottle_is_resumed_without_the_physics() {
     }
     let copy = folder.0.join("two.journal");
     fs::copy(&journal, &copy).unwrap();
-    fs::copy(tape_of(&journal), tape_of(&copy)).unwrap();
     let mut second = Sitting::resume(&copy);
-    assert!(second.was_quick(), "{}", second.told);
-    assert!(second.told.contains("Resumed 4 inputs"), "{}", second.told);
+    assert!(second.has_resumed(4), "{}", second.told);
     // What was resumed is resumed once more.
     drop(second);
     second = Sitting::resume(&copy);
-    assert!(second.was_quick(), "{}", second.told);
+    assert!(second.has_resumed(4), "{}", second.told);
     assert_same(&mut first, &mut second);
 }
 
 #[test]
-fn failures_debugger_interrupts_and_undo_are_resumed_from_the_tape() {
+fn failures_debugger_interrupts_and_undo_are_resumed() {
     let folder = Folder::new("failures");
     let journal = folder.journal();
     let mut first = Sitting::begin(&journal);
@@ -213,9 +198,8 @@ fn failures_debugger_interrupts_and_undo_are_resumed_from_the_tape() {
     first.say("(pw:restore 'here)");
     let copy = folder.0.join("two.journal");
     fs::copy(&journal, &copy).unwrap();
-    fs::copy(tape_of(&journal), tape_of(&copy)).unwrap();
     let mut second = Sitting::resume(&copy);
-    assert!(second.was_quick(), "{}", second.told);
+    assert!(second.has_resumed(23), "{}", second.told);
     let questions = [
         "(pw:explain)",
         "(get-robot-transformation)",
@@ -256,9 +240,7 @@ fn an_evaluation_that_is_stopped_is_stopped_again() {
     assert_eq!(first.session.level(), 1);
     let copy = folder.0.join("two.journal");
     fs::copy(&journal, &copy).unwrap();
-    fs::copy(tape_of(&journal), tape_of(&copy)).unwrap();
     let mut second = Sitting::resume(&copy);
-    assert!(!second.told.contains("does not fit"), "{}", second.told);
     assert_eq!(second.session.level(), 1);
     for input in [
         "(get-robot-transformation)",
@@ -273,7 +255,7 @@ fn an_evaluation_that_is_stopped_is_stopped_again() {
 }
 
 #[test]
-fn a_file_that_has_changed_does_not_fit_the_tape() {
+fn a_file_that_has_changed_is_told() {
     let folder = Folder::new("changed");
     let journal = folder.journal();
     let plan = folder.0.join("place.plan");
@@ -286,50 +268,18 @@ fn a_file_that_has_changed_does_not_fit_the_tape() {
     drop(first);
     fs::write(&plan, place(-1.2)).unwrap();
     let mut second = Sitting::resume(&journal);
-    assert!(second.told.contains("does not fit"), "{}", second.told);
     assert!(second.told.contains("not the same"), "{}", second.told);
     let pose = second.say("(get-current-pose-of-object 'bottle-1)");
     assert!(pose.contains("((-1.2"), "{pose}");
-    // The tape is now that of the session as it has become.
+    // The journal is now that of the session as it has become.
     drop(second);
     let third = Sitting::resume(&journal);
-    assert!(third.was_quick(), "{}", third.told);
+    assert!(third.has_resumed(4), "{}", third.told);
 }
 
 #[test]
-fn a_session_without_a_tape_is_resumed_with_the_physics() {
-    for obstacle in ["a folder", "another file"] {
-        let folder = Folder::new(&obstacle.replace(' ', "-"));
-        let journal = folder.journal();
-        let tape = tape_of(&journal);
-        match obstacle {
-            "a folder" => fs::create_dir(&tape).unwrap(),
-            _ => fs::write(&tape, "a film").unwrap(),
-        }
-        let mut first = Sitting::begin(&journal);
-        for input in BEGIN {
-            first.say(input);
-        }
-        first.say("(with-simulated-robot (park-arms))");
-        let hash = first.session.world_hash();
-        drop(first);
-        let second = Sitting::resume(&journal);
-        assert!(
-            second.told.starts_with("; Resumed 4 inputs"),
-            "{}",
-            second.told
-        );
-        assert_eq!(second.session.world_hash(), hash);
-        assert_ne!(second.steps, 0);
-        if obstacle == "another file" {
-            assert_eq!(fs::read_to_string(&tape).unwrap(), "a film");
-        }
-    }
-}
-
-#[test]
-fn only_what_is_not_on_the_tape_is_evaluated_with_the_physics() {
-    let folder = Folder::new("partly");
+fn a_recording_is_made_again() {
+    let folder = Folder::new("recording");
     let journal = folder.journal();
     let mut first = Sitting::begin(&journal);
     for input in BEGIN {
@@ -338,65 +288,55 @@ fn only_what_is_not_on_the_tape_is_evaluated_with_the_physics() {
     let film = folder.0.join("film.mcap");
     first.say("(with-simulated-robot (park-arms))");
     first.say(&format!("(pw:record {:?})", film.display().to_string()));
-    let move_torso =
-        "(with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.2))))";
-    first.say(move_torso);
+    first.say("(with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.2))))");
     first.say("(pw:record nil)");
     let recorded = fs::read(&film).unwrap();
     first.say("(with-simulated-robot (go-to *place-at-table*))");
-    let hash = first.session.world_hash();
     fs::remove_file(&film).unwrap();
     let copy = folder.0.join("two.journal");
     fs::copy(&journal, &copy).unwrap();
-    fs::copy(tape_of(&journal), tape_of(&copy)).unwrap();
     let mut second = Sitting::resume(&copy);
-    assert!(!second.told.contains("does not fit"), "{}", second.told);
-    assert_eq!(second.session.world_hash(), hash);
+    assert!(second.has_resumed(8), "{}", second.told);
+    assert_eq!(second.session.world_hash(), first.session.world_hash());
     assert_eq!(fs::read(&film).unwrap(), recorded);
-    let mut alone = Sitting::begin(&folder.0.join("three.journal"));
-    for input in BEGIN {
-        alone.say(input);
-    }
-    alone.say("(with-simulated-robot (park-arms))");
-    let steps = alone.session.simulation().world().steps();
-    alone.say(move_torso);
-    let steps = alone.session.simulation().world().steps() - steps;
-    assert_eq!(second.steps, steps);
     assert_eq!(first.say("(pw:rewind 2)"), second.say("(pw:rewind 2)"));
     assert_eq!(first.session.world_hash(), second.session.world_hash());
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
-
-    /// Whatever is wrong with the tape, the session is the same.
-    #[test]
-    fn a_damaged_tape_changes_nothing(place in any::<prop::sample::Index>(), bit in 0..8_u8, cut: bool) {
-        let folder = Folder::new("damaged");
-        let journal = folder.journal();
-        let mut first = Sitting::begin(&journal);
-        for input in BEGIN {
-            first.say(input);
-        }
-        first.say("(with-simulated-robot (park-arms))");
-        let hash = first.session.world_hash();
-        drop(first);
-        let tape = tape_of(&journal);
-        let mut bytes = fs::read(&tape).unwrap();
-        let at = place.index(bytes.len());
-        if cut {
-            bytes.truncate(at);
-        } else {
-            bytes[at] ^= 1 << bit;
-        }
-        fs::write(&tape, bytes).unwrap();
-        let mut second = Sitting::resume(&journal);
-        prop_assert_eq!(second.session.world_hash(), hash);
-        prop_assert!(!second.told.contains("not the same"));
-        second.say("(get-robot-transformation)");
-        drop(second);
-        let third = Sitting::resume(&journal);
-        prop_assert!(third.was_quick(), "{}", third.told);
-        prop_assert_eq!(third.session.world_hash(), hash);
+#[test]
+fn resuming_does_not_wait_for_real_time() {
+    let folder = Folder::new("hurried");
+    let journal = folder.journal();
+    let mut first = Sitting::begin(&journal);
+    for input in BEGIN {
+        first.say(input);
     }
+    first.say("(with-simulated-robot (park-arms))");
+    first.say("(cpl:sleep 100)");
+    let hash = first.session.world_hash();
+    drop(first);
+    let begin = Instant::now();
+    // More than an hour, if it did.
+    let second = Sitting::open(Wanted::Of(&journal), Some(0.02));
+    assert!(begin.elapsed() < Duration::from_secs(300));
+    assert!(second.has_resumed(5), "{}", second.told);
+    assert_eq!(second.session.world_hash(), hash);
+}
+
+#[test]
+fn an_interrupt_while_nothing_moves_is_repeated_at_the_same_time() {
+    let folder = Folder::new("sleep");
+    let journal = folder.journal();
+    // Half a second passes between two looks at the interrupt flag.
+    let mut first = Sitting::open(Wanted::In(&journal), Some(10.0));
+    first.session.interrupt_next_at(8);
+    first.say("(cpl:sleep 100)");
+    first.say("q");
+    let time = first.say("(roslisp:ros-time)");
+    let seconds: f64 = time.trim().trim_end_matches("d0").parse().unwrap();
+    assert!(0.0 < seconds && seconds < 100.0, "{time}");
+    drop(first);
+    let mut second = Sitting::open(Wanted::Of(&journal), Some(10.0));
+    assert!(second.has_resumed(3), "{}", second.told);
+    assert_eq!(second.say("(roslisp:ros-time)"), time);
 }

@@ -47,13 +47,13 @@ pub(super) enum Passed {
     Nothing,
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Lets time pass until something happens that a task waits for.
     pub(super) fn pass_time(
         &mut self,
         plan: &Plan,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
     ) -> Passed {
         if self.time_stands_still {
             return Passed::Nothing;
@@ -76,7 +76,7 @@ impl Scheduler {
 
     /// Lets time pass until what has been cancelled or paused has come to a stop, so that nobody
     /// acts on the place of a robot that still moves.
-    pub(super) fn stand_still(&mut self, image: &mut Image, host: &mut dyn Host) {
+    pub(super) fn stand_still(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>) {
         if std::mem::take(&mut self.must_stand_still) {
             let plan = Plan::of(image);
             let advance = host.stand_still(image, plan.now());

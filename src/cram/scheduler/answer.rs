@@ -10,7 +10,7 @@ use lisp::image::Image;
 use lisp::value::Value;
 use std::cmp::Reverse;
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Makes an entry wait, possibly with a time limit.
     pub(super) fn block(&mut self, slot: Slot, wait: Wait, until: Option<f64>) {
         self.last_token += 1;
@@ -59,7 +59,12 @@ impl Scheduler {
     }
 
     /// Abandons an entry's wait.
-    pub(super) fn give_up_wait(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+    pub(super) fn give_up_wait(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        slot: Slot,
+    ) {
         let aside = self.live_mut(slot).and_then(|l| l.set_aside.take());
         let waits = [
             self.leave_wait(slot),

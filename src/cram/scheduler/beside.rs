@@ -12,14 +12,14 @@ use lisp::vm::fiber::Fiber;
 pub(super) const STANDS_STILL: &str =
     "Time stands still after an interrupt: continue the plan, or abort it, for this.";
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Calls a function to its end while no time passes, with the bindings of special variables that
     /// the `link`th of the [stopped fibers](Scheduler::stopped_fibers) has. What would have to wait
     /// is an error.
     pub fn call_beside(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         link: usize,
         (function, args): (Value, Vec<Value>),
     ) -> Evaluation {

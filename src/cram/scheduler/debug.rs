@@ -16,7 +16,7 @@ use lisp::image::Image;
 use lisp::value::Value;
 use lisp::vm::fiber::{Dynamic, Fiber};
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Sets whether a task stops where it is at a condition that no handler in it or further out
     /// will handle; by default, it fails.
     pub fn set_stops_in_place(&mut self, stops: bool) {
@@ -112,7 +112,7 @@ impl Scheduler {
     pub fn replace_frame(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         (link, frame): (usize, usize),
         call: (Value, Vec<Value>),
     ) -> Evaluation {

@@ -5,10 +5,15 @@ use super::live::{Answer, Ending, Live, Slot, Told, Wait};
 use crate::host::Host;
 use lisp::image::Image;
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Evaporates a task and all below it: each unwinds when all below it have ended. Tasks that
     /// are ending already or must not be disturbed are left alone.
-    pub(super) fn evaporate(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+    pub(super) fn evaporate(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        slot: Slot,
+    ) {
         let mut doomed = Vec::new();
         let mut pending = vec![slot];
         while let Some(slot) = pending.pop() {
@@ -51,7 +56,7 @@ impl Scheduler {
     pub(super) fn evaporate_children(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
     ) {
         let children = self.live(slot).map(|l| l.children.clone());
@@ -63,7 +68,7 @@ impl Scheduler {
     /// Ends dying tasks that would never end by themselves, without running their cleanup code; if
     /// that code waits for tasks of its own, evaporates these first. Returns whether there were
     /// any.
-    pub(super) fn bury(&mut self, image: &mut Image, host: &mut dyn Host) -> bool {
+    pub(super) fn bury(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>) -> bool {
         let stuck: Vec<Slot> = self
             .dying()
             .filter(|l| l.children.is_empty())

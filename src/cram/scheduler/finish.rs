@@ -26,7 +26,7 @@ fn value_in(image: &Image, fiber: &Fiber, sym: Sym) -> Value {
     bound.unwrap_or_else(|| image.special(sym).clone())
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Begins a task as a child of an entry, whose fiber is `parent_fiber`.
     pub(super) fn begin(
         &mut self,
@@ -144,7 +144,7 @@ impl Scheduler {
     pub(super) fn returned(
         &mut self,
         image: &mut Image,
-        host: &mut dyn crate::host::Host,
+        host: &mut dyn crate::host::Host<Call = C>,
         slot: Slot,
         value: Value,
     ) {

@@ -57,13 +57,13 @@ impl Group {
     }
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Determines the result of a group; returns what its owner continues with, if that is possible
     /// now.
     pub(super) fn decide(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
         group: Group,
     ) -> Option<Answer> {
@@ -99,7 +99,7 @@ impl Scheduler {
         Some(Answer::Raise(Raise::condition(failure)))
     }
 
-    fn evaporate_group(&mut self, image: &mut Image, host: &mut dyn Host, group: &Group) {
+    fn evaporate_group(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>, group: &Group) {
         for child in &group.children {
             if let Some(slot) = self.slot_of(child) {
                 self.evaporate(image, host, slot);

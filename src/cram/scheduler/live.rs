@@ -179,7 +179,7 @@ impl Live {
     }
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Adds an entry.
     pub(super) fn add(&mut self, live: Live) -> Slot {
         let live = Some(Box::new(live));

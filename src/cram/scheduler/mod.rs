@@ -11,6 +11,7 @@
 
 mod advance;
 mod answer;
+mod asked;
 mod beside;
 mod debug;
 mod dying;
@@ -32,6 +33,7 @@ pub use root::Evaluation;
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
+use std::marker::PhantomData;
 
 use super::host::Ticket;
 use super::task::TaskId;
@@ -41,9 +43,8 @@ use lisp::image::Image;
 use lisp::value::Value;
 use live::{Live, Slot};
 
-/// Runs tasks in an image.
-#[derive(Default)]
-pub struct Scheduler {
+/// Runs tasks in an image; `C` is a call of the host ([`Host::Call`](crate::Host::Call)).
+pub struct Scheduler<C> {
     /// Live tasks and roots; free entries are reused.
     entries: Vec<Option<Box<Live>>>,
     free: Vec<Slot>,
@@ -75,17 +76,42 @@ pub struct Scheduler {
     last_id: u64,
     /// Number of the last wait.
     last_token: u64,
+    calls: PhantomData<fn(C)>,
 }
 
-impl Scheduler {
+impl<C> Default for Scheduler<C> {
+    fn default() -> Self {
+        Self {
+            entries: Vec::new(),
+            free: Vec::new(),
+            ready: VecDeque::new(),
+            alarms: BinaryHeap::new(),
+            tickets: Vec::new(),
+            must_stand_still: false,
+            roots: Vec::new(),
+            interrupted: None,
+            stops_in_place: false,
+            time_stands_still: false,
+            stops: Vec::new(),
+            untold_stop: None,
+            ended: Vec::new(),
+            ended_root: None,
+            last_id: 0,
+            last_token: 0,
+            calls: PhantomData,
+        }
+    }
+}
+
+impl<C: 'static> Scheduler<C> {
     /// A scheduler without tasks.
-    pub fn new() -> Scheduler {
+    pub fn new() -> Self {
         Scheduler::default()
     }
 
     /// A scheduler that will number tasks and waits as this one would; `None` if there are tasks, or
     /// ended ones that are remembered.
-    pub fn copied(&self) -> Option<Scheduler> {
+    pub fn copied(&self) -> Option<Self> {
         let is_idle = self.entries.iter().all(Option::is_none)
             && self.ready.is_empty()
             && self.tickets.is_empty()

@@ -26,7 +26,7 @@ pub struct TaskInfo {
     pub(crate) waits_for: Option<String>,
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Simulated seconds since the session began.
     #[cfg(test)]
     pub fn now(&self, image: &Image) -> f64 {

@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use super::Scheduler;
+use super::asked::Asked;
 use super::beside::STANDS_STILL;
 use super::group::Group;
 use super::live::{Answer, Beginning, Slot, Told, Wait};
@@ -22,20 +23,30 @@ const BYTES_OF_A_TASK: usize = 1024;
 /// How many tasks are begun between two looks at the interrupt flag.
 const TASKS_AT_ONCE: usize = 1000;
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Handles a request of the entry that is running with `fiber`; returns the answer, or `None`
     /// if the entry has to wait.
     pub(super) fn handle(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
         fiber: &Fiber,
         request: Box<dyn Any>,
     ) -> Option<Answer> {
-        let request = match request.downcast::<Request>() {
-            Ok(request) => *request,
-            Err(other) => return self.ask_host(image, host, slot, other),
+        let request = match Asked::of(request) {
+            Some(Asked::Scheduler(request)) => request,
+            Some(Asked::Motion(motion)) => {
+                let reply = host.perform(image, self.live(slot)?.id, motion);
+                return self.replied(image, host, slot, reply);
+            }
+            Some(Asked::Host(call)) => {
+                let reply = host.call(image, self.live(slot)?.id, call);
+                return self.replied(image, host, slot, reply);
+            }
+            None => {
+                return Some(Answer::Raise(Raise::control("This cannot be waited for.")));
+            }
         };
         let plan = Plan::of(image);
         match request {
@@ -155,15 +166,15 @@ impl Scheduler {
         None
     }
 
-    fn ask_host(
+    /// Handles the host's reply to what the entry has asked of it.
+    fn replied(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
-        request: Box<dyn Any>,
+        reply: Reply,
     ) -> Option<Answer> {
-        let id = self.live(slot)?.id;
-        match host.request(image, id, request) {
+        match reply {
             Reply::Now(Ok(value)) => Some(Answer::Value(value)),
             Reply::Now(Err(raise)) => Some(Answer::Raise(raise)),
             Reply::Later(ticket) if self.time_stands_still => {
@@ -239,7 +250,7 @@ impl Scheduler {
     fn told_to_evaporate(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
         task: &TaskRef,
         sync: bool,
@@ -272,7 +283,7 @@ impl Scheduler {
     fn allow_scheduling(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         slot: Slot,
         change: i32,
     ) -> Option<Answer> {

@@ -23,10 +23,15 @@ pub enum Evaluation {
     Interrupted,
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Evaluates a form at top level, to its end. An earlier evaluation that has stopped stays
     /// stopped, and this one runs on top of it.
-    pub fn evaluate(&mut self, image: &mut Image, host: &mut dyn Host, form: &Value) -> Evaluation {
+    pub fn evaluate(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        form: &Value,
+    ) -> Evaluation {
         self.apply(image, host, known::EVAL.into(), vec![form.clone()])
     }
 
@@ -34,7 +39,7 @@ impl Scheduler {
     pub fn apply(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         function: Value,
         args: Vec<Value>,
     ) -> Evaluation {
@@ -46,7 +51,7 @@ impl Scheduler {
     }
 
     /// Continues after an interrupt.
-    pub fn go_on(&mut self, image: &mut Image, host: &mut dyn Host) -> Evaluation {
+    pub fn go_on(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>) -> Evaluation {
         if let Some(slot) = self.interrupted.take()
             && let Some(live) = self.live_mut(slot)
         {
@@ -77,7 +82,7 @@ impl Scheduler {
     pub fn call(
         &mut self,
         image: &mut Image,
-        host: &mut dyn Host,
+        host: &mut dyn Host<Call = C>,
         function: Value,
         args: Vec<Value>,
     ) -> Evaluation {
@@ -89,7 +94,7 @@ impl Scheduler {
 
     /// Abandons the evaluation that stopped last: its tasks end first, then its own cleanup code
     /// runs, which may take simulated time. An interrupt cuts that short.
-    pub fn abort(&mut self, image: &mut Image, host: &mut dyn Host) {
+    pub fn abort(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>) {
         let Some(root) = self.roots.last().copied() else {
             return;
         };
@@ -127,7 +132,7 @@ impl Scheduler {
     }
 
     /// One step: an entry runs, or time passes.
-    fn turn(&mut self, image: &mut Image, host: &mut dyn Host) -> Turn {
+    fn turn(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>) -> Turn {
         if image.take_interrupt() {
             return Turn::Interrupted;
         }
@@ -151,7 +156,12 @@ impl Scheduler {
     }
 
     /// The result of the root's evaluation, if it has ended.
-    fn ended(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) -> Option<Evaluation> {
+    fn ended(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        root: Slot,
+    ) -> Option<Evaluation> {
         let live = self.live(root)?;
         if matches!(live.wait, Wait::Debugger) {
             let condition = match &live.ending {
@@ -189,7 +199,7 @@ impl Scheduler {
     }
 
     /// Runs until the children of a root, which have all been told to end, have ended.
-    pub(super) fn drain(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
+    pub(super) fn drain(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>, root: Slot) {
         while self.live(root).is_some_and(|l| !l.children.is_empty()) {
             match self.turn(image, host) {
                 Turn::Done => {}
@@ -206,7 +216,7 @@ impl Scheduler {
 
     /// Nothing can continue: buries dying tasks, or else reports the last stop again, or else the
     /// deadlock to the root.
-    fn stuck(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
+    fn stuck(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>, root: Slot) {
         if self.bury(image, host) || self.tell_stop_again() {
             return;
         }

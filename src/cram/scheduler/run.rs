@@ -24,9 +24,14 @@ pub(super) enum Stopped {
     Interrupted,
 }
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// Runs an entry that is ready until it waits or ends.
-    pub(super) fn run(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) -> Stopped {
+    pub(super) fn run(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        slot: Slot,
+    ) -> Stopped {
         let Some(live) = self.live_mut(slot) else {
             return Stopped::Waiting;
         };

@@ -9,7 +9,7 @@ use crate::task::Status;
 use lisp::image::Image;
 use lisp::value::Value;
 
-impl Scheduler {
+impl<C: 'static> Scheduler<C> {
     /// An entry and all below it, outermost first.
     fn subtree(&self, slot: Slot) -> Vec<Slot> {
         let mut found = Vec::new();
@@ -25,7 +25,12 @@ impl Scheduler {
 
     /// Suspends a task and all below it. If it has not begun, it begins, and is suspended where it may
     /// first wait; what is below it and has not begun does not begin before it is woken up.
-    pub(super) fn suspend(&mut self, image: &mut Image, host: &mut dyn Host, outermost: Slot) {
+    pub(super) fn suspend(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        outermost: Slot,
+    ) {
         for slot in self.subtree(outermost) {
             let Some(live) = self.live_mut(slot) else {
                 continue;
@@ -56,7 +61,12 @@ impl Scheduler {
     }
 
     /// Suspends an entry that now waits, if it was told to earlier.
-    pub(super) fn suspend_if_told(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+    pub(super) fn suspend_if_told(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host<Call = C>,
+        slot: Slot,
+    ) {
         let Some(live) = self.live_mut(slot) else {
             return;
         };
@@ -108,7 +118,7 @@ impl Scheduler {
     }
 
     /// Wakes up a suspended task and all below it.
-    pub(super) fn wake_up(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+    pub(super) fn wake_up(&mut self, image: &mut Image, host: &mut dyn Host<Call = C>, slot: Slot) {
         for slot in self.subtree(slot) {
             let Some(live) = self.live_mut(slot) else {
                 continue;

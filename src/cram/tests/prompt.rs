@@ -1,5 +1,7 @@
 //! A prompt without a world, for tests of the plan language.
 
+use std::convert::Infallible;
+
 use crate::{Evaluation, NullHost, Scheduler};
 use lisp::reader;
 use lisp::value::known;
@@ -8,7 +10,7 @@ use lisp::{Image, evaluator::nested, print, value::Value};
 /// An image with the plan language, in a package that uses it.
 pub(crate) struct Prompt {
     pub(crate) image: Image,
-    pub(crate) scheduler: Scheduler,
+    pub(crate) scheduler: Scheduler<Infallible>,
 }
 
 impl Prompt {

@@ -1,16 +1,19 @@
-//! The arguments of the command line, from which its help is generated.
+//! The commands of the command line. The file of each command has its arguments, from which the help
+//! is generated.
 
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use clap::{Parser, Subcommand};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use clap_complete::Shell;
-
-use super::heap;
+use super::check::CheckArguments;
+use super::completions::CompletionsArguments;
 use super::jupyter::JupyterCommand;
+use super::options::Options;
 use super::picture::PictureArguments;
+use super::prompt::PromptOptions;
+use super::replay::ReplayArguments;
+use super::run::RunArguments;
 use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
+use super::view_recording::ViewArguments;
 
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
 ///
@@ -36,136 +39,15 @@ pub(crate) struct Arguments {
     pub(crate) command: Option<Command>,
 }
 
-/// Options of the prompt.
-#[derive(Args, Debug, Default)]
-pub(crate) struct PromptOptions {
-    /// Resume the last session that is over, or the one recorded in the journal FILE: evaluate
-    /// all its inputs again, which leads to the same state
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
-    pub(crate) resume: Option<Option<PathBuf>>,
-    /// New file to save the inputs to [default: a file in the state directory]
-    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
-    pub(crate) journal: Option<PathBuf>,
-}
-
-/// Options of all commands.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct Options {
-    /// Seed for everything random
-    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
-    pub(crate) seed: u64,
-    /// Kitchen to load (a URDF file) instead of the built-in one
-    #[arg(long, global = true, value_name = "FILE")]
-    pub(crate) world: Option<PathBuf>,
-    /// Robot to load (a URDF file) instead of the built-in PR2
-    #[arg(long, global = true, value_name = "FILE")]
-    pub(crate) robot: Option<PathBuf>,
-    /// What the robot's links and joints are for (in the form of world/pr2.sexp), for a robot
-    /// whose names are not those of the built-in PR2
-    #[arg(long, global = true, value_name = "FILE")]
-    pub(crate) robot_description: Option<PathBuf>,
-    /// Folder in which (asdf:load-system …) and (ql:quickload …) look for systems, with the
-    /// folders inside it; may be given several times
-    #[arg(long, global = true, value_name = "FOLDER")]
-    pub(crate) systems: Vec<PathBuf>,
-    /// Let the robot's sensors and motors make errors, such as position=0.01,misses=0.1 (see
-    /// set-noise in the manual); usual ones if no SETTINGS are given
-    #[arg(
-        long,
-        global = true,
-        value_name = "SETTINGS",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = ""
-    )]
-    pub(crate) noise: Option<String>,
-    /// Least severe log messages to show
-    #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
-    pub(crate) log_level: LogLevel,
-    /// When to use colours; auto: if the output is a terminal and NO_COLOR is not set
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
-    pub(crate) color: ColorWhen,
-    /// Run simulated time at FACTOR times real time instead of as fast as possible
-    #[arg(
-        long,
-        global = true,
-        value_name = "FACTOR",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "1",
-        value_parser = positive_factor
-    )]
-    pub(crate) realtime: Option<f64>,
-    /// Port of the page of the live view, which only this machine can reach [default: any that is
-    /// free]
-    #[arg(
-        long,
-        global = true,
-        value_name = "N",
-        value_parser = clap::value_parser!(u16).range(1..)
-    )]
-    pub(crate) view_port: Option<u16>,
-    /// Memory that may be in use, such as 500M or 2G; beyond it, a program gets a condition
-    /// HEAP-EXHAUSTED-ERROR [default: half of the machine's memory]
-    #[arg(long, global = true, value_name = "SIZE", value_parser = heap::bytes)]
-    pub(crate) heap: Option<usize>,
-}
-
-/// How to watch a run.
-#[derive(Args, Clone, Debug, Default)]
-pub(crate) struct WatchArguments {
-    /// Show the robot in the browser while it moves; simulated time then passes in real time
-    /// unless --realtime says otherwise
-    #[arg(long)]
-    pub(crate) view: bool,
-    /// MCAP file to record the run to
-    #[arg(long, value_name = "MCAP")]
-    pub(crate) record: Option<PathBuf>,
-    /// HTML file to write the run to: the page of the live view with the whole run in it, which
-    /// any browser shows without planwright
-    #[arg(long, value_name = "HTML")]
-    pub(crate) html: Option<PathBuf>,
-}
-
 /// The subcommands.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
     /// Load plan files, then evaluate forms; stop at the first unhandled condition
-    Run {
-        /// Files to load, in order; the values of their forms are not shown
-        #[arg(value_name = "FILE", required_unless_present = "eval")]
-        files: Vec<PathBuf>,
-        /// Form to evaluate after loading the files; its values are shown
-        #[arg(long, value_name = "FORM")]
-        eval: Vec<String>,
-        #[command(flatten)]
-        watch: WatchArguments,
-    },
+    Run(RunArguments),
     /// Show a recording in the browser until Ctrl-C
-    View {
-        /// MCAP file written by `run --record` or (record "…")
-        #[arg(value_name = "MCAP")]
-        file: PathBuf,
-        /// Write the recording into an HTML file instead, which any browser shows without
-        /// planwright
-        #[arg(long, value_name = "HTML")]
-        html: Option<PathBuf>,
-    },
+    View(ViewArguments),
     /// Run transcripts, each in a fresh world, and compare their output
-    Replay {
-        /// Transcripts, or Markdown files with blocks marked `session`
-        #[arg(value_name = "FILE", required = true)]
-        files: Vec<PathBuf>,
-        /// Rewrite the expected output where it differs, keeping wildcards that still match
-        #[arg(long)]
-        bless: bool,
-        /// Stop after the N-th input of the transcript and open the prompt there
-        #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
-        stop_at: Option<usize>,
-        /// Number of files to run in parallel [default: the number of processors]
-        #[arg(long, value_name = "N")]
-        jobs: Option<NonZeroUsize>,
-    },
+    Replay(ReplayArguments),
     /// Load plan files, then draw the resulting world; without files, draw the initial one
     ///
     /// The picture is drawn even after an unhandled condition; the exit status is then 1.
@@ -178,58 +60,18 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Jupyter(JupyterCommand),
     /// Find mistakes in plan files without running them
-    Check {
-        /// Plan files
-        #[arg(value_name = "FILE", required = true)]
-        files: Vec<PathBuf>,
-    },
+    Check(CheckArguments),
     /// Print the reference manual in Markdown
     Reference,
     /// Print the manual page, as in `planwright man | man -l -`
     Man,
     /// Print a completion script for a shell
-    Completions {
-        /// The shell to complete for
-        shell: Shell,
-    },
-}
-
-/// Severity of log messages.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum)]
-pub(crate) enum LogLevel {
-    /// Everything
-    Debug,
-    /// Progress of plans
-    Info,
-    /// Possible problems
-    Warn,
-    /// Errors
-    Error,
-    /// Nothing
-    None,
-}
-
-/// When to use colours.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum ColorWhen {
-    /// If the output is a terminal
-    Auto,
-    /// Always
-    Always,
-    /// Never
-    Never,
-}
-
-fn positive_factor(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err("expected a number greater than zero".to_owned()),
-    }
+    Completions(CompletionsArguments),
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::command::arguments::*;
+    use super::*;
     use clap::CommandFactory;
 
     fn parsed(arguments: &[&str]) -> Result<Arguments, clap::Error> {
@@ -259,10 +101,10 @@ mod tests {
         assert!(parsed(&["--view"]).is_ok_and(|a| a.view));
         assert!(parsed(&["--view", "run", "a.plan"]).is_ok_and(|a| a.view));
         let run = parsed(&["run", "a.plan", "--view", "--record", "a.mcap"]);
-        let Some(Command::Run { watch, .. }) = run.ok().and_then(|a| a.command) else {
+        let Some(Command::Run(run)) = run.ok().and_then(|a| a.command) else {
             panic!("no run");
         };
-        assert!(watch.view && watch.record.is_some());
+        assert!(run.watch.view && run.watch.record.is_some());
         assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
     }
 

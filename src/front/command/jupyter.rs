@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use super::arguments::{LogLevel, Options};
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
+use super::options::{LogLevel, Options};
 use super::replay::report;
 use crate::jupyter::{
     Connection, Interrupter, Kernel, KernelError, Place, Settings, Specification, notebook,

@@ -2,23 +2,22 @@
 
 use std::io::{self, Write};
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 
-use super::arguments::Arguments;
 use super::failure::{CommandError, Status};
 
-/// Prints the page as the program `man` reads it.
-pub(crate) fn print() -> Result<Status, CommandError> {
+/// Prints the page of the command line as the program `man` reads it.
+pub(crate) fn print(command: Command) -> Result<Status, CommandError> {
     let mut page = Vec::new();
-    write_page(&mut page)?;
+    write_page(command, &mut page)?;
     io::stdout().write_all(&page)?;
     Ok(Status::Good)
 }
 
 /// Writes one page for all commands, since they share their options and are installed together.
-fn write_page(page: &mut Vec<u8>) -> io::Result<()> {
-    let mut command = Arguments::command().disable_help_subcommand(true);
+fn write_page(command: Command, page: &mut Vec<u8>) -> io::Result<()> {
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     let man = Man::new(command.clone());
     man.render_title(page)?;
@@ -65,11 +64,13 @@ fn write_command(page: &mut Vec<u8>, command: &Command) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command::arguments::Arguments;
+    use clap::CommandFactory;
 
     #[test]
     fn the_page_lists_every_command_and_its_options_once() {
         let mut page = Vec::new();
-        write_page(&mut page).unwrap();
+        write_page(Arguments::command(), &mut page).unwrap();
         let page = String::from_utf8(page).unwrap();
         for command in Arguments::command().get_subcommands() {
             let heading = format!("\n.SS {}\n", command.get_name());

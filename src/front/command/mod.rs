@@ -9,11 +9,13 @@
 
 mod arguments;
 mod check;
+mod completions;
 mod failure;
 mod heap;
 mod jupyter;
 mod man;
 mod open;
+mod options;
 mod paint;
 mod picture;
 mod pipe;
@@ -21,6 +23,7 @@ mod prompt;
 mod reference;
 mod replay;
 mod run;
+mod stack;
 mod stop_at;
 mod swank;
 mod sweep;
@@ -33,16 +36,15 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use arguments::{Arguments, Command, WatchArguments};
+use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
 use paint::Paint;
 use session::defect;
+use stack::THREAD_STACK;
+use watching::WatchArguments;
 
 #[cfg(test)]
 pub(crate) use open::open_default;
-
-/// Bytes of stack for a command's thread: the compiler recurses as deep as forms are nested.
-const STACK_BYTES: usize = 64 << 20;
 
 /// Runs the command line of this process. `in_use` tells how many bytes its allocator has given
 /// out.
@@ -50,7 +52,7 @@ pub fn main(in_use: fn() -> usize) -> ExitCode {
     heap::count_by(in_use);
     defect::keep_caught_panics_quiet();
     let thread = thread::Builder::new()
-        .stack_size(STACK_BYTES)
+        .stack_size(THREAD_STACK)
         .spawn(run_command_line);
     match thread.map(thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
@@ -74,47 +76,28 @@ fn run_command_line() -> ExitCode {
 
 fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
-    let mut watch = WatchArguments {
+    let watch = WatchArguments {
         view: arguments.view,
-        record: None,
-        html: None,
+        ..WatchArguments::default()
     };
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
             prompt::prompt(arguments.options, &arguments.prompt, &watch)
         }
         None => pipe::evaluate_standard_input(arguments.options, &arguments.prompt, &watch),
-        Some(Command::Run {
-            files,
-            eval,
-            watch: of_run,
-        }) => {
-            watch.view |= of_run.view;
-            watch.record = of_run.record;
-            watch.html = of_run.html;
-            run::run(options, &files, &eval, &watch)
+        Some(Command::Run(mut wanted)) => {
+            wanted.watch.view |= arguments.view;
+            run::run(options, &wanted)
         }
-        Some(Command::View { file, html }) => view_recording::view(options, &file, html.as_deref()),
-        Some(Command::Replay {
-            files,
-            stop_at: Some(entry),
-            ..
-        }) => stop_at::stop_at(options, &files, entry),
-        Some(Command::Replay {
-            files, bless, jobs, ..
-        }) => replay::replay(options, &files, bless, jobs),
+        Some(Command::View(wanted)) => view_recording::view(options, &wanted),
+        Some(Command::Replay(wanted)) => replay::replay(options, &wanted),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
-        Some(Command::Check { files }) => check::check(options, &files),
+        Some(Command::Check(wanted)) => check::check(options, &wanted),
         Some(Command::Reference) => reference::print(),
-        Some(Command::Man) => man::print(),
-        Some(Command::Completions { shell }) => {
-            let mut script = Vec::new();
-            clap_complete::generate(shell, &mut Arguments::command(), "planwright", &mut script);
-            io::stdout().write_all(&script)?;
-            Ok(Status::Good)
-        }
+        Some(Command::Man) => man::print(Arguments::command()),
+        Some(Command::Completions(wanted)) => completions::print(Arguments::command(), &wanted),
     }
 }

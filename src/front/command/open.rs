@@ -8,15 +8,13 @@ use clap::Parser;
 
 #[cfg(test)]
 use super::arguments::Arguments;
-use super::arguments::{LogLevel, Options};
 use super::failure::CommandError;
 use super::heap;
+use super::options::{LogLevel, Options};
+use super::stack::COMPILER_STACK;
 use lisp::guard::set_stack_budget;
 use session::dialogue::Evaluate;
 use session::{self, Session, SessionOptions};
-
-/// Bytes of stack for nested forms; the threads of all commands have more.
-pub(super) const COMPILER_STACK: usize = 48 << 20;
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {

@@ -2,7 +2,18 @@
 
 use std::io::IsTerminal;
 
-use super::arguments::ColorWhen;
+use clap::ValueEnum;
+
+/// When to use colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum ColorWhen {
+    /// If the output is a terminal
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
 
 /// Colours text, or leaves it plain.
 #[derive(Clone, Copy, Debug)]

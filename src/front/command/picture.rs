@@ -8,9 +8,9 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use nalgebra::Point3;
 
-use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
+use super::options::Options;
 use super::paint::Paint;
 use super::run::run_in;
 use session::Filming;

@@ -1,13 +1,12 @@
 //! Evaluates standard input when it is not a terminal.
 
 use std::io::{self, BufRead, Write};
-use std::sync::atomic::AtomicBool;
 
-use super::arguments::{Options, PromptOptions, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use super::prompt::open_journals;
-use super::watching;
+use super::options::Options;
+use super::prompt::{PromptOptions, open_journals};
+use super::watching::{self, WatchArguments};
 use crate::prompt::{Doubt, Keeper, Opened, excerpt, resume, settle_doubts};
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};
@@ -50,11 +49,8 @@ pub(crate) fn evaluate_standard_input(
             &mut number,
             progress,
             false,
-            &AtomicBool::new(false),
         )?;
         session.set_interactive(false);
-    } else {
-        keeper.begin_fresh_tape(&session);
     }
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen, &mut keeper, number)?;
@@ -81,7 +77,7 @@ fn evaluate_lines(
             number += 1;
             // Nobody could decide how to continue: conditions end this input also when it is
             // resumed.
-            keeper.begun(&text, false, session);
+            keeper.begun(&text, false);
             let outcome = evaluate_on(screen, session, &input_name(number), &text)?;
             keeper.ended(session);
             match outcome {

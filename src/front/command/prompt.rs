@@ -3,13 +3,27 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::arguments::{Options, PromptOptions, WatchArguments};
+use clap::Args;
+
 use super::failure::{CommandError, Status};
 use super::open::open_session;
+use super::options::Options;
 use super::paint::Paint;
-use super::watching;
+use super::watching::{self, WatchArguments};
 use crate::prompt;
 use crate::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
+
+/// Options of the prompt.
+#[derive(Args, Debug, Default)]
+pub(crate) struct PromptOptions {
+    /// Resume the last session that is over, or the one recorded in the journal FILE: evaluate
+    /// all its inputs again, which leads to the same state
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub(crate) resume: Option<Option<PathBuf>>,
+    /// New file to save the inputs to [default: a file in the state directory]
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub(crate) journal: Option<PathBuf>,
+}
 
 /// Runs the prompt, in a fresh session or in a resumed one.
 pub(crate) fn prompt(

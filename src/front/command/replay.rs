@@ -4,27 +4,48 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::arguments::Options;
+use clap::Args;
+
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
+use super::options::Options;
 use super::paint::Paint;
+use super::stop_at::stop_at;
 use crate::transcript::{Transcript, Verdict, blessed, replay_all};
 
-/// Replays the files and prints the differences, or rewrites the expected output.
-pub(crate) fn replay(
-    options: &Options,
-    files: &[PathBuf],
+/// What to replay.
+#[derive(Args, Debug)]
+pub(crate) struct ReplayArguments {
+    /// Transcripts, or Markdown files with blocks marked `session`
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Rewrite the expected output where it differs, keeping wildcards that still match
+    #[arg(long)]
     bless: bool,
+    /// Stop after the N-th input of the transcript and open the prompt there
+    #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
+    stop_at: Option<usize>,
+    /// Number of files to run in parallel [default: the number of processors]
+    #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-) -> Result<Status, CommandError> {
+}
+
+/// Replays the files and prints the differences, or rewrites the expected output; or opens the
+/// prompt in the middle of a file.
+pub(crate) fn replay(options: &Options, wanted: &ReplayArguments) -> Result<Status, CommandError> {
+    let files = &wanted.files;
+    if let Some(entry) = wanted.stop_at {
+        return stop_at(options, files, entry);
+    }
     let transcripts: Vec<Transcript> = files
         .iter()
         .map(|path| Ok(Transcript::parse(&path.display().to_string(), &read(path)?)))
         .collect::<Result<_, CommandError>>()?;
-    let jobs = jobs
+    let jobs = wanted
+        .jobs
         .or_else(|| std::thread::available_parallelism().ok())
         .unwrap_or(NonZeroUsize::MIN);
-    let mut report = Report::new(options, bless);
+    let mut report = Report::new(options, wanted.bless);
     let mut files = files.iter();
     let mut told = Ok(());
     replay_all(

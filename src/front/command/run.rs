@@ -3,22 +3,33 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use super::arguments::{Options, WatchArguments};
+use clap::Args;
+
 use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::{open, open_session};
+use super::options::Options;
 use super::paint::Paint;
-use super::watching::{self, Writing};
+use super::watching::{self, WatchArguments, Writing};
 use session::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
+
+/// What to run.
+#[derive(Args, Debug)]
+pub(crate) struct RunArguments {
+    /// Files to load, in order; the values of their forms are not shown
+    #[arg(value_name = "FILE", required_unless_present = "eval")]
+    pub(super) files: Vec<PathBuf>,
+    /// Form to evaluate after loading the files; its values are shown
+    #[arg(long, value_name = "FORM")]
+    pub(super) eval: Vec<String>,
+    #[command(flatten)]
+    pub(super) watch: WatchArguments,
+}
 
 /// Loads the files, then evaluates the forms, up to the first unhandled condition. Output goes
 /// to standard output, the condition to standard error.
-pub(crate) fn run(
-    options: &Options,
-    files: &[PathBuf],
-    forms: &[String],
-    watch: &WatchArguments,
-) -> Result<Status, CommandError> {
+pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, CommandError> {
+    let RunArguments { files, eval, watch } = wanted;
     let mut has_browser = false;
     let mut writing = Writing::default();
     let open = || {
@@ -27,7 +38,7 @@ pub(crate) fn run(
         writing = watching::finish_at_interrupt(&session, watch);
         Ok(session)
     };
-    let (status, mut session) = run_in(options, files, forms, open)?;
+    let (status, mut session) = run_in(options, files, eval, open)?;
     let recorded = session.end_recording();
     session.write_kept_run()?;
     recorded?;
@@ -158,7 +169,7 @@ impl Text {
 
 #[cfg(test)]
 mod tests {
-    use crate::command::arguments::ColorWhen;
+    use crate::command::paint::ColorWhen;
     use crate::command::run::*;
     use lisp::source::Location;
 

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::arguments::Options;
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
+use super::options::Options;
 use super::paint::Paint;
 use crate::prompt;
 use crate::prompt::{Opened, ReplOptions};

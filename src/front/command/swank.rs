@@ -7,10 +7,10 @@ use std::thread;
 
 use clap::Args;
 
-use super::arguments::{Options, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use super::watching;
+use super::options::Options;
+use super::watching::{self, WatchArguments};
 use crate::swank::{Ended, Server, ServerOptions, Stopper, Version, secret};
 use session::dialogue::Converse;
 

@@ -3,23 +3,32 @@
 use std::fs;
 use std::io::{self, Write};
 use std::panic;
-use std::path::Path;
+use std::path::PathBuf;
 use std::thread;
 
-use super::arguments::Options;
+use clap::Args;
+
 use super::failure::{CommandError, Status};
 use super::open::open_session;
+use super::options::Options;
 use view::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
 use view::watch::recording::{RecordingError, read_recording};
 
-/// Serves the page with the recording until interrupted.
-///
-/// With `html`, writes the page with the recording into that file instead.
-pub(crate) fn view(
-    options: &Options,
-    file: &Path,
-    html: Option<&Path>,
-) -> Result<Status, CommandError> {
+/// Which recording to show, and how.
+#[derive(Args, Debug)]
+pub(crate) struct ViewArguments {
+    /// MCAP file written by `run --record` or (record "…")
+    #[arg(value_name = "MCAP")]
+    file: PathBuf,
+    /// Write the recording into an HTML file instead, which any browser shows without
+    /// planwright
+    #[arg(long, value_name = "HTML")]
+    html: Option<PathBuf>,
+}
+
+/// Serves the page with the recording until interrupted, or writes it into a file.
+pub(crate) fn view(options: &Options, wanted: &ViewArguments) -> Result<Status, CommandError> {
+    let ViewArguments { file, html } = wanted;
     let failed = |error: RecordingError| CommandError::Recording {
         path: file.to_owned(),
         error,

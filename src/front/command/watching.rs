@@ -1,16 +1,34 @@
 //! Lets a session be watched as the command line asks.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::arguments::WatchArguments;
+use clap::Args;
+
 use super::failure::CommandError;
 use session::Session;
 use session::dialogue::Evaluate;
 use view::watch::live::open_in_browser;
+
+/// How to watch a run.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct WatchArguments {
+    /// Show the robot in the browser while it moves; simulated time then passes in real time
+    /// unless --realtime says otherwise
+    #[arg(long)]
+    pub(crate) view: bool,
+    /// MCAP file to record the run to
+    #[arg(long, value_name = "MCAP")]
+    pub(crate) record: Option<PathBuf>,
+    /// HTML file to write the run to: the page of the live view with the whole run in it, which
+    /// any browser shows without planwright
+    #[arg(long, value_name = "HTML")]
+    pub(crate) html: Option<PathBuf>,
+}
 
 /// How long to wait for a browser to show the page.
 const BROWSER_START: Duration = Duration::from_secs(5);

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 
 use super::{AT_TABLE, Stopwatch, models, parked, spawn};
-use robotics::motion::axis_group::AxisGroup;
-use robotics::motion::drive_plan::plan_drive;
-use robotics::motion::trajectory::Trajectory;
+use robotics::motion::AxisGroup;
+use robotics::motion::Trajectory;
+use robotics::motion::plan_drive;
 use robotics::motion::{CollisionMode, Motion, MoveJoints, MoveTcp, PoseGoal, TcpPath};
 use robotics::robot::Side;
 use robotics::world::grasp_library::{GRASPS, GraspLibrary};

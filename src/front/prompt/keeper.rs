@@ -1,12 +1,9 @@
-//! Keeps a session's inputs in its journal, and says so when that fails; and what the world
-//! answered on the tape beside it.
+//! Keeps a session's inputs in its journal, and says so when that fails.
 
 use std::io::{self, Write};
-use std::rc::Rc;
 
-use super::journal::{Earlier, End, Journal, Lineage, Recorded, Tape, Taped, copied, fingerprint};
+use super::journal::{Earlier, Journal, Recorded, copied};
 use session::dialogue::Converse;
-use session::tape::Frame;
 
 /// Keeps inputs in a journal, if there is one.
 #[derive(Debug, Default)]
@@ -14,12 +11,6 @@ pub(crate) struct Keeper {
     journal: Option<Journal>,
     /// Whether the last attempt to write failed.
     is_failing: bool,
-    /// The tape, unless none can be kept.
-    tape: Option<Tape>,
-    /// That of the inputs that have ended.
-    lineage: Lineage,
-    /// The input that is being evaluated, and whether conditions stop it.
-    current: Option<(String, bool)>,
 }
 
 impl Keeper {
@@ -30,84 +21,20 @@ impl Keeper {
         }
     }
 
-    /// Keeps a tape beside the journal, with inputs of an earlier session and their states, and
-    /// the lineage of these inputs.
-    pub(crate) fn begin_tape(
-        &mut self,
-        evaluator: &(impl Converse + ?Sized),
-        inputs: Vec<Taped>,
-        states: Vec<Rc<Frame>>,
-        lineage: Lineage,
-    ) {
-        self.lineage = lineage;
-        self.tape = self.journal.as_ref().and_then(|journal| {
-            let fingerprint = fingerprint(evaluator.fingerprint());
-            // A session without a tape is resumed more slowly, that is all.
-            Tape::create(journal.path(), fingerprint, inputs, states).ok()
-        });
-    }
-
-    /// Keeps a tape of a session without inputs.
-    pub(crate) fn begin_fresh_tape(&mut self, evaluator: &(impl Converse + ?Sized)) {
-        self.begin_tape(evaluator, Vec::new(), Vec::new(), Lineage::default());
-    }
-
     /// The evaluation of an input begins.
-    pub(crate) fn begun(
-        &mut self,
-        text: &str,
-        stops: bool,
-        evaluator: &mut (impl Converse + ?Sized),
-    ) {
-        self.current = Some((text.to_owned(), stops));
-        evaluator.record_next(self.tape.is_some());
+    pub(crate) fn begun(&mut self, text: &str, stops: bool) {
         self.write(|journal| journal.begun(text, stops));
     }
 
     /// The evaluation has ended.
-    pub(crate) fn ended(&mut self, evaluator: &mut (impl Converse + ?Sized)) {
+    pub(crate) fn ended(&mut self, evaluator: &(impl Converse + ?Sized)) {
         let (at, hash) = (evaluator.interrupted_at(), evaluator.world_hash());
         self.write(|journal| journal.ended(at, hash));
-        let Some((text, stops)) = self.current.take() else {
-            return;
-        };
-        self.lineage = self.lineage.after(&text, stops, at);
-        if let (Some(tape), Some(part)) = (&mut self.tape, evaluator.recorded())
-            && tape.add(self.lineage, part).is_err()
-        {
-            self.tape = None;
-        }
     }
 
-    /// The evaluation of that input of an earlier session, counted from one, begins again, with
-    /// the physics.
-    pub(super) fn again(
-        &mut self,
-        number: usize,
-        input: &Recorded,
-        evaluator: &mut (impl Converse + ?Sized),
-    ) {
-        self.current = Some((input.text.clone(), input.stops));
-        evaluator.record_next(self.tape.is_some());
+    /// The evaluation of that input of an earlier session, counted from one, begins again.
+    pub(super) fn again(&mut self, number: usize) {
         self.write(|journal| journal.again(number));
-    }
-
-    /// That input of an earlier session, counted from one, is about to be played.
-    pub(super) fn about_to_play(&mut self, number: usize) {
-        self.write(|journal| journal.again(number));
-    }
-
-    /// It was played, with the hash of the world that is known.
-    pub(super) fn played(&mut self, input: &Recorded) {
-        if let End::Ended(Some(hash)) = input.end {
-            self.write(|journal| journal.ended(input.interrupted_at, hash));
-        }
-    }
-
-    /// The user has interrupted the input that was being played.
-    pub(super) fn stopped(&mut self, evaluator: &(impl Converse + ?Sized)) {
-        let (at, hash) = (evaluator.interrupted_at(), evaluator.world_hash());
-        self.write(|journal| journal.ended(at, hash));
     }
 
     /// That input of an earlier session, counted from one, is left out.

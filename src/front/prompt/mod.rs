@@ -13,7 +13,6 @@ mod journal;
 mod keeper;
 mod keys;
 pub(crate) mod pasted;
-mod quick;
 mod resume;
 mod serving;
 mod shape;
@@ -91,14 +90,11 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
     let serving = Serving::default();
     let served = serving.clone();
     let is_evaluating = Arc::new(AtomicBool::new(false));
-    let has_interrupted = Arc::new(AtomicBool::new(false));
-    let noted = Arc::clone(&has_interrupted);
     let evaluating = Arc::clone(&is_evaluating);
     ctrlc::set_handler(move || {
         if served.stop() {
             return;
         }
-        noted.store(true, Ordering::Relaxed);
         handle.store(true, Ordering::Relaxed);
         thread::sleep(SOON);
         if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
@@ -130,7 +126,6 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
     let mut repl = Repl {
         evaluator,
         interrupt,
-        has_interrupted,
         is_evaluating,
         screen,
         keeper: Keeper::new(journal),
@@ -140,9 +135,8 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
         serving,
     };
     repl.evaluator.borrow_mut().let_serve();
-    match earlier {
-        Some(mut earlier) => repl.resume(&mut earlier, &mut editor)?,
-        None => repl.keeper.begin_fresh_tape(&*repl.evaluator.borrow()),
+    if let Some(mut earlier) = earlier {
+        repl.resume(&mut earlier, &mut editor)?;
     }
     // An earlier session that was served is not served again.
     repl.evaluator.borrow_mut().take_port();
@@ -158,8 +152,6 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
-    /// Becomes true at every interrupt, heard or not.
-    has_interrupted: Arc<AtomicBool>,
     is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
     keeper: Keeper,
@@ -281,7 +273,7 @@ impl Repl {
 
     fn evaluate(&mut self, input: &str, stops: bool) -> Result<Outcome, ReplError> {
         let mut evaluator = self.evaluator.borrow_mut();
-        self.keeper.begun(input, stops, &mut *evaluator);
+        self.keeper.begun(input, stops);
         self.number += 1;
         let name = input_name(self.number);
         evaluator.set_interactive(stops);
@@ -291,7 +283,7 @@ impl Repl {
         evaluator.set_interactive(true);
         // What ended because nobody sees its output was not interrupted by the user.
         let outcome = outcome?;
-        self.keeper.ended(&mut *evaluator);
+        self.keeper.ended(&*evaluator);
         Ok(outcome)
     }
 
@@ -314,7 +306,6 @@ impl Repl {
             &mut self.number,
             io::stdout(),
             true,
-            &self.has_interrupted,
         )?;
         let mut evaluator = self.evaluator.borrow_mut();
         evaluator.set_interactive(true);

@@ -1,11 +1,9 @@
 //! Resuming an earlier session: its inputs are evaluated again.
 
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::journal::{Earlier, End, Recorded};
 use super::keeper::Keeper;
-use super::quick::{Played, Quick};
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Event};
 
@@ -34,12 +32,10 @@ pub(crate) fn settle_doubts(
 }
 
 /// How a resume goes on, told on one line of a terminal that is written again and again.
-pub(super) struct Progress<W> {
+struct Progress<W> {
     out: W,
     is_shown: bool,
     count: usize,
-    /// Index of the input that is being evaluated.
-    at: usize,
 }
 
 impl<W: Write> Progress<W> {
@@ -50,10 +46,9 @@ impl<W: Write> Progress<W> {
 
     /// Tells which input is being evaluated, by its index, and what happens in it.
     fn show(&mut self, at: usize, what: &str) -> io::Result<()> {
-        self.at = at;
         if self.is_shown {
             let (erase, count) = (self.erase(), self.count);
-            write!(self.out, "{erase}; Input {} of {count} … {what}", at + 1)?;
+            write!(self.out, "{erase}; Input {} of {count} {what}", at + 1)?;
             self.out.flush()?;
         }
         Ok(())
@@ -64,12 +59,11 @@ impl<W: Write> Progress<W> {
     }
 }
 
-/// Evaluates the inputs of an earlier session again without showing their output; `number`
-/// becomes the number of the last one. As far as there is a tape of the session, the world's
-/// answers come from it.
+/// Evaluates the inputs of an earlier session again without showing their output, and without
+/// waiting for real time; `number` becomes the number of the last one.
 ///
-/// Where the user interrupts, the session continues without the inputs after that; `has_interrupted`
-/// becomes true at an interrupt. With `shows_progress`, a line says how far it is.
+/// Where the user interrupts, the session continues without the inputs after that. With
+/// `shows_progress`, a line says how far it is.
 pub(crate) fn resume(
     evaluator: &mut dyn Converse,
     keeper: &mut Keeper,
@@ -77,77 +71,34 @@ pub(crate) fn resume(
     number: &mut usize,
     out: impl Write,
     shows_progress: bool,
-    has_interrupted: &AtomicBool,
 ) -> io::Result<()> {
     let mut progress = Progress {
         out,
         is_shown: shows_progress,
         count: earlier.inputs.len(),
-        at: 0,
     };
-    let first = *number;
-    let mut quick = Quick::new(evaluator, &earlier.path, &earlier.inputs);
-    let mut end = earlier.inputs.len();
-    loop {
-        has_interrupted.store(false, Ordering::Relaxed);
-        *number = first + end;
-        let inputs = earlier.inputs.get(..end).unwrap_or_default();
-        match quick.run(evaluator, keeper, inputs, first, &mut progress)? {
-            Played::Whole(differs) => {
-                tell_end(evaluator, inputs, differs, &mut progress)?;
-                return tell_lost(keeper, earlier, inputs, &mut progress);
-            }
-            Played::Stopped(at, interrupted_at) => {
-                *number = first + at + 1;
-                keeper.stopped(evaluator);
-                let state = (at, interrupted_at, evaluator.world_hash());
-                return tell_interrupt(keeper, earlier, state, &mut progress);
-            }
-            Played::Lost(at) => {
-                // The state before it is known.
-                end = at;
-                if !evaluator.begin_anew() {
-                    return progress.tell("; The session cannot begin anew.");
-                }
-            }
-            Played::Failed => {
-                progress.tell(
-                    "; The tape beside the journal does not fit: every input is evaluated with the physics.",
-                )?;
-                // The input that was interrupted is not evaluated instead.
-                if has_interrupted.load(Ordering::Relaxed) {
-                    end = end.min(progress.at);
-                }
-                if !evaluator.begin_anew() {
-                    return progress.tell("; The session cannot begin anew.");
-                }
-                break;
-            }
-            Played::None => break,
-        }
-    }
-    *number = first;
-    with_physics(evaluator, keeper, earlier, end, number, &mut progress)
+    evaluator.set_hurried(true);
+    let resumed = evaluate_all(evaluator, keeper, earlier, number, &mut progress);
+    evaluator.set_hurried(false);
+    resumed
 }
 
-/// Evaluates the inputs before the one with index `end` again, with the physics.
-fn with_physics(
+/// Evaluates the inputs again, and tells how that ended.
+fn evaluate_all(
     evaluator: &mut dyn Converse,
     keeper: &mut Keeper,
     earlier: &Earlier,
-    end: usize,
     number: &mut usize,
     progress: &mut Progress<impl Write>,
 ) -> io::Result<()> {
-    let inputs = earlier.inputs.get(..end).unwrap_or_default();
-    keeper.begin_fresh_tape(evaluator);
+    let inputs = &earlier.inputs;
     let mut differs = None;
     for (at, input) in inputs.iter().enumerate() {
         *number += 1;
         if input.end == End::Skipped {
             continue;
         }
-        keeper.again(at + 1, input, evaluator);
+        keeper.again(at + 1);
         let name = input_name(*number);
         let interrupted_at = evaluate_again(evaluator, &name, input, at, progress)?;
         let hash = evaluator.world_hash();
@@ -160,25 +111,7 @@ fn with_physics(
             differs.get_or_insert(at + 1);
         }
     }
-    tell_end(evaluator, inputs, differs, progress)?;
-    tell_lost(keeper, earlier, inputs, progress)
-}
-
-/// If the user has interrupted the input after these, in a state that is not known: the session is
-/// these.
-fn tell_lost(
-    keeper: &mut Keeper,
-    earlier: &Earlier,
-    inputs: &[Recorded],
-    progress: &mut Progress<impl Write>,
-) -> io::Result<()> {
-    let (end, count) = (inputs.len(), progress.count);
-    if end == earlier.inputs.len() {
-        return Ok(());
-    }
-    progress.tell(&format!("; Interrupted at input {} of {count}.", end + 1))?;
-    let remark = keeper.part_of(earlier, inputs.to_vec());
-    progress.tell(&remark)
+    tell_end(evaluator, inputs, differs, progress)
 }
 
 /// The user has interrupted the input with that index, at that place and with that hash of the
@@ -232,14 +165,14 @@ fn tell_end(
 }
 
 /// Evaluates an input again; `at` is its index. Returns where the evaluation was interrupted.
-pub(super) fn evaluate_again(
+fn evaluate_again(
     evaluator: &mut dyn Converse,
     name: &str,
     input: &Recorded,
     at: usize,
     progress: &mut Progress<impl Write>,
 ) -> io::Result<Option<u64>> {
-    progress.show(at, "")?;
+    progress.show(at, "…")?;
     evaluator.set_interactive(input.stops);
     if let Some(at) = input.interrupted_at {
         evaluator.interrupt_next_at(at);

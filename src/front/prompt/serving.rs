@@ -27,11 +27,11 @@ impl Serving {
 }
 
 impl Keep for Keeper {
-    fn begins(&mut self, text: &str, session: &mut dyn Serve) {
-        self.begun(text, true, session);
+    fn begins(&mut self, text: &str) {
+        self.begun(text, true);
     }
 
-    fn ends(&mut self, session: &mut dyn Serve) {
+    fn ends(&mut self, session: &dyn Serve) {
         self.ended(session);
     }
 }

@@ -243,7 +243,7 @@ impl<'s> Engine<'s> {
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
         if let Some(keeper) = &mut self.keeper {
-            keeper.begins(text, self.session);
+            keeper.begins(text);
         }
         let outcome = self.session.evaluate(source, text, sink);
         if let Some(keeper) = &mut self.keeper {

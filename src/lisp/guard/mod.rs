@@ -74,13 +74,16 @@ impl Limits {
 
 impl Drop for Watch {
     fn drop(&mut self) {
-        CURRENT.set(self.0.take());
+        // At the end of the thread nothing is in force.
+        let _ = CURRENT.try_with(|limits| limits.replace(self.0.take()));
     }
 }
 
 /// Why what runs on this thread is to stop, if it is.
 pub fn reason() -> Option<Stopped> {
-    CURRENT.with_borrow(|limits| limits.as_ref()?.reason())
+    // At the end of the thread, when values may still be dropped, nothing is in force.
+    let reason = CURRENT.try_with(|limits| limits.borrow().as_ref()?.reason());
+    reason.ok().flatten()
 }
 
 /// Leaves the calling function by unwinding if there is a reason to stop.

@@ -41,29 +41,9 @@ impl Polls {
     }
 
     /// The number of polls so far.
+    #[cfg(test)]
     pub fn count(&self) -> u64 {
         self.count.get()
-    }
-
-    /// Counts polls that something else made in an earlier run. If the flag was found set at one of
-    /// them, it is set now.
-    pub fn skip(&self, polls: u64) {
-        let before = self.count.get();
-        let after = before.saturating_add(polls);
-        self.count.set(after);
-        if let Some(due) = self.due_at.get()
-            && (before + 1..=after).contains(&due)
-        {
-            self.flag.store(true, Ordering::Relaxed);
-            if self.seen_at.get().is_none() {
-                self.seen_at.set(Some(due));
-            }
-        }
-    }
-
-    /// Counts for another flag from now on, one that somebody else may set already.
-    pub fn use_flag(&mut self, flag: Arc<AtomicBool>) {
-        self.flag = flag;
     }
 
     /// The flag.

@@ -94,11 +94,6 @@ impl Identities {
         }
     }
 
-    /// How many numbers have been assigned so far.
-    pub fn given(&self) -> u64 {
-        self.given
-    }
-
     fn number(&mut self, value: &Value) -> Option<u64> {
         let Some((address, tag, held)) = Held::of(value) else {
             return Some(FIRST);

@@ -56,19 +56,9 @@ impl Output {
         self.column
     }
 
-    /// Number of bytes that have been written and not been taken.
-    pub fn len(&self) -> usize {
-        self.text.len()
-    }
-
     /// What has been written and has not been taken.
     pub fn pending(&self) -> &str {
         &self.text
-    }
-
-    /// What has been written since there were so many bytes, if nothing has been taken since.
-    pub fn written_since(&self, len: usize) -> Option<&str> {
-        self.text.get(len..)
     }
 
     /// If something is given, what is written from now on is dropped, and that is what is going on

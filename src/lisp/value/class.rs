@@ -98,7 +98,7 @@ pub struct Class {
     pub direct_subclasses: RefCell<Vec<Rc<Class>>>,
     /// This class and all its superclasses, most specific first; empty while a superclass
     /// is not defined yet.
-    pub(crate) precedence: RefCell<Vec<Rc<Class>>>,
+    pub precedence: RefCell<Vec<Rc<Class>>>,
     /// Slots defined by this class itself.
     pub direct_slots: RefCell<Vec<SlotDefinition>>,
     /// All slots, inherited ones first; the order is that of an instance's slot values.

@@ -160,7 +160,8 @@ pub(crate) fn collect_all() {
 }
 
 fn collect(most: usize) {
-    let suspects = SUSPECTS.take();
+    // At the end of the thread nobody knows them any more.
+    let suspects = SUSPECTS.try_with(RefCell::take).unwrap_or_default();
     let mut graph = Graph::default();
     // The newest ones first: most circles are short-lived.
     for suspect in suspects.iter().rev() {
@@ -170,10 +171,11 @@ fn collect(most: usize) {
     }
     graph.walk(most);
     graph.free();
-    SUSPECTS.with_borrow_mut(|new| {
+    let _ = SUSPECTS.try_with(|new| {
+        let mut new = new.borrow_mut();
         // Freeing may have noted others meanwhile.
         let survivors = suspects.into_iter().filter(Suspect::is_alive);
-        let newer = std::mem::take(new);
+        let newer = std::mem::take(&mut *new);
         new.extend(survivors.chain(newer));
         DUE.set((2 * new.len()).max(FIRST));
     });

@@ -15,6 +15,7 @@ use super::Value;
 use super::cons::{self, Cons};
 use super::cycles;
 use super::foreign::Foreign;
+use super::spare;
 
 /// What a container held.
 pub(super) enum Dead {
@@ -26,7 +27,8 @@ pub(super) enum Dead {
 }
 
 thread_local! {
-    /// What has not been freed yet; what is left in it at the end of the thread never is.
+    /// What has not been freed yet; what is left in it at the end of the thread never is. Nothing runs
+    /// at the end of the thread, so values may be dropped even then, by other variables of the thread.
     static QUEUE: RefCell<ManuallyDrop<Vec<Dead>>> =
         const { RefCell::new(ManuallyDrop::new(Vec::new())) };
     /// Is something being freed?
@@ -129,7 +131,8 @@ pub(super) fn release_values(values: Vec<Value>) {
     }
 }
 
-/// Frees everything when it is dropped, and what holds each other.
+/// Frees everything when it is dropped, what holds each other, and the room in which this thread
+/// keeps what is out of use. The image that it belongs to is to be dropped before it.
 #[derive(Default)]
 pub struct FreesAll;
 
@@ -140,9 +143,11 @@ impl Drop for FreesAll {
         loop {
             cycles::collect_all();
             if !all() {
-                return;
+                break;
             }
         }
+        spare::empty();
+        QUEUE.with_borrow_mut(|queue| queue.shrink_to_fit());
     }
 }
 

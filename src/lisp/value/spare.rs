@@ -1,5 +1,6 @@
 //! Pairs that are out of use: the next ones that are made. That is several times faster than to have
-//! the allocator free each and make it again.
+//! the allocator free each and make it again. The end of an image gives them back ([`empty`]), so a
+//! thread that has ended keeps none.
 
 use std::cell::RefCell;
 use std::mem::ManuallyDrop;
@@ -38,4 +39,10 @@ pub(super) fn keep(mut cons: Rc<Cons>) {
             spare.push(cons);
         }
     });
+}
+
+/// Gives the pairs that are kept back to the allocator.
+pub(super) fn empty() {
+    let spare = SPARE.with_borrow_mut(|spare| std::mem::take(&mut **spare));
+    drop(spare);
 }

@@ -287,6 +287,7 @@ impl SymbolTable {
     }
 
     /// Number of symbols.
+    #[cfg(test)]
     pub fn len(&self) -> usize {
         self.entries.len() + self.passing.len()
     }

@@ -1,92 +1,50 @@
 //! The atomic motions as jobs that are advanced step by step, and the planning of paths.
 //!
-//! Only this folder moves the robot. Nothing here knows of the plan language.
+//! Only this folder moves the robot. Nothing here knows of the plan language. Its rooms, each of
+//! which uses only those before it: why a motion fails ([`failure`]), [`trajectories`],
+//! [`contact`], [`planning`], [`choosing`], [`jobs`], and typed requests for motions ([`command`]).
 
-pub mod axis_group;
-mod base_checker;
-mod base_lattice;
-pub mod base_path;
-pub(crate) mod cartesian_path;
+pub(crate) mod choosing;
 pub mod command;
-mod configuration_checker;
-pub mod detect;
-pub mod drive;
-pub mod drive_plan;
-pub(crate) mod expected_contacts;
-pub mod failure;
-mod grasp_chooser;
-mod grasp_path;
-pub(crate) mod grasp_reach;
-mod grip;
-pub mod gripper;
-pub mod guard;
-pub mod hand;
-pub(crate) mod handle_chooser;
-mod handle_way;
-pub mod hold;
-pub mod interruption;
-pub mod job;
-mod joint_follower;
-mod joint_limit;
-mod joint_motion;
-pub(crate) mod joint_path;
-mod joint_trajectory;
-pub mod look;
-pub(crate) mod move_joints;
-pub(crate) mod move_tcp;
-pub mod move_torso;
-pub(crate) mod no_grasp;
-pub(crate) mod no_handle_grasp;
-mod overhead;
-pub mod payload;
-mod planning_group;
-mod pose_goal;
-mod process_module;
-pub(crate) mod pull;
-pub mod pushing;
-pub mod put;
-mod put_plan;
-mod put_reach;
-pub mod reach;
-mod replanning;
-mod rounded_path;
-mod shoulder;
-pub mod speeds;
-mod standstill;
-mod time_scaling;
-mod together;
-mod touching;
-pub mod trajectory;
-mod trajectory_follower;
-pub mod unreachable;
+pub(crate) mod contact;
+pub(crate) mod failure;
+pub(crate) mod jobs;
+pub(crate) mod planning;
+pub(crate) mod trajectories;
 
-pub use base_checker::BaseChecker;
-pub(crate) use base_path::LEAST_MARGIN;
-pub(crate) use detect::Detect;
-pub use detect::DetectQuery;
-pub use drive::Drive;
-pub use expected_contacts::CollisionMode;
-pub use failure::MotionFailure;
-pub use grasp_chooser::{Candidates, GraspChoice, GraspChooser, GraspQuestion, about_z, needed};
-pub use grasp_path::plan_grasp;
-pub(crate) use grasp_reach::GraspReach;
-pub use grasp_reach::{Effort, GraspObstacle, GraspPart, Station};
-pub(crate) use gripper::{GripperCommand, MoveGripper};
-pub use handle_chooser::{HandleChooser, HandleQuestion};
-pub use hold::{LetGo, held_objects, take_hold};
-pub use job::{
-    DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule,
-    TrajectoryAxes,
+pub use choosing::grasp_chooser::{
+    Candidates, GraspChoice, GraspChooser, GraspQuestion, about_z, needed,
 };
-pub use look::{Look, LookDirection, LookTarget, pan_and_tilt};
-pub use move_joints::MoveJoints;
-pub use move_tcp::{MoveTcp, PoseGoal, TcpPath};
-pub(crate) use move_torso::MoveTorso;
-pub use no_handle_grasp::HandleObstacle;
-pub use overhead::Overhead;
-pub(crate) use pull::Pull;
-pub use pull::StoppedPart;
-pub use put::Put;
-pub use put_reach::{HeldGrip, PutReach, releasing_opening};
-pub use reach::{can_reach, can_stand, touching_at};
-pub use unreachable::{UnreachablePose, UnreachableReason};
+pub(crate) use choosing::grasp_reach::GraspReach;
+pub use choosing::grasp_reach::{Effort, Station};
+pub use choosing::handle_chooser::{HandleChooser, HandleQuestion};
+pub use choosing::overhead::Overhead;
+pub use choosing::put_reach::{HeldGrip, PutReach};
+pub use choosing::reach::{can_reach, can_stand, touching_at};
+pub use contact::expected_contacts::CollisionMode;
+pub use contact::hand::releasing_opening;
+pub use contact::holding::{held_objects, take_hold};
+pub use failure::base_place::BasePlace;
+pub use failure::grasp_obstacle::{GraspObstacle, GraspPart};
+pub use failure::motion_failure::MotionFailure;
+pub use failure::no_handle_grasp::HandleObstacle;
+pub use failure::process_module::ProcessModule;
+pub use failure::pushed_object::PushedObject;
+pub use failure::stopped_part::StoppedPart;
+pub use failure::unreachable::{UnreachablePose, UnreachableReason};
+pub use jobs::detect::DetectQuery;
+pub use jobs::drive::Drive;
+pub use jobs::grasp_path::plan_grasp;
+pub use jobs::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, Progress};
+pub use jobs::let_go::LetGo;
+pub use jobs::look::{Look, LookDirection, LookTarget, pan_and_tilt};
+pub use jobs::move_joints::MoveJoints;
+pub use jobs::move_tcp::{MoveTcp, PoseGoal, TcpPath};
+pub use jobs::put::Put;
+pub use planning::base_checker::BaseChecker;
+pub(crate) use planning::base_path::LEAST_MARGIN;
+pub use planning::drive_plan::plan_drive;
+pub use planning::interruption;
+pub use trajectories::axis_group::AxisGroup;
+pub use trajectories::planned_trajectory::{PlannedTrajectory, TrajectoryAxes};
+pub use trajectories::trajectory::Trajectory;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use nalgebra::Point3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::camera::Camera;
 use super::mesh::Mesh;
@@ -13,7 +13,7 @@ use crate::world::{BodyName, Object, PartKey, World, WorldError};
 use spatial::{Pose, trig};
 
 /// A side of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Border {
     /// The left border.
     Left,
@@ -37,7 +37,7 @@ impl fmt::Display for Border {
 }
 
 /// The result of looking at an object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Visibility {
     /// The object's name.
     pub object: String,

@@ -1,9 +1,9 @@
 //! Identifiers of the links and joints of a tree.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A link of one [`KinematicTree`](super::KinematicTree).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct LinkId(pub(super) usize);
 
 impl LinkId {
@@ -14,7 +14,7 @@ impl LinkId {
 }
 
 /// A joint of one [`KinematicTree`](super::KinematicTree).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JointId(pub(super) usize);
 
 impl JointId {

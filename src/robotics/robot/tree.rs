@@ -6,7 +6,7 @@
 //! [`JointPositions`].
 
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::ids::{JointId, LinkId};
 use super::joint_positions::JointPositions;
@@ -43,7 +43,7 @@ pub enum JointKind {
 }
 
 /// A closed range of joint positions (rad or m), `lower <= upper`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Least position.
     pub lower: f64,

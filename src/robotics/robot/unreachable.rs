@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::Limits;
 use super::arm_chain::{ARM_JOINTS, ArmChain, ArmPositions, LIFT};
 use super::elbow_curve::ElbowCurve;
 
 /// A joint that would have to exceed its limits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LimitViolation {
     /// Name of the joint.
     pub joint: String,
@@ -33,7 +33,7 @@ impl fmt::Display for LimitViolation {
 }
 
 /// Proof that a wrist pose is unreachable, and what comes nearest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Unreachable {
     /// The arm is too short, or cannot fold tightly enough.
     OutOfReach {

@@ -3,12 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::robot::LinkId;
 
 /// A link with its name.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct LinkName {
     /// The link in its tree.
     pub id: LinkId,
@@ -25,7 +25,7 @@ impl PartialEq for LinkName {
 impl Eq for LinkName {}
 
 /// Anything in the world that can be touched.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub enum BodyName {
     /// A link of the robot.
     Robot(LinkName),

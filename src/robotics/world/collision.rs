@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 use std::rc::Rc;
 
 use nalgebra::Point3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
@@ -28,7 +28,7 @@ use super::solid::from_parry_vector;
 use spatial::Pose;
 
 /// Two bodies that are closer together than a query allows.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CollisionHit {
     /// The robot's link, or the object that the robot holds.
     pub moving: BodyName,

@@ -9,7 +9,7 @@
 //! hand slips off once the held point is farther than [`GREATEST_GAP`] from the hand, or the hand
 //! has been turned farther than rubber pads yield.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
@@ -46,7 +46,7 @@ const CONTACT: f64 = 0.0005;
 const STILL: f64 = 1e-9;
 
 /// How a hand holds a handle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct HandleHold {
     /// The hand.
     pub side: Side,
@@ -105,7 +105,7 @@ impl HandleHold {
 }
 
 /// A handle that a hand has lost.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HandleSlip {
     /// The hand.
     pub side: Side,

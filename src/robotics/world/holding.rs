@@ -5,7 +5,7 @@
 //! exists only as long as the fingers are as close together as when they pressed, and only
 //! while it transmits no more force than friction would.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::error::WorldError;
 use super::hash::Hasher;
@@ -26,7 +26,7 @@ const SLIPPING_STEPS: u32 = 3;
 const LIFTED_STEPS: u32 = 24;
 
 /// How fingers hold an object.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
     side: Side,
     /// Position of the finger joint (rad) at which both fingers press.
@@ -59,7 +59,7 @@ impl Hold {
 }
 
 /// An object that has slipped out of a hand.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Slip {
     /// Name of the object.
     pub object: String,

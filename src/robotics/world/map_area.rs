@@ -3,7 +3,7 @@
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::Vector;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::error::WorldError;
 use super::link_geometry::TreeGeometry;
@@ -20,7 +20,7 @@ const BORDER: f64 = 1.0;
 const WORLD_BORDER: f64 = 10.0;
 
 /// The floor that the robot knows, in the map frame. Nothing is known of what is beyond.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MapArea {
     /// Smallest x and y (m).
     pub min: [f64; 2],

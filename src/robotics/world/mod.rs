@@ -48,7 +48,6 @@ pub mod solid;
 pub mod spawn;
 mod standing;
 mod standing_room;
-mod stored;
 
 pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;

@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::hash::Hasher;
@@ -18,7 +17,7 @@ use closest_name::closest_name;
 use spatial::{Pose, trig};
 
 /// How large errors are. Zero means none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NoiseLevels {
     /// Standard deviation of a detected position, along each axis (m).
     pub position: f64,
@@ -169,7 +168,7 @@ impl NoiseLevels {
 }
 
 /// The errors of a world's robot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// How large they are.
     pub levels: NoiseLevels,

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use parry3d_f64::bounding_volume::Aabb;
-use serde::{Deserialize, Serialize};
 
 use super::holding::Hold;
 use super::part_key::PartKey;
@@ -13,7 +12,7 @@ use crate::robot::LinkId;
 use spatial::{PlacedShape, Pose, Shape};
 
 /// The attachment of an object to a link.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attachment {
     /// The link that carries the object.
     pub link: LinkId,

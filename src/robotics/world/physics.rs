@@ -30,7 +30,6 @@ use rapier3d_f64::geometry::{
 };
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
-use serde::{Deserialize, Serialize};
 
 use super::hash::Hasher;
 use super::object_library::FRICTION;
@@ -81,11 +80,11 @@ const ROBOT: Group = Group::GROUP_3;
 const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
 
 /// A body of the engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyHandle(RigidBodyHandle);
 
 /// A soft weld between two bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WeldHandle(ImpulseJointHandle);
 
 /// The role of a body.
@@ -141,7 +140,7 @@ pub(crate) struct Physics {
 }
 
 /// The state of the engine. Shapes are shared, so a clone takes about 25 µs.
-#[derive(Clone, Serialize, Deserialize)]
+#[derive(Clone)]
 pub struct Sets {
     bodies: RigidBodySet,
     colliders: ColliderSet,

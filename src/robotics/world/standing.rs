@@ -1,7 +1,7 @@
 //! Whether an object stands for good, or would stand somewhere: tried out in a copy of the world.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::body_name::BodyName;
 use super::error::WorldError;
@@ -17,7 +17,7 @@ use spatial::{Pose, trig};
 const WATCHED: f64 = 2.0;
 
 /// What an object would do if it were let go somewhere.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StandTrial {
     /// How far (m) it would move.
     pub moved: f64,

@@ -1,12 +1,12 @@
 //! Completions at the cursor.
 
+use super::assistant::Assistant;
 use super::context::Context;
 use super::designators::{self, Spot};
 use super::files;
-use crate::Session;
 use crate::dialogue::{Candidate, Completions};
 
-impl Session {
+impl Assistant<'_> {
     /// The completions at byte `at` of an input.
     pub(crate) fn complete(&self, text: &str, at: usize) -> Completions {
         let context = Context::of(text, at);
@@ -22,7 +22,7 @@ impl Session {
         }
         let special = match designators::spot(&context) {
             Some(Spot::Class) => designators::classes(),
-            Some(Spot::Key(described)) => designators::keys(&self.image, &described),
+            Some(Spot::Key(described)) => designators::keys(self.image, &described),
             Some(Spot::Value(described, key)) => self.values_of_key(&described, key, &context),
             None => Vec::new(),
         };

@@ -1,11 +1,11 @@
 //! What is known about the name at the cursor.
 
+use super::assistant::Assistant;
 use super::context::Context;
-use crate::Session;
 use lisp::builtins::help;
 use lisp::reader::{Lexer, TokenKind};
 
-impl Session {
+impl Assistant<'_> {
     /// All that is known about the name at byte `at` of an input, or about the operator of the
     /// innermost form there.
     pub(crate) fn description_at(&self, text: &str, at: usize) -> Option<String> {
@@ -16,7 +16,7 @@ impl Session {
         let operator = context.lists.last().and_then(|list| list.operator);
         let mut names = name_at(text, at).into_iter().chain(operator);
         let found = names.find_map(|name| self.symbol_typed(name.trim_start_matches('?')));
-        found.map(|sym| help::of_symbol(&self.image, sym) + &help::topics_of(&self.image, sym))
+        found.map(|sym| help::of_symbol(self.image, sym) + &help::topics_of(self.image, sym))
     }
 }
 

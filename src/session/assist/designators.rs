@@ -1,8 +1,8 @@
 //! Completions in designators: the keys that a type takes, and the values that a key takes.
 
+use super::assistant::Assistant;
 use super::context::{Context, Open, bare};
-use super::{first_sentence, lower};
-use crate::Session;
+use super::wording::{first_sentence, lower};
 use crate::dialogue::Candidate;
 use cram::designator::schema;
 use cram::designator::schema::{Key, Kind};
@@ -127,7 +127,7 @@ pub(super) fn keys(image: &Image, described: &Described<'_, '_>) -> Vec<Candidat
     keys
 }
 
-impl Session {
+impl Assistant<'_> {
     /// The known values of a key.
     pub(super) fn values_of_key(
         &self,
@@ -137,7 +137,7 @@ impl Session {
     ) -> Vec<Candidate> {
         let name = lower(bare(key));
         match (name.as_str(), described.class) {
-            ("type", Class::Action | Class::Motion) => types(&self.image, described.class),
+            ("type", Class::Action | Class::Motion) => types(self.image, described.class),
             ("type", _) => self.object_types(),
             ("name", _) => self.object_names(),
             ("arm" | "arms" | "gripper" | "camera", _) => vec![
@@ -174,7 +174,7 @@ impl Session {
             }
             ("object" | "of", _) => vec![candidate("(an object ", "a description of an object")],
             _ => match described
-                .key(&self.image, key)
+                .key(self.image, key)
                 .map(|key| (key.kind, key.doc))
             {
                 Some((Kind::Member(members), doc)) => members
@@ -194,7 +194,7 @@ impl Session {
 
     /// The types of objects.
     pub(super) fn object_types(&self) -> Vec<Candidate> {
-        let types = self.host.simulation.object_types().types();
+        let types = self.simulation.object_types().types();
         types
             .map(|kind| candidate(kind.name.clone(), format!("an object of {} kg", kind.mass)))
             .collect()
@@ -202,7 +202,7 @@ impl Session {
 
     /// The furniture: surfaces and what can be opened first, then all else that has a shape.
     pub(super) fn furniture_names(&self) -> Vec<Candidate> {
-        let world = self.host.simulation.world();
+        let world = self.simulation.world();
         let models = world.models();
         let surfaces = surfaces(world).into_iter();
         let surfaces = surfaces.map(|(link, _)| (link, "things can be put on it"));
@@ -223,7 +223,7 @@ impl Session {
 
     /// The objects in the world.
     pub(super) fn object_names(&self) -> Vec<Candidate> {
-        let objects = self.host.simulation.world().objects();
+        let objects = self.simulation.world().objects();
         objects
             .map(|object| {
                 let kind = object.type_name();
@@ -239,10 +239,10 @@ impl Session {
             .filter(|(key, _)| bare(key).eq_ignore_ascii_case("type"))
             .filter_map(|(_, value)| *value)
             .map(|value| lower(bare(value)))
-            .find(|value| self.host.simulation.object_types().get(value).is_some());
-        let library = self.host.simulation.grasp_library();
+            .find(|value| self.simulation.object_types().get(value).is_some());
+        let library = self.simulation.grasp_library();
         let mut found: Vec<Candidate> = Vec::new();
-        for known in self.host.simulation.object_types().types() {
+        for known in self.simulation.object_types().types() {
             if kind.as_ref().is_some_and(|kind| *kind != known.name) {
                 continue;
             }

@@ -1,16 +1,16 @@
 //! The signature of the form being typed.
 
+use super::assistant::Assistant;
 use super::context::{Context, Open, bare};
 use super::designators::{self, Spot};
-use super::lower;
-use crate::Session;
+use super::wording::lower;
 use crate::dialogue::{current_parameter, parameters};
 use lisp::builtins::help;
 
 /// Maximum length of a hint in characters.
 const LONGEST: usize = 100;
 
-impl Session {
+impl Assistant<'_> {
     /// The signature of the form being typed at byte `at`, with the current argument
     /// between two `*`.
     pub(crate) fn hint_at(&self, text: &str, at: usize) -> Option<String> {
@@ -21,12 +21,12 @@ impl Session {
         let hint = match designators::spot(&context) {
             Some(Spot::Class) => return None,
             Some(Spot::Key(described)) => {
-                let keys = described.keys(&self.image).into_iter();
+                let keys = described.keys(self.image).into_iter();
                 let names: Vec<String> = keys.map(|key| lower(&key.name)).collect();
                 (!names.is_empty()).then(|| format!("keys: {}", names.join(", ")))
             }
             Some(Spot::Value(described, name)) => {
-                let key = described.key(&self.image, name);
+                let key = described.key(self.image, name);
                 key.map(|key| format!("({} …) {}", lower(&key.name), key.doc))
             }
             None => {
@@ -50,7 +50,7 @@ impl Session {
         match designators::spot(&inner) {
             Some(Spot::Key(described)) => {
                 let keys: Vec<String> = described
-                    .keys(&self.image)
+                    .keys(self.image)
                     .into_iter()
                     .map(|key| {
                         let name = lower(&key.name);
@@ -70,7 +70,7 @@ impl Session {
     fn shape_of_call(&self, list: &Open<'_>) -> Option<String> {
         let name = list.operator?;
         let sym = self.symbol_typed(name)?;
-        let signature = help::signature(&self.image, sym)?;
+        let signature = help::signature(self.image, sym)?;
         let words = parameters(&signature.lambda_list);
         let current = current_parameter(&words, list.elements.saturating_sub(1), list.last);
         let mut shape = format!("({}", lower(name));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::dialogue::{
     Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
 };
-use crate::{Session, prompt_name};
+use crate::package_name::prompt_name;
 use cram::designator::schema;
 use cram::designator::schema::TypeRow;
 use cram::designator::value::Class;
@@ -181,14 +181,13 @@ fn told_symbol(image: &mut Image, sym: Sym, packages: &[PackageId]) -> KnownSymb
     told
 }
 
-impl Session {
+impl ToldNames {
     /// What is known about all names.
-    pub(crate) fn all_names(&mut self) -> Arc<Names> {
-        let image = &mut self.image;
+    pub(crate) fn all(&mut self, image: &mut Image) -> Arc<Names> {
         let ids = image.packages.ids();
         let ids: Vec<_> = ids.filter(|id| *id != PackageTable::SYSTEM).collect();
         let index = |wanted| ids.iter().position(|id| *id == wanted);
-        let told = &mut self.told_names;
+        let told = self;
         told.forget_old(image, ids.clone());
         told.names.definitions = told.definitions.update(image);
         told.names.current = index(image.current_package()).unwrap_or_default();

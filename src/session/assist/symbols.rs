@@ -2,10 +2,11 @@
 
 use std::collections::HashSet;
 
+use super::assistant::Assistant;
 use super::context::Context;
-use super::{first_sentence, lower};
-use crate::Session;
+use super::wording::{first_sentence, lower};
 use crate::dialogue::Candidate;
+use crate::printing::on_one_line;
 use lisp::builtins::help;
 use lisp::image::identity::aside;
 use lisp::print;
@@ -15,7 +16,7 @@ use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 /// Maximum number of names offered.
 const MOST_NAMES: usize = 500;
 
-impl Session {
+impl Assistant<'_> {
     /// The names that begin with the word at the cursor.
     pub(super) fn names(&self, context: &Context<'_>) -> Vec<Candidate> {
         let word = context.word;
@@ -145,7 +146,7 @@ impl Session {
             .last()
             .and_then(|list| list.operator)
             .and_then(|name| self.symbol_typed(name))
-            .and_then(|sym| help::signature(&self.image, sym))
+            .and_then(|sym| help::signature(self.image, sym))
         {
             let after_key = signature
                 .lambda_list
@@ -192,9 +193,9 @@ impl Session {
     fn meaning(&self, sym: Sym, is_operator: bool) -> Option<String> {
         let data = self.image.symbol(sym);
         if !matches!(data.function, FunctionCell::Unbound) {
-            let signature = help::signature(&self.image, sym)?;
+            let signature = help::signature(self.image, sym)?;
             let doc = signature.doc.as_deref().map(first_sentence);
-            return Some(doc.unwrap_or_else(|| signature.call(&self.image, sym)));
+            return Some(doc.unwrap_or_else(|| signature.call(self.image, sym)));
         }
         if is_operator || (data.kind == VariableKind::Lexical && data.value.is_unbound()) {
             return None;
@@ -202,8 +203,8 @@ impl Session {
         if data.value.is_unbound() {
             return Some("a variable without a value".to_owned());
         }
-        let image = &self.image;
+        let image = self.image;
         let shown = aside(image, || print::to_string(image, &data.value, true));
-        Some(format!("= {}", crate::on_one_line(&shown)))
+        Some(format!("= {}", on_one_line(&shown)))
     }
 }

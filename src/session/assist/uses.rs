@@ -3,8 +3,9 @@
 
 use std::rc::Rc;
 
+use super::assistant::Assistant;
 use super::definitions::occurrences;
-use crate::Session;
+use super::names::ToldNames;
 use crate::dialogue::{Relation, Unrecorded, Use};
 use lisp::compile;
 use lisp::image::Image;
@@ -24,10 +25,11 @@ struct Coded {
     classes: Vec<Sym>,
 }
 
-impl Session {
+impl Assistant<'_> {
     /// The places where a name is used, in the order of packages and names.
     pub(crate) fn all_uses(
-        &mut self,
+        &self,
+        told: &mut ToldNames,
         relation: Relation,
         package: &str,
         name: &str,
@@ -35,7 +37,7 @@ impl Session {
         let Some(wanted) = self.symbol_in(package, name) else {
             return Ok(Vec::new());
         };
-        let image = &self.image;
+        let image = self.image;
         if relation == Relation::Calls && compile::is_inlined(wanted) {
             return Err(Unrecorded);
         }
@@ -57,9 +59,9 @@ impl Session {
         }
         let upper = image.name(wanted).to_owned();
         match relation {
-            Relation::Expands => found.extend(self.uses_in_texts(&[&upper])),
+            Relation::Expands => found.extend(uses_in_texts(image, told, &[&upper])),
             Relation::Calls if self.is_type_name(&upper) => {
-                found.extend(self.uses_in_texts(&["TYPE", &upper]));
+                found.extend(uses_in_texts(image, told, &["TYPE", &upper]));
             }
             _ => {}
         }
@@ -79,21 +81,21 @@ impl Session {
         let id = found.or_else(|| packages.find(&package.to_uppercase()))?;
         packages.find_symbol(id, name).map(|(sym, _)| sym)
     }
+}
 
-    /// Where lists in definitions begin with these names.
-    fn uses_in_texts(&mut self, beginning: &[&str]) -> Vec<Use> {
-        let definitions = self.told_names.definitions(&self.image);
-        let all = definitions.values().flatten();
-        let uses = all.flat_map(|definition| {
-            occurrences(definition, beginning)
-                .into_iter()
-                .map(|place| Use {
-                    label: definition.label.clone(),
-                    place: Some(place),
-                })
-        });
-        uses.collect()
-    }
+/// Where lists in definitions begin with these names.
+fn uses_in_texts(image: &Image, told: &mut ToldNames, beginning: &[&str]) -> Vec<Use> {
+    let definitions = told.definitions(image);
+    let all = definitions.values().flatten();
+    let uses = all.flat_map(|definition| {
+        occurrences(definition, beginning)
+            .into_iter()
+            .map(|place| Use {
+                label: definition.label.clone(),
+                place: Some(place),
+            })
+    });
+    uses.collect()
 }
 
 fn use_at(image: &Image, label: &str, place: Place) -> Use {

@@ -5,7 +5,7 @@ use crate::simulation::Simulation;
 use crate::simulation::jobs::Job;
 use cram::Plan;
 use lisp::image::Image;
-use robotics::motion::PlannedTrajectory;
+use robotics::motion::{MotionFailure, PlannedTrajectory};
 use robotics::world::CollisionHit;
 use view::watch::{
     About, Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent,
@@ -35,7 +35,7 @@ impl Audience {
         mut follower: Box<dyn Follower>,
     ) -> FollowerId {
         Plan::of(image).keep_journal();
-        let trajectories = simulation.shown().jobs.trajectories();
+        let trajectories = simulation.jobs.trajectories();
         follower.see(&observation(simulation, &trajectories), Cause::Rest);
         let now = simulation.now();
         for news in &self.followers.stopped {
@@ -62,12 +62,11 @@ impl Audience {
 
     /// Shows the followers the present state of the world.
     pub fn show(&mut self, simulation: &Simulation, cause: Cause) {
-        // A state that is an old one is not shown.
-        if self.followers.all.is_empty() || simulation.tape.is_stale() {
+        if self.followers.all.is_empty() {
             return;
         }
         let mut followers = std::mem::take(&mut self.followers.all);
-        let trajectories = simulation.shown().jobs.trajectories();
+        let trajectories = simulation.jobs.trajectories();
         let observation = observation(simulation, &trajectories);
         for (_, follower) in &mut followers {
             follower.see(&observation, cause);
@@ -92,6 +91,7 @@ impl Audience {
             let goes_on = TaskNews {
                 state: TaskState::Running,
                 failure: String::new(),
+                class: String::new(),
                 ..news.clone()
             };
             self.tell(now, &WatchEvent::Task(goes_on));
@@ -128,7 +128,13 @@ impl Audience {
     }
 
     /// Notifies the followers of a change in the state of a motion.
-    pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
+    pub(crate) fn tell_motion(
+        &mut self,
+        now: f64,
+        job: &Job,
+        state: TaskState,
+        failure: Option<&MotionFailure>,
+    ) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -147,7 +153,8 @@ impl Audience {
                 parent: job.told.parent.or(Some(TaskId::Task(job.task.0))),
                 name: job.name.clone(),
                 state,
-                failure: failure.to_owned(),
+                failure: failure.map(ToString::to_string).unwrap_or_default(),
+                class: failure.map_or("", MotionFailure::class_name).to_owned(),
                 result: String::new(),
                 about: about.filter(|_| state == TaskState::Running),
             }),
@@ -168,17 +175,12 @@ fn observation<'a>(
 ) -> Observation<'a> {
     Observation {
         time: simulation.now,
-        world: &simulation.shown().world,
-        axes: simulation
-            .shown()
-            .axes
-            .as_ref()
-            .map(|axes| (axes.pose, axes.size)),
+        world: &simulation.world,
+        axes: simulation.axes.as_ref().map(|axes| (axes.pose, axes.size)),
         location: simulation
-            .shown()
             .location_map
             .as_ref()
-            .or(simulation.shown().resolved_map.as_ref()),
+            .or(simulation.resolved_map.as_ref()),
         trajectories,
     }
 }

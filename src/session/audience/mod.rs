@@ -8,11 +8,13 @@ pub(super) mod task_news;
 mod views;
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use crate::dialogue::Swept;
 use crate::simulation::Simulation;
 use film::Film;
 pub use film::Filming;
+pub(crate) use following::FollowerId;
 use following::Followers;
 use pace::Pace;
 use robotics::world::World;
@@ -28,7 +30,9 @@ pub(crate) type Observer = Box<dyn FnMut(&World)>;
 #[derive(Default)]
 pub struct Audience {
     /// Limits how fast simulated time passes.
-    pub(super) pace: Option<Pace>,
+    pace: Option<Pace>,
+    /// Whether it does not, for now.
+    is_hurried: bool,
     observer: Option<Observer>,
     film: Option<Film>,
     followers: Followers,
@@ -52,6 +56,25 @@ impl Audience {
             pace: control.map(Pace::new),
             place: Place::new(view_port),
             ..Self::default()
+        }
+    }
+
+    /// Sets whether simulated time passes as fast as possible, whatever its pace.
+    pub(super) fn set_hurried(&mut self, is_hurried: bool) {
+        self.is_hurried = is_hurried;
+    }
+
+    /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited.
+    pub(super) fn slice(&self) -> Option<f64> {
+        let waits = !self.is_hurried;
+        self.pace.as_ref().and_then(|pace| pace.slice(waits))
+    }
+
+    /// Waits until so much simulated time (s) may have passed since the last wait, or until the
+    /// interrupt flag is set.
+    pub(super) fn wait(&mut self, seconds: f64, interrupt: &AtomicBool) {
+        if let Some(pace) = self.pace.as_mut().filter(|_| !self.is_hurried) {
+            pace.wait(seconds, interrupt);
         }
     }
 

@@ -34,13 +34,14 @@ impl Pace {
         &self.control
     }
 
-    /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited.
-    pub(crate) fn slice(&self) -> Option<f64> {
+    /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited. It
+    /// is the same whether somebody waits for it or not, unless the viewer has paused the session.
+    pub(crate) fn slice(&self, waits: bool) -> Option<f64> {
         match self.control.get() {
             (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
             // Waits for the end of the pause, then continues.
-            (Speed::Unlimited, true) => Some(f64::EPSILON),
-            (Speed::Unlimited, false) => None,
+            (Speed::Unlimited, true) if waits => Some(f64::EPSILON),
+            (Speed::Unlimited, _) => None,
         }
     }
 

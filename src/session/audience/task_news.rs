@@ -20,6 +20,7 @@ const MOST_KEYS: usize = 24;
 /// A change in the journal, with its simulated time (s).
 pub(super) fn of_change(image: &Image, change: Change) -> (f64, TaskNews) {
     let report = |failure: &Value| aside(image, || print::report::report(image, failure));
+    let class = |failure: &Value| class_name(image, failure);
     match change {
         Change::Task(change) => {
             let news = TaskNews {
@@ -28,6 +29,7 @@ pub(super) fn of_change(image: &Image, change: Change) -> (f64, TaskNews) {
                 name: change.name,
                 state: state(change.status),
                 failure: change.failure.as_ref().map(report).unwrap_or_default(),
+                class: change.failure.as_ref().map(class).unwrap_or_default(),
                 result: String::new(),
                 about: None,
             };
@@ -50,12 +52,21 @@ pub(super) fn of_change(image: &Image, change: Change) -> (f64, TaskNews) {
                 },
                 ActionEnd::Failed(failure) => TaskNews {
                     failure: report(failure),
+                    class: class(failure),
                     ..of(TaskState::Failed)
                 },
                 ActionEnd::Evaporated => of(TaskState::Evaporated),
             };
             (ended.time, news)
         }
+    }
+}
+
+/// The name of the class of a condition.
+pub(crate) fn class_name(image: &Image, condition: &Value) -> String {
+    match condition {
+        Value::Instance(instance) => image.name(instance.class().name).to_owned(),
+        _ => String::new(),
     }
 }
 
@@ -72,6 +83,7 @@ fn of_action(image: &Image, action: &BegunAction, state: TaskState) -> TaskNews 
         name: name.unwrap_or_else(|| "action".to_owned()).to_lowercase(),
         state,
         failure: String::new(),
+        class: String::new(),
         result: String::new(),
         about: None,
     }

@@ -87,7 +87,7 @@ impl Audience {
             None => PaceControl::new(Speed::Times(1.0)),
         };
         let history = History::new(Origin::Session);
-        let world = &simulation.shown().world;
+        let world = &simulation.world;
         let witness = FrameBuilder::new(world);
         let views = Views::new(world, |link| witness.node_named(link));
         let shown = Some(control.clone());
@@ -228,7 +228,7 @@ impl Audience {
 /// A follower that keeps a run, and where it keeps it.
 fn follower_of(simulation: &Simulation) -> (Seen, Box<LiveFollower>) {
     let history = History::new(Origin::Recording);
-    let world = &simulation.shown().world;
+    let world = &simulation.world;
     let frames = FrameBuilder::new(world);
     let views = Views::new(world, |link| frames.node_named(link));
     let follower = LiveFollower::without_viewers(history.clone(), frames);

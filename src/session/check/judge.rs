@@ -3,6 +3,7 @@
 
 use super::known::KnownNames;
 use super::meant::{self, Meant};
+use crate::package_name::short_name;
 use lisp::image::Image;
 use lisp::image::notes::NoteKind;
 use lisp::library::definition_of;
@@ -128,7 +129,7 @@ fn shown(image: &Image, sym: Sym) -> String {
 fn asking(text: &str, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool) -> String {
     match Meant::by(image, name, is_kind) {
         Some(Meant::InPackage(package)) => {
-            let package = meant::short_name(image, package);
+            let package = short_name(image, package);
             format!("{text}; did you mean {package}:{}?", image.name(name))
         }
         Some(Meant::Similar(near)) => format!("{text}; did you mean {near}?"),

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::package_name::short_name;
 use closest_name::closest_name;
 use cram::designator::schema;
 use cram::designator::value::Class;
@@ -145,13 +146,4 @@ fn file_hint(path: &Value) -> Option<String> {
 /// Is there a function, macro or operator of that name?
 pub(super) fn has_function(image: &Image, sym: Sym) -> bool {
     !matches!(image.symbol(sym).function, FunctionCell::Unbound)
-}
-
-/// The shortest name of a package.
-pub(super) fn short_name(image: &Image, package: PackageId) -> String {
-    let package = image.packages.get(package);
-    std::iter::once(&package.name)
-        .chain(&package.nicknames)
-        .min_by_key(|name| name.chars().count())
-        .map_or_else(String::new, |name| name.to_string())
 }

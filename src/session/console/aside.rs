@@ -2,6 +2,7 @@
 
 use super::{Cause, Session};
 use crate::dialogue::{Event, Outcome};
+use crate::printing;
 use lisp::compile;
 use lisp::evaluator::aside::Aside;
 use lisp::evaluator::backtrace::VariablePlace;
@@ -122,7 +123,7 @@ impl Session {
         raise: Box<Raise>,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        let abort = self.raised(raise);
+        let abort = printing::raised(&mut self.image, raise);
         sink(Event::Aborted(Box::new(abort)));
         self.image.output.begin_line();
         Outcome::Aborted

@@ -3,6 +3,7 @@
 //! The plan stands in the middle of something, so that nothing can run on top of it: forms are
 //! evaluated beside it, without any time passing.
 
+use crate::printing;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -50,7 +51,7 @@ impl Session {
         }
         let abort = match evaluation {
             Evaluation::Values(values) => return self.tell_aside(&values, sink),
-            Evaluation::Unhandled(condition) => self.describe(&condition),
+            Evaluation::Unhandled(condition) => printing::describe(&mut self.image, &condition),
             Evaluation::Interrupted => interrupted(),
         };
         sink(Event::Aborted(Box::new(abort)));

@@ -57,7 +57,7 @@ impl Session {
             .host
             .person
             .snapshots
-            .has_changed_since_form(&mut self.host.simulation)
+            .has_changed_since_form(&self.host.simulation)
         {
             let label = "[REWIND-FORM] Restore the world to before the form and evaluate it again.";
             choices.push((Choice::RewindForm, label.to_owned()));
@@ -204,11 +204,10 @@ impl Session {
                 motion,
             } => {
                 if let Some(motion) = motion {
-                    self.host.person.snapshots.go_back_to(
-                        &mut self.host.simulation,
-                        &mut self.image,
-                        motion,
-                    );
+                    self.host
+                        .person
+                        .snapshots
+                        .go_back_to(&mut self.host.simulation, motion);
                 }
                 self.replace_frame(frame, function, args, sink)
             }

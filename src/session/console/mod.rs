@@ -324,7 +324,7 @@ impl Session {
                     self.host
                         .person
                         .snapshots
-                        .go_back_to_form(&mut self.host.simulation, &mut self.image);
+                        .go_back_to_form(&mut self.host.simulation);
                 }
                 self.evaluate_first(base, sink)
             }

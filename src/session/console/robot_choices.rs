@@ -3,10 +3,8 @@
 
 use super::choices::Choice;
 use super::stack_frames::Told;
-use crate::host::call::done;
-use crate::simulation::Simulation;
-use crate::{Session, on_one_line};
-use cram::Reply;
+use crate::Session;
+use crate::printing::on_one_line;
 use cram::designator::perform::Performance;
 use cram::designator::value::{Class, as_class};
 use cram::packages;
@@ -47,16 +45,9 @@ impl Session {
             .iter()
             .find(|a| self.type_of_action(a) == "PICKING-UP")
         {
-            let grasps = self.found_in_world(&picking.designator, |simulation, image, action| {
-                let grasps = simulation.reachable_grasps(image, action).into_iter();
-                Value::list(
-                    grasps
-                        .map(|(arm, grasp)| Value::list([arm, grasp]))
-                        .collect::<Vec<_>>(),
-                )
-            });
-            for grasp in grasps.iter_list() {
-                let (arm, grasp) = (grasp.car_or_nil(), grasp.cdr_or_nil().car_or_nil());
+            let simulation = &mut self.host.simulation;
+            let grasps = simulation.reachable_grasps(&mut self.image, &picking.designator);
+            for (arm, grasp) in grasps {
                 let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
                 let designator = self.with_properties(&picking.designator, &others);
                 let shown = |value: &Value| print::to_string(&self.image, value, true);
@@ -139,34 +130,11 @@ impl Session {
         Value::foreign(copy)
     }
 
-    /// What the world tells about an action.
-    fn found_in_world(
-        &mut self,
-        action: &Value,
-        find: impl FnOnce(&mut Simulation, &mut Image, &Value) -> Value,
-    ) -> Value {
-        let given = std::slice::from_ref(action);
-        let reply = self
-            .host
-            .answered(&mut self.image, "choices", given, |host, image| {
-                done(find(&mut host.simulation, image, action))
-            });
-        match reply {
-            Ok(Reply::Now(Ok(found))) => found,
-            _ => Value::NIL,
-        }
-    }
-
     /// Driving to where the object can be grasped, then repeating the action.
     fn base_choice(&mut self, picking: &Action) -> Option<(Choice, String)> {
-        let found = self.found_in_world(&picking.designator, |simulation, image, action| {
-            let found = simulation.place_to_grasp_from(image, action);
-            found.map_or(Value::NIL, |(pose, arm, grasp)| {
-                Value::list([pose, arm, grasp])
-            })
-        });
-        let found = found.list_to_vec()?;
-        let [pose, arm, grasp]: [Value; 3] = found.try_into().ok()?;
+        let simulation = &mut self.host.simulation;
+        let found = simulation.place_to_grasp_from(&mut self.image, &picking.designator);
+        let (pose, arm, grasp) = found?;
         let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
         let designator = self.with_properties(&picking.designator, &others);
         let function = self.drive_and_perform()?;

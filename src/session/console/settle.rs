@@ -1,5 +1,7 @@
 //! Handling the result of an evaluation that was continued.
 
+use crate::host::call::HostCall;
+use crate::printing;
 use std::ops::Range;
 
 use super::{Asking, Cause, Level, Suspended, choices};
@@ -24,7 +26,7 @@ impl Session {
     pub(super) fn go_on_with(
         &mut self,
         sink: &mut dyn FnMut(Event),
-        how: impl FnOnce(&mut Scheduler, &mut Image, &mut LiveHost<'_>) -> Evaluation,
+        how: impl FnOnce(&mut Scheduler<HostCall>, &mut Image, &mut LiveHost<'_>) -> Evaluation,
     ) -> Evaluation {
         let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         let evaluation = how(&mut self.scheduler, &mut self.image, &mut host);
@@ -194,7 +196,7 @@ impl Session {
     /// The report of a condition, with the actions of all tasks that wait for the one that
     /// stopped.
     fn described_in_place(&mut self, condition: &Value) -> Abort {
-        let mut abort = self.describe(condition);
+        let mut abort = printing::describe(&mut self.image, condition);
         if let (Some(base), true) = (&self.console.base, abort.report == NESTED) {
             let plan = on_one_line(&print::to_string(&self.image, &base.form, false));
             abort.hint = Some(format!(

@@ -3,7 +3,8 @@
 
 use super::Session;
 use crate::dialogue::{ActionStep, Event, Outcome};
-use crate::on_one_line;
+use crate::printing;
+use crate::printing::on_one_line;
 use lisp::evaluator::backtrace::FrameView;
 use lisp::print;
 use lisp::source::Place;
@@ -177,7 +178,7 @@ impl Session {
             let value = if variable.value.is_unbound() {
                 "(not supplied)".to_owned()
             } else {
-                self.printed(&variable.value)
+                printing::printed(&mut self.image, &variable.value)
             };
             let name = print::to_string(&self.image, &variable.name.into(), true);
             text.push_str(&format!("  {name} = {value}\n"));

@@ -4,11 +4,10 @@
 use std::rc::Rc;
 
 use super::repeat::Repeat;
-use super::taping::Taping;
 use lisp::image::input::Source;
 
 /// An evaluator for interactive use.
-pub trait Converse: Repeat + Taping {
+pub trait Converse: Repeat {
     /// Number of stopped evaluations.
     fn level(&self) -> usize;
 
@@ -35,6 +34,9 @@ pub trait Converse: Repeat + Taping {
 
     /// A hash of the world's state.
     fn world_hash(&self) -> u64;
+
+    /// Sets whether simulated time passes without waiting for real time, whatever its pace.
+    fn set_hurried(&mut self, is_hurried: bool);
 
     /// Ends what the session still writes, such as a recording; returns the reason if that
     /// failed.

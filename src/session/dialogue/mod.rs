@@ -17,7 +17,6 @@ pub mod repeat;
 pub mod screen;
 mod serve;
 mod shown_ahead;
-mod taping;
 mod uses;
 
 pub use converse::{Candidate, Completions, Converse};
@@ -33,5 +32,4 @@ pub use repeat::Repeat;
 pub use screen::Screen;
 pub use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
 pub use shown_ahead::ShownAhead;
-pub use taping::Taping;
 pub use uses::{Relation, Unrecorded, Use};

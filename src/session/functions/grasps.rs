@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::motions::sides;
 use crate::simulation::names::type_text;
@@ -29,7 +29,7 @@ pub(super) static TABLE: &[Builtin] = &[control(
     &[
         "(progn (obj-int:def-object-type-to-gripper-transforms :bread '(:left :right) :from-above :grasp-translation '(0 0 0.02) :grasp-rot-matrix '((0 1 0) (1 0 0) (0 0 -1)) :pregrasp-offsets '(0 0 0.15) :lift-offsets '(0 0 0.15)) (pp-tut:list-defined-grasps :bread)) => (:FROM-ABOVE)",
     ],
-    host!(repeated define_grasp),
+    host!(define_grasp),
 )];
 
 fn triple(image: &Image, value: &Value, what: &str) -> Result<[f64; 3]> {

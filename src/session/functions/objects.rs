@@ -1,7 +1,7 @@
 //! Builtins for objects: spawning, moving, removing.
 
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_text_of};
 use cram::Reply;

@@ -37,21 +37,21 @@ pub(super) static TABLE: &[Builtin] = &[
         "&rest arguments",
         "Draws the world into a PNG file and returns the file's name: `(picture [\"file.png\"] [view] :from place :at place :fov degrees :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and :follow; a place is a point (x y z), a pose, or the name of an object or frame; :fov is how much is seen from top to bottom. Terminals that can show it show it.",
         &[],
-        host!(answered picture),
+        host!(picture),
     ),
     control(
         "CAMERA-PICTURE",
         "&rest arguments",
         "Draws what the robot's camera sees into a PNG file: colours, distances and segments; the object that was looked for last is outlined even where it is hidden: `(camera-picture [\"file.png\"] :object name :width n)`. Tells how much of the object is in sight, and returns the file's name.",
         &[],
-        host!(answered camera_picture),
+        host!(camera_picture),
     ),
     control(
         "MAP-PICTURE",
         "&rest arguments",
         "Draws the kitchen from above into a PNG file: the floor is green where the base may stand as the robot is now, red where something is in the way: `(map-picture [\"file.png\"] :width n :height n)`. Returns the file's name.",
         &[],
-        host!(answered map_picture),
+        host!(map_picture),
     ),
 ];
 

@@ -4,9 +4,9 @@ use crate::simulation::properties::property;
 use cram::designator::value::current;
 use nalgebra::Translation3;
 
-use crate::LogLevel;
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::imagined::Imagined;
@@ -99,7 +99,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "name arm",
         "Lets go of an object and waits until it rests.",
         &[],
-        host!(answered detach_object),
+        host!(detach_object),
     ),
     control(
         "OBJECT-TO-PLACE",

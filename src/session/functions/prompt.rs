@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::tour;
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
-use crate::host::parts::View;
+use crate::host::parts::{View, in_world};
 use crate::person::Person;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, type_text};
@@ -222,7 +222,7 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }
-    if let Some(view) = View::in_world(host, image, &args[0]) {
+    if let Some(view) = in_world(host, image, &args[0]) {
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {

@@ -1,7 +1,7 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::plans::{DEMO_SYSTEMS, demo_text};
 use crate::simulation::Simulation;
 use cram::Reply;

@@ -2,7 +2,7 @@
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
-use crate::on_one_line;
+use crate::printing::on_one_line;
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
 use cram::Reply;
@@ -59,10 +59,7 @@ fn rewind(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
         Some(Value::Int(n)) if *n > 0 => usize::try_from(*n).unwrap_or(usize::MAX),
         Some(other) => return Err(Raise::type_error(other, known::INTEGER)),
     };
-    let form = host
-        .person
-        .snapshots
-        .rewind(&mut host.simulation, image, count)?;
+    let form = host.person.snapshots.rewind(&mut host.simulation, count)?;
     let shown = print::to_string(image, &form, true);
     let shown = on_one_line(&shown);
     say(
@@ -78,9 +75,7 @@ fn name(image: &Image, value: &Value) -> Result<String> {
 
 fn snapshot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = name(image, &args[0])?;
-    host.person
-        .snapshots
-        .keep(&mut host.simulation, image, &name);
+    host.person.snapshots.keep(&host.simulation, &name);
     done(args[0].clone())
 }
 
@@ -88,7 +83,7 @@ fn restore(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
     let name = name(image, &args[0])?;
     host.person
         .snapshots
-        .restore_kept(&mut host.simulation, image, &name)?;
+        .restore_kept(&mut host.simulation, &name)?;
     say(
         image,
         &format!("; The world is as in {name}; Lisp variables keep their values."),

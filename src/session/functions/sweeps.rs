@@ -154,7 +154,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "name seed goal lines",
         "What the lines of a sweep say together, as text.",
         &[],
-        host!(answered summary),
+        host!(summary),
     ),
 ];
 
@@ -297,7 +297,7 @@ fn restore_quietly(host: &mut SimulationHost, image: &mut Image, args: &[Value])
     let name = name.unwrap_or_default();
     host.person
         .snapshots
-        .restore_kept(&mut host.simulation, image, &name)?;
+        .restore_kept(&mut host.simulation, &name)?;
     done(Value::NIL)
 }
 

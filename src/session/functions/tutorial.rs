@@ -1,8 +1,8 @@
 //! The functions of the tutorial's package that query or change the world.
 
 use super::objects::Spawning;
-use crate::LogLevel;
 use crate::host::call::{done, host};
+use crate::log_level::LogLevel;
 use crate::simulation::motions::side;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
 use crate::simulation::properties::property;

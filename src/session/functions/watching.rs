@@ -33,7 +33,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "file",
         "Writes one HTML file that any browser shows without planwright and without a network: the page of the live view with all that has been seen since the view was opened, with its slider; if it is not open, the world as it is now. Returns the file's name.",
         &[],
-        host!(answered save_view),
+        host!(save_view),
     ),
 ];
 

@@ -9,19 +9,11 @@ use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 
-/// A function that acts on a part of the host.
-pub(crate) type OwnerFn<O> = fn(&mut O, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
-
 /// A function that acts on the host.
-pub(crate) type HostFn = OwnerFn<SimulationHost>;
+pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
 
 /// The request to call a function on the host.
 pub(crate) struct HostCall {
-    /// The name of the function, in Rust.
-    pub name: &'static str,
-    /// Whether its reply is all that comes of it, besides changes of the physical state: then the
-    /// tape answers for it.
-    pub(crate) is_answered: bool,
     /// The function.
     pub call: HostFn,
     /// Its arguments.
@@ -30,10 +22,6 @@ pub(crate) struct HostCall {
 
 /// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
 pub(crate) trait Owner {
-    /// Whether the tape answers for calls of its functions. Where it does not, a function is called
-    /// also while answers are played, and must not look at the physical state by itself.
-    const IS_ANSWERED: bool = false;
-
     /// That part of the host.
     fn of(host: &mut SimulationHost) -> &mut Self;
 }
@@ -45,8 +33,6 @@ impl Owner for SimulationHost {
 }
 
 impl Owner for Simulation {
-    const IS_ANSWERED: bool = true;
-
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.simulation
     }
@@ -64,32 +50,13 @@ impl Owner for Audience {
     }
 }
 
-/// Whether the tape answers for a function, as its first parameter says.
-pub(crate) fn is_answered<O: Owner>(_: OwnerFn<O>) -> bool {
-    O::IS_ANSWERED
-}
-
 /// A control builtin that requests a call of a function, whose first parameter determines the
-/// [`Owner`] that it acts on. With `answered`, the tape answers for a function of the whole host:
-/// its reply and changes of the physical state are all that comes of it. With `repeated`, it does not
-/// answer for a function that changes something besides the physical state, at which it does not
-/// look.
+/// [`Owner`] that it acts on.
 macro_rules! host {
     ($function:path) => {
-        $crate::host::call::host!($function, $crate::host::call::is_answered($function))
-    };
-    (answered $function:path) => {
-        $crate::host::call::host!($function, true)
-    };
-    (repeated $function:path) => {
-        $crate::host::call::host!($function, false)
-    };
-    ($function:path, $is_answered:expr) => {
         |_, args| {
             Ok(lisp::vm::step::Step::request(
                 $crate::host::call::HostCall {
-                    name: stringify!($function),
-                    is_answered: $is_answered,
                     call: |host, image, args| {
                         $function($crate::host::call::Owner::of(host), image, args)
                     },

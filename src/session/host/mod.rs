@@ -8,9 +8,12 @@
 pub(crate) mod call;
 pub(super) mod parts;
 mod request;
-mod taped;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use crate::audience::Audience;
+use crate::face::{Bounds, Limits};
 use crate::person::Person;
 use crate::simulation::Simulation;
 use cram::TaskId;
@@ -26,6 +29,8 @@ pub(crate) struct SimulationHost {
     pub(crate) person: Person,
     /// The outputs that show the session.
     pub audience: Audience,
+    /// The limits of the evaluation under way.
+    pub(crate) bounds: Bounds,
     /// The task whose request is being carried out.
     asking: TaskId,
 }
@@ -37,8 +42,21 @@ impl SimulationHost {
             simulation,
             person: Person::default(),
             audience,
+            bounds: Bounds::default(),
             asking: TaskId(0),
         }
+    }
+
+    /// Puts limits in force for an evaluation with an interrupt flag.
+    pub(crate) fn begin_bounds(&self, limits: &Limits, flag: &Arc<AtomicBool>) {
+        let step = self.simulation.world().steps();
+        self.bounds.begin(limits, flag, self.simulation.now(), step);
+    }
+
+    /// Interrupts the evaluation if it has reached a limit. To be called when time may have passed.
+    pub(crate) fn check_bounds(&self) {
+        let step = self.simulation.world().steps();
+        self.bounds.check(self.simulation.now(), step);
     }
 }
 
@@ -52,6 +70,7 @@ impl SimulationHost {
             simulation: self.simulation.copied(copier),
             person: self.person.copied(copier),
             audience,
+            bounds: Bounds::default(),
             asking: self.asking,
         }
     }

@@ -1,13 +1,12 @@
 //! The parts of values for the inspector: every kind of value has named parts.
 
 use super::SimulationHost;
-use super::call::done;
 use crate::simulation::motions::side_keyword;
 use crate::simulation::names::{name_text, type_keyword};
 use crate::simulation::properties::property;
+use cram::TaskRef;
 use cram::designator::value::as_designator;
 use cram::pose::value::{as_placement, frame_of, pose_stamped};
-use cram::{Reply, TaskRef};
 use lisp::image::Image;
 use lisp::print;
 use lisp::types::type_of::type_of;
@@ -34,8 +33,8 @@ pub(crate) struct View {
 impl View {
     /// The parts of a value. A symbol that names an object in the world stands for that object,
     /// and `:robot` for the robot.
-    pub(crate) fn of(host: &mut SimulationHost, image: &mut Image, value: &Value) -> View {
-        if let Some(view) = View::in_world(host, image, value) {
+    pub(crate) fn of(host: &SimulationHost, image: &mut Image, value: &Value) -> View {
+        if let Some(view) = in_world(host, image, value) {
             return view;
         }
         let kind = type_of(image, value);
@@ -46,46 +45,6 @@ impl View {
         );
         let parts = parts(image, value);
         View { title, parts }
-    }
-
-    /// The parts of the object in the world that a symbol names, or of the robot.
-    pub(crate) fn in_world(
-        host: &mut SimulationHost,
-        image: &mut Image,
-        value: &Value,
-    ) -> Option<View> {
-        let given = std::slice::from_ref(value);
-        let reply = host.answered(image, "parts", given, |host, image| {
-            done(in_world(host, image, value).map_or(Value::NIL, View::into_value))
-        });
-        match reply {
-            Ok(Reply::Now(Ok(view))) => View::of_value(&view),
-            _ => None,
-        }
-    }
-
-    /// As a list: the title, and then the names and values.
-    fn into_value(self) -> Value {
-        let parts = self.parts.into_iter();
-        let parts = parts.map(|(name, value)| Value::list([Value::string(name), value]));
-        Value::cons(
-            Value::string(self.title),
-            Value::list(parts.collect::<Vec<_>>()),
-        )
-    }
-
-    /// The view that such a list describes; `None` if it is empty.
-    fn of_value(value: &Value) -> Option<View> {
-        let title = value.car_or_nil().as_text()?;
-        let parts = value.cdr_or_nil();
-        let parts = parts.iter_list().map(|part| {
-            let name = part.car_or_nil().as_text().unwrap_or_default();
-            (name, part.cdr_or_nil().car_or_nil())
-        });
-        Some(View {
-            title,
-            parts: parts.collect(),
-        })
     }
 
     /// The parts with numbers.
@@ -127,7 +86,7 @@ fn part(name: impl Into<String>, value: impl Into<Value>) -> (String, Value) {
 }
 
 /// An object in the world, or the robot.
-fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) -> Option<View> {
+pub(crate) fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) -> Option<View> {
     let simulation = &host.simulation;
     let Value::Symbol(sym, ..) = value else {
         return None;

@@ -1,12 +1,9 @@
 //! Carrying out tasks' requests, and advancing the world while all tasks wait.
 
-use std::any::Any;
-
 use super::call::HostCall;
 use super::{SimulationHost, note_motions};
 use crate::audience::task_news;
 use crate::simulation::jobs::{Completion, Job, Told};
-use crate::tape::{Done, RaiseData};
 use cram::designator::MotionRequest;
 use cram::{Advance, Host, Reply, TaskId, Ticket};
 use lisp::image::Image;
@@ -17,12 +14,18 @@ use robotics::world::physics::STEP_SECONDS;
 use view::watch::{Cause, TaskState};
 
 impl Host for SimulationHost {
-    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        self.asking = task;
-        self.person.snapshots.touch();
-        let reply = self.reply(image, request);
-        note_motions(&self.simulation, image);
-        reply
+    type Call = HostCall;
+
+    fn call(&mut self, image: &mut Image, task: TaskId, call: HostCall) -> Reply {
+        self.reply(image, task, |host, image| {
+            let reply = (call.call)(host, image, &call.args);
+            host.audience.show(&host.simulation, Cause::Edit);
+            reply
+        })
+    }
+
+    fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply {
+        self.reply(image, task, |host, image| host.begin(image, &motion))
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
@@ -30,46 +33,6 @@ impl Host for SimulationHost {
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
-        let passed = self.taped_time(image, now, Some(until), |host, image| Advance {
-            now: host.rest(image, now, until),
-            done: Vec::new(),
-        });
-        passed.now
-    }
-
-    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
-        if self.simulation.tape.is_playing() {
-            self.simulation.tape.end_motion(ticket.0);
-            return;
-        }
-        if let Some(job) = self.simulation.jobs.cancel(ticket) {
-            let now = self.simulation.now;
-            self.audience
-                .tell_motion(now, &job, TaskState::Evaporated, "");
-            self.simulation.jobs.leave(job);
-        }
-    }
-
-    fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
-        self.taped_time(image, now, None, |host, image| host.brake(image, now))
-    }
-
-    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
-        if !self.simulation.tape.is_playing() {
-            self.simulation.jobs.set_paused(ticket, true);
-        }
-    }
-
-    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
-        if !self.simulation.tape.is_playing() {
-            self.simulation.jobs.set_paused(ticket, false);
-        }
-    }
-}
-
-impl SimulationHost {
-    /// Lets time pass in which nothing is carried out; returns the time then.
-    fn rest(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
         let mut steps = 0u32;
         self.simulation.now = now;
         self.audience.tell_resumed(now);
@@ -83,11 +46,10 @@ impl SimulationHost {
             self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
         }
         while self.simulation.now < until
-            && let Some(pace) = &mut self.audience.pace
-            && let Some(slice) = pace.slice()
+            && let Some(slice) = self.audience.slice()
         {
             let slice = slice.min(until - self.simulation.now);
-            pace.wait(slice, image.interrupt());
+            self.audience.wait(slice, image.interrupt());
             if image.is_interrupted() {
                 return self.simulation.now;
             }
@@ -99,21 +61,45 @@ impl SimulationHost {
         until
     }
 
-    /// As [`Host::advance`]; `watch` is called after every step.
-    pub(crate) fn advance_watched(
-        &mut self,
-        image: &mut Image,
-        now: f64,
-        until: Option<f64>,
-        watch: &mut dyn FnMut(&SimulationHost),
-    ) -> Advance {
-        self.taped_time(image, now, until, |host, image| {
-            host.carry_out(image, now, until, watch)
-        })
+    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
+        if let Some(job) = self.simulation.jobs.cancel(ticket) {
+            let now = self.simulation.now;
+            self.audience
+                .tell_motion(now, &job, TaskState::Evaporated, None);
+            self.simulation.jobs.leave(job);
+        }
     }
 
-    /// Lets time pass while motions are carried out.
-    fn carry_out(
+    fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
+        self.simulation.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while self.simulation.jobs.is_braking() && self.tick(image, &mut done) {
+            // Braking is short, and a viewer who has paused the session must not hold it up. What
+            // an interrupt leaves of a step is done when the motions go on.
+            self.step_at_once(image);
+            steps += 1;
+            self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        self.simulation.jobs.leaving.retain(Job::is_moving);
+        Advance {
+            now: self.simulation.now,
+            done,
+        }
+    }
+
+    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
+        self.simulation.jobs.set_paused(ticket, true);
+    }
+
+    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
+        self.simulation.jobs.set_paused(ticket, false);
+    }
+}
+
+impl SimulationHost {
+    /// As [`Host::advance`]; `watch` is called after every step.
+    pub(crate) fn advance_watched(
         &mut self,
         image: &mut Image,
         now: f64,
@@ -143,25 +129,6 @@ impl SimulationHost {
         }
     }
 
-    /// Lets time pass until all motions that have been cancelled or paused have come to a stop.
-    /// Others go on; if one of them is interrupted while it plans, braking goes on with them later.
-    fn brake(&mut self, image: &mut Image, now: f64) -> Advance {
-        self.simulation.now = now;
-        let mut done = Vec::new();
-        let mut steps = 0u32;
-        while self.simulation.jobs.is_braking() && self.tick(image, &mut done) {
-            // Braking is short, and a viewer who has paused the session must not hold it up.
-            self.step_at_once(image);
-            steps += 1;
-            self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
-        }
-        self.simulation.jobs.leaving.retain(Job::is_moving);
-        Advance {
-            now: self.simulation.now,
-            done,
-        }
-    }
-
     /// What is going on, if that is known, what the robot is doing, its progress, and the simulated
     /// time, on one line.
     pub(crate) fn progress(&self, what: Option<&str>) -> String {
@@ -171,50 +138,29 @@ impl SimulationHost {
         format!("… {}", parts.join(" · "))
     }
 
-    /// The reply to a request.
-    fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
-        let request = match request.downcast::<HostCall>() {
-            Ok(call) => {
-                let reply = if call.is_answered {
-                    self.answered(image, call.name, &call.args, |host, image| {
-                        (call.call)(host, image, &call.args)
-                    })
-                } else {
-                    self.simulation.tape.watch();
-                    let reply = (call.call)(self, image, &call.args);
-                    if self.simulation.tape.is_touched() {
-                        self.simulation.tape.note_lasting_effect();
-                    }
-                    reply
-                };
-                self.audience.show(&self.simulation, Cause::Edit);
-                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
-            }
-            Err(request) => request,
-        };
-        match request.downcast::<MotionRequest>() {
-            Ok(request) => {
-                let properties = request.properties.iter().map(|(_, value)| value);
-                let given = std::iter::once(&request.designator).chain(properties);
-                let given: Vec<Value> = given.cloned().collect();
-                let name = request.motion_type.to_lowercase();
-                let reply = self.answered(image, &name, &given, |host, image| {
-                    let (motion, subject) = host.simulation.motion_for(image, &request)?;
-                    let motion = host.simulation.with_faults(image, motion, &request);
-                    // Report the task before its actions.
-                    host.audience.tell_tasks(image);
-                    let told = host.told(image, Some(&request));
-                    Ok(Reply::Later(host.start(
-                        motion,
-                        subject,
-                        name.clone(),
-                        told,
-                    )))
-                });
-                reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
-            }
-            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
-        }
+    /// The reply to what a task asks for.
+    fn reply(
+        &mut self,
+        image: &mut Image,
+        task: TaskId,
+        work: impl FnOnce(&mut Self, &mut Image) -> Result<Reply, Box<Raise>>,
+    ) -> Reply {
+        self.asking = task;
+        self.person.snapshots.touch();
+        let reply = work(self, image);
+        note_motions(&self.simulation, image);
+        reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
+    }
+
+    /// Begins a motion.
+    fn begin(&mut self, image: &mut Image, request: &MotionRequest) -> Result<Reply, Box<Raise>> {
+        let (motion, subject) = self.simulation.motion_for(image, request)?;
+        let motion = self.simulation.with_faults(image, motion, request);
+        // Report the task before its actions.
+        self.audience.tell_tasks(image);
+        let told = self.told(image, Some(request));
+        let name = request.motion_type.to_lowercase();
+        Ok(Reply::Later(self.start(motion, subject, name, told)))
     }
 
     /// What followers are told of a motion.
@@ -243,7 +189,8 @@ impl SimulationHost {
         let job = simulation
             .jobs
             .add(motion, subject, self.asking, name, told);
-        self.audience.tell_motion(now, job, TaskState::Running, "");
+        self.audience
+            .tell_motion(now, job, TaskState::Running, None);
         job.ticket
     }
 
@@ -282,24 +229,16 @@ impl SimulationHost {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => {
                     self.audience
-                        .tell_motion(now, job, TaskState::Succeeded, "");
-                    let value = simulation.outcome(image, &outcome, &job.subject);
-                    let done = simulation.done(image, &outcome, &value);
-                    simulation.tape.note_end(job.ticket.0, done);
-                    Ok(value)
+                        .tell_motion(now, job, TaskState::Succeeded, None);
+                    Ok(simulation.outcome(image, &outcome, &job.subject))
                 }
                 MotionStatus::Failed(failure) => {
-                    let report = failure.to_string();
                     self.audience
-                        .tell_motion(now, job, TaskState::Failed, &report);
+                        .tell_motion(now, job, TaskState::Failed, Some(&failure));
                     if let Some(hit) = failure.hit() {
                         self.audience.tell_collision(now, hit);
                     }
-                    let raise = simulation.failure(image, &failure, &job.subject);
-                    let given = std::slice::from_ref(&job.subject);
-                    let done = RaiseData::of(image, &raise, given).map(Done::Raise);
-                    simulation.tape.note_end(job.ticket.0, done);
-                    Err(raise)
+                    Err(simulation.failure(image, &failure, &job.subject))
                 }
             };
             partial_step.completions.push((job.ticket, result));
@@ -319,9 +258,7 @@ impl SimulationHost {
 
     fn step(&mut self, image: &mut Image) {
         self.step_at_once(image);
-        if let Some(pace) = &mut self.audience.pace {
-            pace.wait(STEP_SECONDS, image.interrupt());
-        }
+        self.audience.wait(STEP_SECONDS, image.interrupt());
     }
 
     /// A step of the world, without waiting for real time to pass.

@@ -4,7 +4,7 @@ mod snapshots;
 
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
-pub(crate) use snapshots::Snapshots;
+pub(crate) use snapshots::{Snapshot, Snapshots};
 
 /// The state of the prompt.
 #[derive(Default)]

@@ -8,13 +8,12 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use crate::simulation::Simulation;
-use crate::simulation::frames::Restored;
-use crate::tape::{Entry, Frame};
-use lisp::image::Image;
+use crate::simulation::held::Held;
+use crate::simulation::{Axes, Simulation};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::raise::Raise;
+use robotics::world;
 
 /// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;
@@ -23,13 +22,16 @@ const MOST_MOTIONS: usize = 64;
 
 /// The state at one time.
 #[derive(Clone)]
-pub(crate) enum Snapshot {
-    /// In memory.
-    Here(Rc<Restored>),
-    /// As a frame of the tape, which takes little memory.
-    Stored(Rc<Frame>),
-    /// Nothing but that there was one: an answer of the tape needs no more.
-    Absent,
+pub(crate) struct Snapshot(Rc<State>);
+
+/// What a snapshot restores.
+struct State {
+    world: world::Snapshot,
+    names: IndexMap<String, Value>,
+    held: IndexMap<String, Held>,
+    axes: Option<Axes>,
+    /// How many searches for locations have begun.
+    searches: u64,
 }
 
 /// The state before a form at top level.
@@ -58,26 +60,8 @@ pub(crate) struct Snapshots {
 
 impl Snapshot {
     /// Takes a snapshot of the present state.
-    fn take(simulation: &mut Simulation, image: &Image) -> Self {
-        if simulation.tape.is_playing() {
-            let number = match simulation.tape.next() {
-                Some(Entry::Snapshot(number)) => number,
-                _ => {
-                    simulation.tape.fail();
-                    None
-                }
-            };
-            let frame = number.and_then(|number| simulation.tape.frame(number));
-            return frame.map_or(Self::Absent, Self::Stored);
-        }
-        let frame = simulation.frame(image);
-        let number = frame.as_ref().map(|frame| frame.number);
-        simulation.tape.put(&Entry::Snapshot(number));
-        frame.map_or_else(|| Self::here(simulation), Self::Stored)
-    }
-
-    fn here(simulation: &Simulation) -> Self {
-        Self::Here(Rc::new(Restored {
+    pub(crate) fn take(simulation: &Simulation) -> Self {
+        Self(Rc::new(State {
             world: simulation.world.snapshot(),
             names: simulation.names.clone(),
             held: simulation.held.clone(),
@@ -87,56 +71,32 @@ impl Snapshot {
     }
 
     /// Restores the state; ongoing motions end.
-    fn restore(&self, simulation: &mut Simulation, image: &mut Image) {
-        if simulation.tape.is_playing() {
-            simulation.tape.make_stale();
-            return;
-        }
-        let stored;
-        let restored = match self {
-            Self::Here(restored) => restored.as_ref(),
-            Self::Stored(frame) => {
-                stored = simulation.restored(image, frame);
-                match &stored {
-                    Some(restored) => restored,
-                    None => return,
-                }
-            }
-            Self::Absent => return,
-        };
-        simulation.restore(restored);
-    }
-
-    /// The frame of the tape that it needs.
-    fn frame(&self) -> Option<u64> {
-        match self {
-            Self::Stored(frame) => Some(frame.number),
-            Self::Here(_) | Self::Absent => None,
-        }
+    fn restore(&self, simulation: &mut Simulation) {
+        let state = &self.0;
+        simulation.world.restore(&state.world);
+        simulation.names.clone_from(&state.names);
+        simulation.held.clone_from(&state.held);
+        simulation.axes.clone_from(&state.axes);
+        simulation.searches = state.searches;
+        simulation.jobs.clear();
     }
 }
 
 impl Copied for Snapshot {
     fn copied(&self, copier: &mut Copier) -> Snapshot {
-        match self {
-            Snapshot::Here(restored) if restored.names.is_empty() => self.clone(),
-            Snapshot::Here(restored) => {
-                let names = restored.names.iter();
-                let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
-                Snapshot::Here(Rc::new(Restored {
-                    world: restored.world.clone(),
-                    names: names.collect(),
-                    held: restored.held.clone(),
-                    axes: restored.axes.clone(),
-                    searches: restored.searches,
-                }))
-            }
-            Snapshot::Stored(_) => {
-                copier.refuse("a state of the world on a tape");
-                Snapshot::Absent
-            }
-            Snapshot::Absent => Snapshot::Absent,
+        let state = &self.0;
+        if state.names.is_empty() {
+            return self.clone();
         }
+        let names = state.names.iter();
+        let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
+        Snapshot(Rc::new(State {
+            world: state.world.clone(),
+            names: names.collect(),
+            held: state.held.clone(),
+            axes: state.axes.clone(),
+            searches: state.searches,
+        }))
     }
 }
 
@@ -175,7 +135,7 @@ impl Snapshots {
     }
 
     /// Call when a form at top level is about to be evaluated.
-    pub(crate) fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
+    pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
         self.motions.clear();
         if !self.is_touched
             && let Some(last) = self.forms.back_mut()
@@ -183,7 +143,7 @@ impl Snapshots {
             last.form = form.clone();
             return;
         }
-        let hash = simulation.state_hash();
+        let hash = simulation.world.hash();
         if self.forms.back().is_some_and(|last| last.hash == hash) {
             self.forms.pop_back();
         }
@@ -193,25 +153,22 @@ impl Snapshots {
         self.is_touched = false;
         let before = BeforeForm {
             form: form.clone(),
-            snapshot: Snapshot::take(simulation, image),
+            snapshot: Snapshot::take(simulation),
             hash,
         };
         self.forms.push_back(before);
     }
 
     /// Whether the world differs from before the last form at top level.
-    pub(crate) fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
+    pub(crate) fn has_changed_since_form(&self, simulation: &Simulation) -> bool {
         let last = self.forms.back();
-        last.is_some_and(|before| {
-            !simulation.tape.is_beyond_end_unmoved() && before.hash != simulation.state_hash()
-        })
+        last.is_some_and(|before| before.hash != simulation.world.hash())
     }
 
     /// Restores the world to before the last form at top level.
-    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
-        let last = self.forms.back();
-        if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
-            snapshot.restore(simulation, image);
+    pub(crate) fn go_back_to_form(&self, simulation: &mut Simulation) {
+        if let Some(last) = self.forms.back() {
+            last.snapshot.restore(simulation);
         }
     }
 
@@ -225,29 +182,11 @@ impl Snapshots {
         if !self.keeps_motions {
             return;
         }
-        self.add_motion(simulation.jobs.begun, Snapshot::here(simulation));
-    }
-
-    /// Call when a motion has begun on the tape.
-    pub(crate) fn note_motion(&mut self, begun_before: u64) {
-        if self.keeps_motions {
-            self.add_motion(begun_before, Snapshot::Absent);
-        }
-    }
-
-    fn add_motion(&mut self, number: u64, snapshot: Snapshot) {
         if self.motions.len() == MOST_MOTIONS {
             self.motions.pop_front();
         }
-        self.motions.push_back((number, snapshot));
-    }
-
-    /// The numbers of the frames that the snapshots of forms and the named ones need; `None` if
-    /// one of these is absent.
-    pub(crate) fn frames(&self) -> Option<Vec<u64>> {
-        let forms = self.forms.iter().map(|before| &before.snapshot);
-        let all = forms.chain(self.named.values());
-        all.map(Snapshot::frame).collect()
+        let snapshot = Snapshot::take(simulation);
+        self.motions.push_back((simulation.jobs.begun, snapshot));
     }
 
     /// Whether the world can be restored to before the motion with that number.
@@ -256,15 +195,10 @@ impl Snapshots {
     }
 
     /// Restores the world to before the motion with that number, if there is a snapshot.
-    pub(crate) fn go_back_to(
-        &mut self,
-        simulation: &mut Simulation,
-        image: &mut Image,
-        motion: u64,
-    ) {
+    pub(crate) fn go_back_to(&self, simulation: &mut Simulation, motion: u64) {
         let found = self.motions.iter().find(|(n, _)| *n == motion);
-        if let Some((_, snapshot)) = found.cloned() {
-            snapshot.restore(simulation, image);
+        if let Some((_, snapshot)) = found {
+            snapshot.restore(simulation);
         }
     }
 
@@ -273,7 +207,6 @@ impl Snapshots {
     pub(crate) fn rewind(
         &mut self,
         simulation: &mut Simulation,
-        image: &mut Image,
         count: usize,
     ) -> Result<Value, Box<Raise>> {
         check_idle(simulation)?;
@@ -284,7 +217,7 @@ impl Snapshots {
         } else {
             self.forms.pop_back()
         };
-        let mut hash = Some(simulation.state_hash());
+        let mut hash = Some(simulation.world.hash());
         let mut changing = 0;
         let mut found = None;
         for (at, before) in self.forms.iter().enumerate().rev() {
@@ -309,14 +242,14 @@ impl Snapshots {
         let Some(target) = target else {
             return Ok(Value::NIL);
         };
-        target.snapshot.restore(simulation, image);
+        target.snapshot.restore(simulation);
         self.touch();
         Ok(target.form)
     }
 
     /// Takes a named snapshot of the world.
-    pub(crate) fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
-        let snapshot = Snapshot::take(simulation, image);
+    pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
+        let snapshot = Snapshot::take(simulation);
         self.named.insert(name.to_owned(), snapshot);
     }
 
@@ -324,16 +257,11 @@ impl Snapshots {
     pub(crate) fn restore_kept(
         &mut self,
         simulation: &mut Simulation,
-        image: &mut Image,
         name: &str,
     ) -> Result<(), Box<Raise>> {
         check_idle(simulation)?;
         match self.named.get(name).cloned() {
-            Some(snapshot) => {
-                snapshot.restore(simulation, image);
-                self.touch();
-                Ok(())
-            }
+            Some(snapshot) => self.go_to(simulation, &snapshot),
             None => {
                 let known: Vec<&str> = self.named.keys().map(String::as_str).collect();
                 let remedy = if known.is_empty() {
@@ -348,14 +276,26 @@ impl Snapshots {
         }
     }
 
+    /// Restores a snapshot of the world.
+    pub(crate) fn go_to(
+        &mut self,
+        simulation: &mut Simulation,
+        snapshot: &Snapshot,
+    ) -> Result<(), Box<Raise>> {
+        check_idle(simulation)?;
+        snapshot.restore(simulation);
+        self.touch();
+        Ok(())
+    }
+
     /// The names of the named snapshots.
     pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
     }
 }
 
-fn check_idle(simulation: &mut Simulation) -> Result<(), Box<Raise>> {
-    if simulation.is_idle() {
+fn check_idle(simulation: &Simulation) -> Result<(), Box<Raise>> {
+    if simulation.jobs.is_idle() {
         return Ok(());
     }
     Err(Raise::simple(

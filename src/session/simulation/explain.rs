@@ -5,15 +5,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::rc::Rc;
 
 use nalgebra::{Point3, Vector3};
 
 use super::Simulation;
 use super::grasp_search::Wanted;
-use crate::tape::Frame;
 use lisp::image::Image;
-use robotics::motion::base_path::BasePlace;
+use robotics::motion::BasePlace;
 use robotics::motion::{
     CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
     pan_and_tilt, touching_at,
@@ -36,8 +34,6 @@ pub(crate) struct Remembered {
     /// Simulated time (s).
     pub time: f64,
     pub world: World,
-    /// The same on the tape, if that has been written.
-    pub frame: Option<Rc<Frame>>,
 }
 
 impl Simulation {
@@ -48,7 +44,6 @@ impl Simulation {
             failure: failure.clone(),
             time: self.now,
             world: self.world.clone(),
-            frame: None,
         }));
     }
 

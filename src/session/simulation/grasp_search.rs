@@ -11,8 +11,8 @@ use cram::pose::value::pose_stamped;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
-use robotics::motion::drive_plan::plan_drive;
 use robotics::motion::interruption::interruptible;
+use robotics::motion::plan_drive;
 use robotics::motion::{
     Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, Overhead, can_reach,
 };

@@ -1,9 +1,7 @@
 //! What the hands hold.
 
-use serde::{Deserialize, Serialize};
-
 use super::Simulation;
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use lisp::image::Image;
 use robotics::motion::{HeldGrip, MotionFailure};
 use robotics::robot::Side;
@@ -11,7 +9,7 @@ use robotics::world::WorldError;
 use spatial::Pose;
 
 /// How an object is held.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Held {
     /// The hand.
     pub side: Side,

@@ -180,12 +180,6 @@ impl Jobs {
         }
     }
 
-    /// What a motion is about.
-    pub(crate) fn subject(&self, ticket: Ticket) -> Option<&Value> {
-        let mut all = self.active.iter().chain(&self.waiting);
-        all.find(|job| job.ticket == ticket).map(|job| &job.subject)
-    }
-
     /// Whether no motion is active or waiting.
     pub(crate) fn is_idle(&self) -> bool {
         self.active.is_empty() && self.waiting.is_empty() && self.leaving.is_empty()

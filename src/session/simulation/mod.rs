@@ -3,7 +3,6 @@
 
 pub(super) mod containers;
 mod explain;
-pub(super) mod frames;
 pub(super) mod grasp_choice;
 pub(super) mod grasp_search;
 pub(super) mod held;
@@ -24,15 +23,12 @@ mod tally;
 pub(super) mod transforms;
 
 use std::cell::{OnceCell, RefCell};
-use std::ops::{Deref, DerefMut};
 use std::rc::Rc;
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use serde::{Deserialize, Serialize};
 
 use super::log_level::LogLevel;
-use super::tape::Tape;
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use robotics::motion::DetectQuery;
@@ -49,7 +45,7 @@ use jobs::Jobs;
 use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Axes {
     /// Their pose in the map frame.
     pub pose: Pose,
@@ -58,9 +54,6 @@ pub struct Axes {
 }
 
 /// The robot in its world.
-///
-/// Access to the physical state, as to the fields of this structure, is noted on the tape: while
-/// answers are played from a tape, the state is an old one.
 pub struct Simulation {
     pub(super) models: Arc<Models>,
     pub(super) grasps: Arc<GraspLibrary>,
@@ -69,8 +62,6 @@ pub struct Simulation {
     seed: u64,
     /// Simulated time (s) last reported by the scheduler.
     pub(super) now: f64,
-    /// What the world answers is recorded here, or comes from here.
-    pub(super) tape: Tape,
     looks: OnceCell<Looks>,
     /// What the present run of a plan costs.
     pub(super) tally: Tally,
@@ -79,11 +70,6 @@ pub struct Simulation {
     begun_searches: locations::Searches,
     /// The world as it is at the start; copies of the session share it.
     start: Rc<OnceCell<World>>,
-    physical: Physical,
-}
-
-/// The state that time and edits change.
-pub struct Physical {
     pub(super) world: World,
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
@@ -109,22 +95,6 @@ pub struct Physical {
     pub(super) put_for_sweep: Vec<(String, Pose)>,
 }
 
-impl Deref for Simulation {
-    type Target = Physical;
-
-    fn deref(&self) -> &Physical {
-        self.tape.note_read();
-        &self.physical
-    }
-}
-
-impl DerefMut for Simulation {
-    fn deref_mut(&mut self) -> &mut Physical {
-        self.tape.note_change();
-        &mut self.physical
-    }
-}
-
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
     pub(super) fn new(
@@ -134,27 +104,24 @@ impl Simulation {
     ) -> Result<Simulation, DataError> {
         let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")?;
         Ok(Simulation {
-            physical: Physical {
-                world: starting_world(&models),
-                names: IndexMap::new(),
-                held: IndexMap::new(),
-                jobs: Jobs::default(),
-                axes: None,
-                location_map: None,
-                resolved_map: None,
-                last_failure: None,
-                last_account: None,
-                sought: None,
-                noises: 0,
-                searches: 0,
-                put_for_sweep: Vec::new(),
-            },
+            world: starting_world(&models),
+            names: IndexMap::new(),
+            held: IndexMap::new(),
+            jobs: Jobs::default(),
+            axes: None,
+            location_map: None,
+            resolved_map: None,
+            last_failure: None,
+            last_account: None,
+            sought: None,
+            noises: 0,
+            searches: 0,
+            put_for_sweep: Vec::new(),
             models,
             grasps: Arc::new(grasps),
             log_level,
             seed,
             now: 0.0,
-            tape: Tape::default(),
             looks: OnceCell::new(),
             tally: Tally::default(),
             injection: SharedInjection::default(),
@@ -166,17 +133,15 @@ impl Simulation {
     /// The same simulation for a copy of the image. A robot that moves, and what plans have learnt
     /// from the world, are refused.
     pub(super) fn copied(&self, copier: &mut Copier) -> Simulation {
-        let physical = &self.physical;
-        let is_idle =
-            physical.jobs.is_idle() && physical.jobs.partial_step.is_none() && self.tape.is_off();
-        let knows_nothing = physical.last_failure.is_none()
-            && physical.last_account.is_none()
-            && physical.sought.is_none()
+        let is_idle = self.jobs.is_idle() && self.jobs.partial_step.is_none();
+        let knows_nothing = self.last_failure.is_none()
+            && self.last_account.is_none()
+            && self.sought.is_none()
             && self.begun_searches.are_over();
         if !is_idle || !knows_nothing {
             copier.refuse("a world in which something has been done");
         }
-        let names = physical.names.iter();
+        let names = self.names.iter();
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Simulation {
             models: Arc::clone(&self.models),
@@ -184,27 +149,24 @@ impl Simulation {
             log_level: self.log_level,
             seed: self.seed,
             now: self.now,
-            tape: Tape::default(),
             looks: OnceCell::new(),
             tally: self.tally.clone(),
             injection: Rc::new(RefCell::new(self.injection.borrow().clone())),
             begun_searches: locations::Searches::default(),
             start: Rc::clone(&self.start),
-            physical: Physical {
-                world: physical.world.clone(),
-                names: names.collect(),
-                held: physical.held.clone(),
-                jobs: Jobs::after(physical.jobs.begun),
-                axes: physical.axes.clone(),
-                location_map: physical.location_map.clone(),
-                resolved_map: physical.resolved_map.clone(),
-                last_failure: None,
-                last_account: None,
-                sought: None,
-                noises: physical.noises,
-                searches: physical.searches,
-                put_for_sweep: physical.put_for_sweep.clone(),
-            },
+            world: self.world.clone(),
+            names: names.collect(),
+            held: self.held.clone(),
+            jobs: Jobs::after(self.jobs.begun),
+            axes: self.axes.clone(),
+            location_map: self.location_map.clone(),
+            resolved_map: self.resolved_map.clone(),
+            last_failure: None,
+            last_account: None,
+            sought: None,
+            noises: self.noises,
+            searches: self.searches,
+            put_for_sweep: self.put_for_sweep.clone(),
         }
     }
 
@@ -249,14 +211,9 @@ impl Simulation {
         &self.world
     }
 
-    /// What followers are shown: possibly an old state, from which nobody may learn anything.
-    pub(super) fn shown(&self) -> &Physical {
-        &self.physical
-    }
-
     /// The number of motions begun so far.
     pub(super) fn motions_begun(&self) -> u64 {
-        self.physical.jobs.begun.max(self.tape.begun())
+        self.jobs.begun
     }
 
     /// The appearance of everything.

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::Simulation;
 use super::names::{name_text, type_text};
 use super::transforms::{BASE, is_map};
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use crate::simulation::properties::property;
 use cram::designator::MotionRequest;
 use cram::designator::failure::no_process_module;

@@ -2,7 +2,6 @@
 
 use super::Simulation;
 use super::names::type_keyword;
-use crate::tape::{Data, Done, Name};
 use cram::designator::object;
 use cram::designator::value::as_designator;
 use lisp::image::Image;
@@ -10,26 +9,6 @@ use lisp::value::Value;
 use lisp::value::package::PackageTable;
 use lisp::value::raise::Raise;
 use robotics::motion::{DetectedObject, MotionFailure, MotionOutcome};
-
-/// The outcome of a motion that the tape tells; `None` if that does not fit what is known.
-pub(crate) fn of_done(
-    image: &mut Image,
-    done: &Done,
-    subject: &Value,
-) -> Option<Result<Value, Box<Raise>>> {
-    let given = std::slice::from_ref(subject);
-    Some(match done {
-        Done::Value(data) => Ok(data.value(image, given)?),
-        Done::Raise(raise) => Err(raise.raise(image, given)?),
-        Done::Detected(objects) => {
-            let named = objects
-                .iter()
-                .map(|(name, o)| (name.symbol(image).into(), o));
-            let named: Vec<(Value, &DetectedObject)> = named.collect();
-            Ok(detected(image, &named, subject))
-        }
-    })
-}
 
 /// Designators of detected objects, each with the name by which users know it: the first one, or
 /// a list of all if all were requested.
@@ -75,26 +54,6 @@ impl Simulation {
                 detected(image, &named, subject)
             }
         }
-    }
-
-    /// The result of a motion for the tape; `value` is the same as a value.
-    pub(crate) fn done(
-        &self,
-        image: &Image,
-        outcome: &MotionOutcome,
-        value: &Value,
-    ) -> Option<Done> {
-        let MotionOutcome::Detected(objects) = outcome else {
-            return Some(Done::Value(Data::of(image, value, &[])?));
-        };
-        let named = objects.iter().map(|object| {
-            let name = match self.symbol_of(&object.name) {
-                Value::Symbol(sym, ..) => Name::of(image, sym)?,
-                _ => return None,
-            };
-            Some((name, object.clone()))
-        });
-        Some(Done::Detected(named.collect::<Option<_>>()?))
     }
 
     /// The failure condition for a motion's failure; `subject` is the designator it is about.

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use super::Simulation;
 use super::tally::Tally;
-use robotics::motion::pushing::PushedObject;
+use robotics::motion::PushedObject;
 use robotics::motion::{MotionFailure, UnreachableReason};
 use sweep::Record;
 

@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use nalgebra::Point3;
-use serde::{Deserialize, Serialize};
 
 use super::scene::{Body, Finish, Kind, Owner, Scene};
 use super::surface::Surface;
@@ -28,7 +27,7 @@ const OFFERED: [f32; 4] = [0.85, 0.85, 0.85, 1.0];
 const CHOSEN: [f32; 4] = [0.65, 0.02, 0.55, 1.0];
 
 /// Where a location may be, and which poses have been offered.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LocationMap {
     /// Edge length (m) of a cell.
     pub resolution: f64,

@@ -64,6 +64,8 @@ pub struct TaskNews {
     pub state: TaskState,
     /// Why it failed or stopped; empty otherwise.
     pub failure: String,
+    /// The class of that failure; empty otherwise, and where it is not known, as in recordings.
+    pub class: String,
     /// What it returned, as text; empty for what is not an action.
     pub result: String,
     /// What it is, told when it begins; `None` for what is only a task.

@@ -18,8 +18,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::arguments::Options;
-use super::failure::{CommandError, Status};
+use crate::command::failure::{CommandError, Status};
+use crate::command::options::Options;
 use crate::sweep_report;
 use compare::compare;
 use file::SweepFile;

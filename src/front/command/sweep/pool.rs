@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use crate::command::STACK_BYTES;
+use crate::command::stack::THREAD_STACK;
 
 /// Does the work on several threads, each with a function of its own that `worker` makes. `tell` gets
 /// every result, in the order of the work, as soon as it and all before it are known; if it returns
@@ -34,7 +34,7 @@ pub(super) fn in_order<W: Sync, R: Send, F: FnMut(&W) -> R>(
                     }
                 }
             };
-            let thread = thread::Builder::new().stack_size(STACK_BYTES);
+            let thread = thread::Builder::new().stack_size(THREAD_STACK);
             // If the machine has no more threads, those that there are do the work.
             if thread.spawn_scoped(scope, works).is_err() {
                 break;

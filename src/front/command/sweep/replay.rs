@@ -3,12 +3,14 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::{SweepFile, SweepOptions};
-use crate::command::arguments::{Options, WatchArguments};
+use super::file::SweepFile;
+use super::options::SweepOptions;
 use crate::command::failure::{CommandError, Status};
 use crate::command::open::open_session;
+use crate::command::options::Options;
 use crate::command::paint::Paint;
-use crate::command::run::run;
+use crate::command::run::{RunArguments, run};
+use crate::command::watching::WatchArguments;
 use crate::prompt;
 use crate::prompt::{Opened, ReplOptions};
 use session::dialogue::{Evaluate, Outcome, Screen, evaluate_keeping_abort};
@@ -30,9 +32,12 @@ pub(super) fn replay(
     };
     let set_up = format!("(planwright:sweep-world {name} {world} :seed {seed})");
     if wanted.run {
-        let forms = [set_up, "(planwright:run-sweep-world)".to_owned()];
-        let files = [PathBuf::from(&file.name)];
-        return run(&options, &files, &forms, &WatchArguments::default());
+        let wanted = RunArguments {
+            files: vec![PathBuf::from(&file.name)],
+            eval: vec![set_up, "(planwright:run-sweep-world)".to_owned()],
+            watch: WatchArguments::default(),
+        };
+        return run(&options, &wanted);
     }
     let mut session = open_session(&options)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));

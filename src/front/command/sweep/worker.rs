@@ -9,8 +9,8 @@ use super::job::Job;
 use super::pool;
 use super::progress::Progress;
 use super::worlds::Worlds;
-use crate::command::arguments::Options;
 use crate::command::failure::{CommandError, Status};
+use crate::command::options::Options;
 use sweep::{Ending, Record};
 
 /// Variables in which engines tell a worker its index.

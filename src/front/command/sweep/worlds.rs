@@ -4,9 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::file::SweepFile;
-use crate::command::arguments::{LogLevel, Options};
 use crate::command::failure::CommandError;
-use crate::command::open::{COMPILER_STACK, open_session};
+use crate::command::open::open_session;
+use crate::command::options::{LogLevel, Options};
+use crate::command::stack::COMPILER_STACK;
 use lisp::guard::set_stack_budget;
 use robotics::world::Models;
 use session::defect;

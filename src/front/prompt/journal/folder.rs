@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use super::super::history::state_directory;
 use super::writing::{Journal, lock};
-use super::{Beginning, Recorded, tape};
+use super::{Beginning, Recorded};
 
 /// Number of journals that are always kept.
 const MOST_JOURNALS: usize = 20;
@@ -82,7 +82,14 @@ pub(super) fn forget_old(folder: &Path, now: SystemTime) {
         if lock(&file).unwrap_or(false) {
             // Files that cannot be removed do no harm.
             let _ = fs::remove_file(&path);
-            let _ = fs::remove_file(tape::path_beside(&path));
+            let _ = fs::remove_file(tape_beside(&path));
         }
     }
+}
+
+/// A file that earlier versions kept beside a journal.
+fn tape_beside(journal: &Path) -> PathBuf {
+    let mut name = journal.as_os_str().to_owned();
+    name.push(".tape");
+    PathBuf::from(name)
 }

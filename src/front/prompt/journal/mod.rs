@@ -9,8 +9,6 @@
 //! the evaluation of that input begins once more, and `skipped` that it is left out. Replaying
 //! a journal leads to the same state, because nothing else has an effect.
 //!
-//! A tape beside the journal (see [`tape`]) makes resuming quick; nothing depends on it.
-//!
 //! Invariants:
 //! - A journal is only ever appended to, by the one session that holds its lock. What a session
 //!   cannot continue in place, it continues in a copy.
@@ -21,7 +19,6 @@ mod folder;
 mod opening;
 mod reading;
 mod record;
-mod tape;
 mod writing;
 
 use std::io;
@@ -31,7 +28,6 @@ use thiserror::Error;
 
 pub(crate) use opening::{Opened, Wanted, copied, open};
 pub(crate) use reading::Earlier;
-pub(crate) use tape::{Lineage, Stretch, Tape, Taped, fingerprint, matched, read, stretches};
 pub(crate) use writing::Journal;
 
 /// How a session began.

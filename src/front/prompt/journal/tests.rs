@@ -263,12 +263,17 @@ fn journals_that_are_new_or_in_use_are_not_removed() {
     let mut kept: Vec<Journal> = files.iter().map(|file| written(file, &["(a)"])).collect();
     let in_use = kept.pop();
     drop(kept);
+    // Earlier versions wrote such a file, too.
+    let tape = folder.file("0.journal.tape");
+    fs::write(&tape, "a tape").unwrap();
     let remaining = || folder::journals(&folder.0).len();
     let now = SystemTime::now();
     folder::forget_old(&folder.0, now);
     assert_eq!(remaining(), 30);
+    assert!(tape.exists());
     folder::forget_old(&folder.0, now + Duration::from_secs(30 * 24 * 60 * 60));
     assert_eq!(remaining(), 19);
+    assert!(!tape.exists());
     assert!(in_use.is_some() && files[29].exists());
 
     let inputs = read(&files[29]).unwrap().inputs;

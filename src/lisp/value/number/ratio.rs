@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Ratio {
     /// Numerator, with the sign.
-    pub(crate) numerator: BigInt,
+    pub numerator: BigInt,
     /// Denominator, greater than one.
-    pub(crate) denominator: BigInt,
+    pub denominator: BigInt,
 }

@@ -1,6 +1,7 @@
 //! Arguments of motions: plain data, in whatever language they were written.
 
-use crate::motion::{DetectQuery, PoseGoal};
+use crate::motion::jobs::detect::DetectQuery;
+use crate::motion::jobs::move_tcp::PoseGoal;
 use crate::robot::Side;
 use spatial::Pose;
 

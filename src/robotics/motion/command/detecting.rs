@@ -1,8 +1,8 @@
 //! Looking for objects in the camera's picture.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::Motion;
-use crate::motion::{Detect, DetectQuery};
+use crate::motion::jobs::detect::{Detect, DetectQuery};
+use crate::motion::jobs::job::Motion;
 
 /// Looks for objects.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Driving to a place.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::Drive;
-use crate::motion::job::Motion;
+use crate::motion::jobs::drive::Drive;
+use crate::motion::jobs::job::Motion;
 use spatial::Pose;
 
 /// Drives the base.

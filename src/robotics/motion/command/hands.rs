@@ -1,9 +1,10 @@
 //! Opening and closing hands, and gripping. All of them take one hand or both.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::{Motion, ProcessModule};
-use crate::motion::together::Together;
-use crate::motion::{GripperCommand, MoveGripper};
+use crate::motion::failure::process_module::ProcessModule;
+use crate::motion::jobs::gripper::{GripperCommand, MoveGripper};
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::together::Together;
 use crate::robot::Side;
 
 const GRIPPER: MotionKey =

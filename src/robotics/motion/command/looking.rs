@@ -1,8 +1,9 @@
 //! Turning the head to look at something.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::Motion;
-use crate::motion::{Look, LookDirection, LookTarget, PoseGoal};
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::look::{Look, LookDirection, LookTarget};
+use crate::motion::jobs::move_tcp::PoseGoal;
 
 /// Turns the head.
 #[derive(Clone, Debug, PartialEq)]

@@ -21,7 +21,7 @@ mod waiting;
 pub use argument::{Argument, ArgumentError, ArgumentKind, Arguments};
 pub use motion_type::{MotionKey, MotionType};
 
-use super::job::Motion;
+use crate::motion::jobs::job::Motion;
 
 /// A type of motions: a struct of its arguments.
 trait Command: Sized {

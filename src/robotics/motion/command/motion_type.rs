@@ -1,6 +1,6 @@
 //! Descriptions of types of motions and of their keys.
 
-use super::ArgumentKind;
+use super::argument::ArgumentKind;
 
 /// A type of motions.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Moving the joints of the arms.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::MoveJoints;
-use crate::motion::job::Motion;
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::move_joints::MoveJoints;
 
 /// Moves the arms to configurations.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! Moving hands to poses.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::Motion;
-use crate::motion::{CollisionMode, MoveTcp, PoseGoal, TcpPath};
+use crate::motion::contact::expected_contacts::CollisionMode;
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::move_tcp::{MoveTcp, PoseGoal, TcpPath};
 
 /// Moves hands.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Lifting and lowering the torso.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::MoveTorso;
-use crate::motion::job::Motion;
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::move_torso::MoveTorso;
 
 /// Moves the torso.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Pulling or pushing a drawer or door by its handle.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::Pull;
-use crate::motion::job::Motion;
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::pull::Pull;
 use crate::robot::Side;
 
 /// Pulls or pushes what a hand holds by its handle.

@@ -1,8 +1,9 @@
 //! Lowering what a hand holds.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::Motion;
-use crate::motion::{PoseGoal, Put};
+use crate::motion::jobs::job::Motion;
+use crate::motion::jobs::move_tcp::PoseGoal;
+use crate::motion::jobs::put::Put;
 use crate::robot::Side;
 
 /// Lowers a held object.

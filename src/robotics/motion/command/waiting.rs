@@ -1,9 +1,8 @@
 //! Letting simulated time pass. Any number of motions may wait at once, beside all others.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::job::{
-    Activity, Job, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress,
-};
+use crate::motion::failure::process_module::ProcessModule;
+use crate::motion::jobs::job::{Activity, Job, Motion, MotionOutcome, MotionStatus, Progress};
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
 

@@ -1,7 +1,7 @@
 //! Arms: joint goals, hand goals of one and of both arms, putting down, and what is refused.
 
 use super::fixture::{Kitchen, Outcome};
-use crate::motion::cartesian_path::tcp_in_base;
+use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::{
     CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp,
     PoseGoal, Put, TcpPath, UnreachableReason,

@@ -1,9 +1,10 @@
 //! A PR2 in the kitchen that carries out motions, for the tests of motions.
 
+use crate::motion::jobs::gripper::{GripperCommand, MoveGripper};
+use crate::motion::jobs::move_torso::MoveTorso;
 use crate::motion::{
-    CollisionMode, Drive, GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome,
-    MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, Put, TcpPath,
-    held_objects, take_hold,
+    CollisionMode, Drive, LetGo, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints,
+    MoveTcp, PoseGoal, Put, TcpPath, held_objects, take_hold,
 };
 use crate::robot::Side;
 use crate::world::grasp_library::{GRASPS, GraspLibrary, ToolPoses};

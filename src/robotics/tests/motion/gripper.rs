@@ -1,9 +1,9 @@
 //! Fingers: positions, limits, gripping something, nothing and something else.
 
 use super::fixture::Kitchen;
+use crate::motion::jobs::gripper::GripperCommand;
 use crate::motion::{
-    GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome, MotionStatus, held_objects,
-    take_hold,
+    LetGo, Motion, MotionFailure, MotionOutcome, MotionStatus, held_objects, take_hold,
 };
 use crate::robot::Side;
 use spatial::pose::from_xyz_rpy;

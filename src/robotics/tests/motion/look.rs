@@ -1,9 +1,8 @@
 //! Looking and detecting: what the robot of the tutorial sees from the table.
 
 use super::fixture::Kitchen;
-use crate::motion::{
-    Detect, DetectQuery, Look, LookDirection, LookTarget, MotionFailure, MotionOutcome,
-};
+use crate::motion::jobs::detect::Detect;
+use crate::motion::{DetectQuery, Look, LookDirection, LookTarget, MotionFailure, MotionOutcome};
 use spatial::pose::from_xyz_rpy;
 
 /// At the table, parked, torso up, with one bottle.

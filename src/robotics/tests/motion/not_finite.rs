@@ -1,9 +1,11 @@
 //! Goals that are no numbers are refused by every motion, and nothing moves.
 
 use super::fixture::Kitchen;
+use crate::motion::jobs::gripper::{GripperCommand, MoveGripper};
+use crate::motion::jobs::move_torso::MoveTorso;
 use crate::motion::{
-    CollisionMode, Drive, GripperCommand, Look, LookTarget, Motion, MotionFailure, MotionStatus,
-    MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, TcpPath,
+    CollisionMode, Drive, Look, LookTarget, Motion, MotionFailure, MotionStatus, MoveJoints,
+    MoveTcp, PoseGoal, TcpPath,
 };
 use crate::robot::Side;
 use spatial::Pose;

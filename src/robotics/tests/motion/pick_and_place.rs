@@ -2,7 +2,8 @@
 //! the origin; nothing may ever overlap by more than 2 mm.
 
 use super::fixture::{Kitchen, Outcome};
-use crate::motion::{CollisionMode, Detect, DetectQuery, Look, LookTarget, MotionOutcome, TcpPath};
+use crate::motion::jobs::detect::Detect;
+use crate::motion::{CollisionMode, DetectQuery, Look, LookTarget, MotionOutcome, TcpPath};
 use crate::robot::Side;
 use crate::world::grasp_library::{GraspDefinition, Lift};
 use spatial::Pose;

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::{Blow, SharedInjection};
 use crate::simulation::obstacle::obstacle;
-use robotics::motion::job::Progress;
+use robotics::motion::Progress;
 use robotics::motion::{Motion, MotionFailure, MotionStatus, PlannedTrajectory, ProcessModule};
 use robotics::robot::Side;
 use robotics::world::World;

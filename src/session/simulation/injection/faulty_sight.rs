@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::{Fault, FaultKind, SharedInjection};
-use robotics::motion::job::Progress;
+use robotics::motion::Progress;
 use robotics::motion::{
     DetectQuery, DetectedObject, Motion, MotionFailure, MotionOutcome, MotionStatus,
     PlannedTrajectory, ProcessModule,

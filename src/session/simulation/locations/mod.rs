@@ -11,7 +11,7 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
 use super::Simulation;
-use crate::LogLevel;
+use crate::log_level::LogLevel;
 use cram::designator::value::{Class, Designator, as_class, current, first};
 use lisp::image::Image;
 use lisp::print;
@@ -104,15 +104,12 @@ impl Simulation {
         if let Some(memory) = designator.memory.borrow().clone()
             && memory.as_foreign::<LocationStream>().is_some()
         {
-            // What is offered from it is gone, and no tape takes it away.
-            self.tape.note_lasting_effect();
             return Ok(Some(memory));
         }
         let references = References::read(self, image, references)?;
         let Some(query) = self.location_query(image, designator, &references)? else {
             return Ok(None);
         };
-        self.tape.note_lasting_effect();
         self.searches += 1;
         // Any odd number tells apart the searches of sessions with different seeds.
         let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ self.searches;

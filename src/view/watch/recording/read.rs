@@ -372,6 +372,7 @@ fn news(task: Task) -> Option<TaskNews> {
         name: task.name,
         state: TaskState::named(&task.state)?,
         failure: task.failure,
+        class: String::new(),
         result: task.result,
         about,
     })

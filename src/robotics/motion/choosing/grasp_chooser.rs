@@ -1,0 +1,431 @@
+//! Choosing an arm and a grasp for an object, from where the robot stands or would stand.
+//!
+//! Candidates are all grasps of the object's type with all arms that may be used; an object
+//! that is round can be grasped from any angle. They are tried in order of how near the wrist is
+//! to its shoulder, which prefers the arm on the object's side and the side of the object that
+//! faces the robot.
+//!
+//! A [`GraspChooser`] is made once for an object, and asked for any number of base poses. Cheap
+//! tests come first, and what keeps the hand itself from a grasp is found out once, since it does
+//! not depend on where the base is. Whether a path leads to the grasp is not checked.
+
+use std::cell::RefCell;
+use std::f64::consts::TAU;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
+use super::overhead::Overhead;
+use super::shoulder::Shoulder;
+use crate::motion::contact::holding::held_objects;
+use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
+use crate::motion::failure::no_grasp::{NoGrasp, TriedGrasp};
+use crate::robot::Side;
+use crate::world::grasp_library::{GraspDefinition, GraspLibrary, ToolPoses};
+use crate::world::{BodyName, Models, World};
+use spatial::{Pose, pose};
+
+/// Number of angles from which a round object can be grasped.
+pub(super) const TURNS: i32 = 24;
+/// Poses this close together (m, rad) are the same grasp.
+const SAME: (f64, f64) = (1e-3, 1e-2);
+/// How much nearer (m) a wrist must be for a grasp to come before another one that is earlier in
+/// its type's list.
+const ORDER: f64 = 0.01;
+
+/// What is to be grasped, and how.
+#[derive(Clone, Debug)]
+pub struct GraspQuestion {
+    /// Name of the object in the world.
+    pub object: String,
+    /// Name of its type.
+    pub kind: String,
+    /// Pose of the object in the map frame.
+    pub in_map: Pose,
+    /// The arms that may be used, in order of preference among equals.
+    pub arms: Vec<Side>,
+    /// Names of the grasps that may be used, exactly as they are defined; if there are none, all
+    /// grasps of the type from all angles.
+    pub grasps: Vec<String>,
+    /// Whether the torso may move, as it does for the motions of the hands.
+    pub torso_moves: bool,
+    /// Arms, grasps and turns (rad) that have failed already.
+    pub failed: Vec<(Side, String, f64)>,
+}
+
+/// A grasp that works.
+#[derive(Clone, Debug)]
+pub struct GraspChoice {
+    /// The hand.
+    pub side: Side,
+    /// Name of the grasp.
+    pub grasp: String,
+    /// The angle (rad) by which it is turned about the z axis of a round object.
+    pub turn: f64,
+    /// The poses of the tool in the frame of the base.
+    pub poses: ToolPoses,
+    /// How wide (m) the hand opens before.
+    pub opening: f64,
+    /// Height (m) of the torso.
+    pub torso: f64,
+    /// Distance (m) of the wrist from the shoulder, mostly: less is better.
+    pub cost: f64,
+}
+
+/// One way to take the object.
+struct Candidate {
+    side: Side,
+    grasp: String,
+    turn: f64,
+    definition: GraspDefinition,
+    /// How wide (m) the hand opens for it.
+    opening: f64,
+    /// Place in the list of grasps.
+    place: usize,
+    has_failed: bool,
+}
+
+/// All ways to take an object in one state of the world.
+pub struct Candidates {
+    all: Vec<Candidate>,
+    /// What keeps the hand from each of them wherever the base is, as far as it is known.
+    barred: RefCell<Vec<Option<GraspObstacle>>>,
+}
+
+impl Candidates {
+    /// Those that a question permits.
+    pub fn new(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) -> Self {
+        let all = candidates(models, grasps, question);
+        let barred = RefCell::new(vec![None; all.len()]);
+        Self { all, barred }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+}
+
+/// Tells how an object could be grasped from base poses.
+pub struct GraspChooser<'w> {
+    world: &'w World,
+    question: &'w GraspQuestion,
+    reach: GraspReach<'w>,
+    candidates: &'w Candidates,
+    shoulders: [Shoulder; 2],
+    /// What each hand holds.
+    held: [Option<String>; 2],
+    /// How far (m) from the object a wrist is at most when it grasps it.
+    span: f64,
+    /// What is above the object.
+    overhead: Option<Overhead<'w>>,
+}
+
+impl<'w> GraspChooser<'w> {
+    /// For an object that stands in the world, by some of the candidates.
+    pub fn new(world: &'w World, question: &'w GraspQuestion, candidates: &'w Candidates) -> Self {
+        let description = &world.models().description;
+        let held = |side| {
+            let mut held = held_objects(world, side).into_iter();
+            held.find(|name| *name != question.object)
+        };
+        let identity = Pose::identity();
+        let spans = candidates.all.iter().filter_map(|candidate| {
+            let arm = description.arm(candidate.side);
+            let poses = candidate.definition.tool_poses(&identity, &arm.tool_axes);
+            let wrist = arm.wrist_for_tool(&poses.ok()?.grasp);
+            Some(wrist.translation.vector.norm())
+        });
+        Self {
+            world,
+            question,
+            reach: GraspReach::new(world, Some(&question.object), question.torso_moves),
+            candidates,
+            shoulders: Side::BOTH.map(|side| Shoulder::of(world, side, question.torso_moves)),
+            held: Side::BOTH.map(held),
+            span: spans.fold(0.0, f64::max),
+            overhead: Overhead::of(world, &question.object, &question.in_map).ok(),
+        }
+    }
+
+    /// Number of postures that have been checked for collisions.
+    pub(crate) fn postures(&self) -> u32 {
+        self.reach.postures()
+    }
+
+    /// Whether the object may be near enough to the base at a pose in the map frame. Cheap.
+    pub fn is_near(&self, base: &Pose) -> bool {
+        let object = base.inverse_transform_point(&self.question.in_map.translation.vector.into());
+        let mut arms = self.question.arms.iter();
+        arms.any(|side| self.shoulders[side.index()].reaches(&object.coords, self.span))
+    }
+
+    /// The nearest grasp that works with the base at a pose in the map frame, or everything that
+    /// was tried. Whether the robot can stand there, and whether a path leads to the grasp, is
+    /// not checked.
+    pub fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<GraspChoice, Box<NoGrasp>> {
+        self.choose(base, effort, |_| Ok(()))
+    }
+
+    /// As [`Self::with_base_at`], for a grasp that passes another test, too.
+    pub fn choose(
+        &self,
+        base: &Pose,
+        effort: Effort,
+        mut accept: impl FnMut(&GraspChoice) -> Result<(), GraspObstacle>,
+    ) -> Result<GraspChoice, Box<NoGrasp>> {
+        let object = base.inverse() * self.question.in_map;
+        let mut from = self.reach.with_base_at(base, effort);
+        let (mut tried, mut free) = (Vec::new(), Vec::new());
+        let mut missed: Option<(f64, Side, Pose)> = None;
+        for (index, candidate) in self.candidates.all.iter().enumerate() {
+            if let Some(obstacle) = self.known_obstacle(index) {
+                tried.push(candidate.tried(obstacle));
+                continue;
+            }
+            let Some(poses) = self.poses(candidate, base, &object) else {
+                continue;
+            };
+            let shoulder = &self.shoulders[candidate.side.index()];
+            let arm = self.world.models().description.arm(candidate.side);
+            let wrist = arm.wrist_for_tool(&poses.grasp).translation.vector;
+            let cost = (wrist - shoulder.at.coords).norm() + ORDER * candidate.place as f64;
+            if shoulder.reaches(&wrist, 0.0) {
+                free.push((cost, index, poses));
+                continue;
+            }
+            if missed.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                missed = Some((cost, candidate.side, poses.grasp));
+            }
+            let part = GraspPart::Grasp;
+            tried.push(candidate.tried(GraspObstacle::OutOfReach { part }));
+        }
+        free.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut missed = missed.map(|(_, side, pose)| (side, pose));
+        // A hand that cannot come to its first pose has a longer way around the object.
+        let (mut later, mut met, mut is_nearest) = (Vec::new(), Vec::new(), true);
+        let mut check = |from: &mut GraspReachFrom<'_>, (cost, index, poses): Free| {
+            let candidate = &self.candidates.all[index];
+            let checked = from.check(candidate.side, candidate.opening, &needed(&poses));
+            let checked = checked.map_err(|obstacle| self.bar(index, obstacle));
+            let checked = checked.and_then(|torso| {
+                let choice = candidate.chosen(poses, torso, cost);
+                accept(&choice).map(|()| choice)
+            });
+            checked.map_err(|obstacle| candidate.tried(obstacle))
+        };
+        for (cost, index, poses) in free {
+            let candidate = &self.candidates.all[index];
+            let side = candidate.side;
+            match from.height(side, &needed(&poses)) {
+                Ok(height) if !from.reaches(side, &poses.pregrasp, height) => {
+                    later.push((cost, index, poses));
+                }
+                Ok(_) => match check(&mut from, (cost, index, poses)) {
+                    Ok(choice) => return Ok(choice),
+                    Err(failed) => met.push(failed),
+                },
+                Err(obstacle) => {
+                    if std::mem::take(&mut is_nearest) {
+                        missed = Some((side, poses.grasp));
+                    }
+                    tried.push(candidate.tried(obstacle));
+                }
+            }
+        }
+        for found in later {
+            match check(&mut from, found) {
+                Ok(choice) => return Ok(choice),
+                Err(failed) => met.push(failed),
+            }
+        }
+        met.append(&mut tried);
+        let missed = missed.filter(|_| effort == Effort::THOROUGH);
+        Err(self.no_grasp(met, missed))
+    }
+
+    /// What rules a candidate out without any test.
+    fn known_obstacle(&self, index: usize) -> Option<GraspObstacle> {
+        let candidate = &self.candidates.all[index];
+        if let Some(held) = &self.held[candidate.side.index()] {
+            let held = held.clone();
+            return Some(GraspObstacle::HandFull { held });
+        }
+        if candidate.has_failed {
+            return Some(GraspObstacle::HasFailed);
+        }
+        self.candidates.barred.borrow()[index].clone()
+    }
+
+    /// Keeps what is in the way of a candidate, if it is in its way wherever the base is: what
+    /// stands around the object does not move with the base.
+    fn bar(&self, index: usize, obstacle: GraspObstacle) -> GraspObstacle {
+        let is_lasting = match &obstacle {
+            GraspObstacle::NoFit { .. } => true,
+            GraspObstacle::Collision { part, hit } => {
+                let hand = self.reach.hand_links(self.candidates.all[index].side);
+                let stands = match &hit.other {
+                    BodyName::Robot(_) => false,
+                    BodyName::Object(name) => self
+                        .world
+                        .object(name)
+                        .is_ok_and(|object| object.attachment().is_none()),
+                    BodyName::Furniture(_) | BodyName::Floor => true,
+                };
+                // The lift is along the axes of the base.
+                *part != GraspPart::Lift && stands && hand.contains(&hit.moving)
+            }
+            _ => false,
+        };
+        if is_lasting {
+            self.candidates.barred.borrow_mut()[index] = Some(obstacle.clone());
+        }
+        obstacle
+    }
+
+    fn poses(&self, candidate: &Candidate, base: &Pose, object: &Pose) -> Option<ToolPoses> {
+        let arm = self.world.models().description.arm(candidate.side);
+        let turned = object * about_z(candidate.turn);
+        let poses = candidate.definition.tool_poses(&turned, &arm.tool_axes);
+        let poses = poses.ok()?;
+        Some(match &self.overhead {
+            Some(overhead) => overhead.picking(base, poses),
+            None => poses,
+        })
+    }
+
+    fn no_grasp(&self, tried: Vec<TriedGrasp>, missed: Option<(Side, Pose)>) -> Box<NoGrasp> {
+        let models = self.world.models();
+        let joints = &self.world.robot_configuration().joints;
+        let out_of_reach = tried
+            .iter()
+            .all(|t| matches!(t.obstacle, GraspObstacle::OutOfReach { .. }));
+        let missing = missed.filter(|_| out_of_reach).and_then(|(side, tool)| {
+            let arm = models.description.arm(side);
+            let search = models.description.torso_search(&models.robot, joints, side);
+            let wrist = search.in_arm_base(
+                &arm.wrist_for_tool(&tool),
+                joints.get(models.description.torso.joint),
+            );
+            let seed = arm.positions(joints);
+            arm.kinematics.nearest(&wrist, &seed).err()
+        });
+        let gripper = &models.description.arm(Side::Right).gripper;
+        let size = self.world.object(&self.question.object);
+        Box::new(NoGrasp {
+            object: self.question.object.clone(),
+            kind: self.question.kind.clone(),
+            size: size.map_or([0.0; 3], |object| object.size()),
+            widest: gripper.gap(gripper.limits.upper),
+            tried,
+            missing,
+        })
+    }
+}
+
+/// A candidate that is not ruled out: its cost, its index, and the poses of the tool.
+type Free = (f64, usize, ToolPoses);
+
+impl Candidate {
+    fn chosen(&self, poses: ToolPoses, torso: f64, cost: f64) -> GraspChoice {
+        GraspChoice {
+            side: self.side,
+            grasp: self.grasp.clone(),
+            turn: self.turn,
+            poses,
+            opening: self.opening,
+            torso,
+            cost,
+        }
+    }
+
+    fn tried(&self, obstacle: GraspObstacle) -> TriedGrasp {
+        TriedGrasp {
+            side: self.side,
+            grasp: self.grasp.clone(),
+            turn: self.turn,
+            obstacle,
+        }
+    }
+}
+
+/// The poses that the hand has to take. A second lift straight above the first may be left out.
+pub fn needed(poses: &ToolPoses) -> Vec<Station> {
+    let aside = poses.second_lift.translation.vector - poses.lift.translation.vector;
+    let out = (aside.xy().norm() > SAME.0).then_some((GraspPart::Lift, poses.second_lift));
+    [
+        (GraspPart::Approach, poses.second_pregrasp),
+        (GraspPart::Grasp, poses.grasp),
+        (GraspPart::Lift, poses.lift),
+    ]
+    .into_iter()
+    .chain(out)
+    .map(|(part, tool)| Station { part, tool })
+    .collect()
+}
+
+/// A turn (rad) about the vertical axis.
+pub fn about_z(turn: f64) -> UnitQuaternion<f64> {
+    pose::from_xy_yaw(0.0, 0.0, turn).rotation
+}
+
+/// All ways to take the object, those with the least turn first.
+fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) -> Vec<Candidate> {
+    let kind = models.objects.get(&question.kind);
+    let turns = kind.is_some_and(|kind| kind.is_round) && question.grasps.is_empty();
+    let half = if turns { TURNS / 2 } else { 0 };
+    let mut all: Vec<Candidate> = Vec::new();
+    for side in &question.arms {
+        let wanted = |name: &String| question.grasps.is_empty() || question.grasps.contains(name);
+        // A type without grasps of its own has those of its supertype.
+        let mut kinds = models.objects.lineage(&question.kind).map(|kind| {
+            let listed = grasps.grasps(kind);
+            // What is not listed has to be asked for.
+            let others = question.grasps.iter().filter(|n| !listed.contains(n));
+            let names = listed.iter().chain(others);
+            let known = names.filter_map(|name| Some((name, grasps.get(kind, *side, name)?)));
+            known.collect::<Vec<_>>()
+        });
+        let mut definitions = kinds.find(|known| !known.is_empty()).unwrap_or_default();
+        definitions.retain(|(name, _)| wanted(name));
+        let mut poses: Vec<Pose> = Vec::new();
+        let steps = (0..=half).flat_map(|i| {
+            if i == 0 || i == half {
+                vec![i]
+            } else {
+                vec![i, -i]
+            }
+        });
+        for step in steps {
+            let turn = TAU * f64::from(step) / f64::from(TURNS);
+            for (place, (name, definition)) in definitions.iter().enumerate() {
+                let Ok(orientation) = definition.orientation() else {
+                    continue;
+                };
+                let at = about_z(turn)
+                    * Pose::from_parts(Vector3::from(definition.translation).into(), orientation);
+                let is_same = |other: &Pose| {
+                    pose::distance_between(other, &at) < SAME.0
+                        && pose::angle_between(other, &at) < SAME.1
+                };
+                if turns && poses.iter().any(is_same) {
+                    continue;
+                }
+                poses.push(at);
+                let failed = |(arm, grasp, angle): &(Side, String, f64)| {
+                    arm == side && grasp == *name && (angle - turn).abs() < SAME.1
+                };
+                all.push(Candidate {
+                    has_failed: question.failed.iter().any(failed),
+                    side: *side,
+                    grasp: (*name).clone(),
+                    turn,
+                    definition: (*definition).clone(),
+                    opening: grasps.opening(&question.kind, definition),
+                    place,
+                });
+            }
+        }
+    }
+    all
+}

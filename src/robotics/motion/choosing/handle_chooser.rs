@@ -1,0 +1,446 @@
+//! Choosing the arm and the grasp by which a drawer or door can be opened or closed.
+//!
+//! A handle is a bar: the fingers close across it, and the hand comes from outside, straight or
+//! tilted about the bar. A grasp works if one continuous motion of the arm approaches the bar with
+//! open fingers, takes it all the way and withdraws, and the robot touches nothing on it. The
+//! motions follow the same points, so that what is found here is what they do.
+
+use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+use super::grasp_reach::Effort;
+use super::shoulder::Shoulder;
+use crate::motion::failure::no_handle_grasp::{HandleObstacle, NoHandleGrasp};
+use crate::motion::planning::configuration::with_joints;
+use crate::motion::planning::handle_way::{BarGrip, PIVOTS, PartWay, follow_tools, turn};
+use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
+use crate::motion::planning::way_obstacle::{part_obstacle, robot_obstacle};
+use crate::robot::torso_search::TorsoSearch;
+use crate::robot::{ArmPositions, JointKind, LinkId, Side};
+use crate::world::{AllowedPairs, CollisionHit, Part, RobotConfiguration, World};
+use spatial::{Pose, trig};
+
+/// How far (m) the fingers are apart when the hand comes to a handle.
+pub(crate) const OPENING: f64 = 0.06;
+/// How far (m) the hand is from the bar before it approaches, and after it has withdrawn.
+pub(crate) const AWAY: f64 = 0.1;
+/// Clearance (m) of the robot while the hand approaches and withdraws: a little more than what
+/// planned paths keep.
+const MARGIN: f64 = 0.0045;
+/// Step (m) between torso heights that are tried.
+const HEIGHT_STEP: f64 = 0.06;
+/// Angles (rad) about the bar between the hand and the outward direction, and distances (m) of
+/// the hand from the middle of the bar.
+const TILTS: [f64; 5] = [0.0, 0.4, -0.4, 0.8, -0.8];
+const SHIFTS: [f64; 5] = [0.0, 0.12, -0.12, 0.24, -0.24];
+/// Least distance (m) of the middle of the hand from the ends of a bar.
+const END: f64 = 0.07;
+/// Distance (m or rad) of points of the way for one of many base poses, and by how much more the
+/// joints of the arm may change between them.
+const COARSE: ((f64, f64), f64) = ((0.03, 0.06), 1.8);
+/// Distance (m) of points of the approach.
+const APPROACH_STEP: f64 = 0.02;
+
+/// What is to be opened or closed, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandleQuestion {
+    /// The joint.
+    pub part: Part,
+    /// The link that has the bar.
+    pub handle: LinkId,
+    /// The wanted position (rad or m), within the limits of the joint.
+    pub position: f64,
+    /// The arms, in the order in which they are to be tried.
+    pub arms: Vec<Side>,
+    /// Names of the grasps to try; all if there are none.
+    pub grasps: Vec<String>,
+}
+
+/// An arm and a grasp that work.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandleChoice {
+    /// The arm.
+    pub side: Side,
+    /// Name of the grasp.
+    pub grasp: &'static str,
+    /// Height of the torso (m).
+    pub torso: f64,
+    /// Positions of the arm's joints before the approach.
+    pub posture: ArmPositions,
+    /// Pose of the tool before the approach, and at the bar, in the map frame.
+    pub pregrasp: Pose,
+    /// Pose of the tool at the bar, in the map frame.
+    pub tool: Pose,
+}
+
+/// A way to take the bar.
+#[derive(Clone, Debug)]
+struct Grasp {
+    name: &'static str,
+    grip: BarGrip,
+}
+
+/// Tells from which base poses a drawer or door can be opened or closed.
+pub struct HandleChooser<'w> {
+    world: &'w World,
+    question: &'w HandleQuestion,
+    way: PartWay<'w>,
+    /// Factor of the changes of joints between neighbouring points.
+    jump: f64,
+    grasps: Vec<Grasp>,
+    blocked: Option<(f64, CollisionHit)>,
+    hands: Vec<(Side, TorsoSearch<'w>, Shoulder)>,
+    heights: Vec<f64>,
+    effort: Effort,
+}
+
+impl<'w> HandleChooser<'w> {
+    /// For the part in the world as it is.
+    pub fn new(world: &'w World, question: &'w HandleQuestion, effort: Effort) -> Self {
+        let models = world.models();
+        let from = world.kitchen_positions().get(question.part.joint);
+        let (step, jump) = match effort == Effort::THOROUGH {
+            true => (None, 1.0),
+            false => (Some(COARSE.0), COARSE.1),
+        };
+        let way = PartWay::new(world, &question.part, [from, question.position], step);
+        let blocked = part_obstacle(&way).map(|(i, hit)| (way.positions[i], hit));
+        let joints = &world.robot_configuration().joints;
+        let free = question
+            .arms
+            .iter()
+            .filter(|side| world.handle_hold(**side).is_none());
+        let hands = free.map(|side| {
+            let torso = models
+                .description
+                .torso_search(&models.robot, joints, *side);
+            (*side, torso, Shoulder::of(world, *side, true))
+        });
+        let torso = &models.description.torso;
+        let now = joints.get(torso.joint);
+        let count = ((torso.limits.upper - torso.limits.lower) / HEIGHT_STEP).ceil() as u32;
+        let others = (0..=count)
+            .map(|i| (torso.limits.lower + f64::from(i) * HEIGHT_STEP).min(torso.limits.upper));
+        let mut heights = vec![now];
+        heights.extend(others.filter(|height| (height - now).abs() > 1e-3));
+        heights.sort_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()));
+        Self {
+            world,
+            question,
+            way,
+            jump,
+            grasps: grasps(world, question),
+            blocked,
+            hands: hands.collect(),
+            heights,
+            effort,
+        }
+    }
+
+    /// What is in the way of the part itself, wherever the robot stands, and at which position of
+    /// the joint (rad or m).
+    pub fn blocked(&self) -> Option<&(f64, CollisionHit)> {
+        self.blocked.as_ref()
+    }
+
+    /// Whether the handle may be near enough to the base at a pose in the map frame, at both ends
+    /// of its way. Cheap.
+    pub fn is_near(&self, base: &Pose) -> bool {
+        let mut hands = self.hands.iter();
+        hands.any(|(side, _, shoulder)| {
+            let arm = self.world.models().description.arm(*side);
+            let mut ends = [self.way.parts.first(), self.way.parts.last()]
+                .into_iter()
+                .flatten();
+            ends.all(|part| {
+                let handle = part.pose(self.question.handle).translation.vector;
+                let point = base.inverse_transform_point(&Point3::from(handle));
+                shoulder.reaches(&point.coords, arm.tool_offset + SHIFTS[1])
+            })
+        })
+    }
+
+    /// The first arm and grasp that work with the base at a pose in the map frame.
+    pub fn with_base_at(&self, base: &Pose) -> Result<HandleChoice, NoHandleGrasp> {
+        let kitchen = &self.world.models().kitchen;
+        let joint = self.question.part.joint;
+        let now = self.world.kitchen_positions().get(joint);
+        let mut nothing = NoHandleGrasp {
+            handle: kitchen.link(self.question.handle).name.clone(),
+            joint: kitchen.joint(joint).name.clone(),
+            positions: [now, self.question.position],
+            causes: Vec::new(),
+        };
+        if let Some((_, hit)) = &self.blocked {
+            nothing.add(None, HandleObstacle::Part(Box::new(hit.clone())));
+            return Err(nothing);
+        }
+        let mut robot = self.world.robot_configuration().clone();
+        robot.base = *base;
+        if let Some(hit) = self.standing_in_the_way(&robot) {
+            nothing.add(None, HandleObstacle::Base(Box::new(hit)));
+            return Err(nothing);
+        }
+        let mut checks = 0;
+        for (side, torso, _) in &self.hands {
+            for grasp in &self.grasps {
+                let stations = self.stations(grasp);
+                for height in &self.heights {
+                    let arm = self.world.models().description.arm(*side);
+                    let reaches = |tool: &Pose| {
+                        let tool = arm.wrist_for_tool(&(base.inverse() * tool));
+                        arm.kinematics.reaches(&torso.in_arm_base(&tool, *height))
+                    };
+                    if !stations.iter().all(reaches) {
+                        nothing.add(Some(*side), HandleObstacle::OutOfReach);
+                        continue;
+                    }
+                    robot
+                        .joints
+                        .set(self.world.models().description.torso.joint, *height);
+                    if checks >= self.effort.most_checks() {
+                        nothing.add(Some(*side), HandleObstacle::NotTried);
+                        return Err(nothing);
+                    }
+                    match self.postures(*side, torso, grasp, &robot, &mut checks) {
+                        Ok(choice) => match self.standing_in_the_way(&robot) {
+                            None => return Ok(choice),
+                            // With the torso at that height, the arms as they are touch something.
+                            Some(hit) => {
+                                let obstacle = HandleObstacle::Collision(Box::new(hit));
+                                nothing.add(Some(*side), obstacle);
+                            }
+                        },
+                        Err(obstacle) => nothing.add(Some(*side), obstacle),
+                    }
+                }
+            }
+        }
+        Err(nothing)
+    }
+
+    /// What the robot as it stands would touch, with the part at the beginning or end of its way.
+    fn standing_in_the_way(&self, robot: &RobotConfiguration) -> Option<CollisionHit> {
+        let ends = [self.way.parts.first(), self.way.parts.last()];
+        let mut ends = ends.into_iter().flatten();
+        ends.find_map(|part| part.checker().first_hit(robot, &AllowedPairs::none(), 0.0))
+    }
+
+    /// The poses of the tool that must be within reach: before the bar, at it, and at the end.
+    fn stations(&self, grasp: &Grasp) -> Vec<Pose> {
+        let ends = [self.way.parts.first(), self.way.parts.last()];
+        let [Some(first), Some(last)] = ends.map(|part| part.map(|p| p.pose(grasp.grip.handle)))
+        else {
+            return Vec::new();
+        };
+        let at = grasp.grip.tool(&first, 0.0);
+        let mut stations = vec![at * away(), at];
+        if self.pivots().len() == 1 {
+            let end = grasp.grip.tool(&last, 0.0);
+            stations.extend([end, end * away()]);
+        }
+        stations
+    }
+
+    fn pivots(&self) -> Vec<f64> {
+        let joint = self.world.models().kitchen.joint(self.question.part.joint);
+        let opens = self.way.positions.first() < self.way.positions.last();
+        let sign = if opens { -1.0 } else { 1.0 };
+        match joint.kind {
+            JointKind::Prismatic => vec![0.0],
+            _ => PIVOTS.iter().map(|pivot| sign * pivot).collect(),
+        }
+    }
+
+    /// Tries postures of the arm before the bar.
+    fn postures(
+        &self,
+        side: Side,
+        torso: &TorsoSearch<'_>,
+        grasp: &Grasp,
+        robot: &RobotConfiguration,
+        checks: &mut usize,
+    ) -> Result<HandleChoice, HandleObstacle> {
+        let models = self.world.models();
+        let arm = models.description.arm(side);
+        let height = robot.joints.get(models.description.torso.joint);
+        let Some(first) = self.way.parts.first() else {
+            return Err(HandleObstacle::OutOfReach);
+        };
+        let tool = grasp.grip.tool(&first.pose(grasp.grip.handle), 0.0);
+        let pregrasp = tool * away();
+        let wrist = arm.wrist_for_tool(&(robot.base.inverse() * pregrasp));
+        let wrist = torso.in_arm_base(&wrist, height);
+        let all = arm.kinematics.solutions(&wrist, CONFIGURATION_STEP);
+        let count = all.len().min(self.effort.most_postures());
+        let mut met = HandleObstacle::OutOfReach;
+        let mut robot = robot.clone();
+        let open = arm.gripper.position_for_opening(OPENING);
+        robot.joints.set(arm.gripper.joint, open);
+        for i in 0..count {
+            if *checks >= self.effort.most_checks() {
+                break;
+            }
+            *checks += 1;
+            let posture = all[i * all.len() / count];
+            match self.whole_way(side, grasp, &robot, &posture) {
+                Ok(()) => {
+                    return Ok(HandleChoice {
+                        side,
+                        grasp: grasp.name,
+                        torso: height,
+                        posture,
+                        pregrasp,
+                        tool,
+                    });
+                }
+                Err(HandleObstacle::OutOfReach) => {}
+                Err(obstacle) => met = obstacle,
+            }
+        }
+        Err(met)
+    }
+
+    /// Whether the arm can approach, take the bar all the way and withdraw, beginning in a posture.
+    fn whole_way(
+        &self,
+        side: Side,
+        grasp: &Grasp,
+        robot: &RobotConfiguration,
+        posture: &ArmPositions,
+    ) -> Result<(), HandleObstacle> {
+        let models = self.world.models();
+        let handle = grasp.grip.handle;
+        let ends = (self.way.parts.first(), self.way.parts.last());
+        let (Some(first), Some(last)) = ends else {
+            return Err(HandleObstacle::OutOfReach);
+        };
+        let follow = |tools: &[Pose], start: &ArmPositions, jump: f64| {
+            let points = follow_tools(models, robot, side, tools, start, jump);
+            (points.len() == tools.len())
+                .then_some(points)
+                .ok_or(HandleObstacle::OutOfReach)
+        };
+        let is_free = |points: &[ArmPositions], part: &crate::world::MovedPart<'_>| {
+            let mut checker = part.checker();
+            let joints = models.description.arm(side).joints();
+            let mut hits = points.iter().map(|point| {
+                let there = with_joints(robot, joints, point);
+                checker.first_hit(&there, &AllowedPairs::none(), MARGIN)
+            });
+            match hits.find_map(|hit| hit) {
+                None => Ok(()),
+                Some(hit) => Err(HandleObstacle::Collision(Box::new(hit))),
+            }
+        };
+        is_free(&[*posture], first)?;
+        let tool = grasp.grip.tool(&first.pose(handle), 0.0);
+        let approach = line(&(tool * away()), &tool);
+        let at_bar = follow(&approach, posture, 2.0)?;
+        is_free(&at_bar, first)?;
+        let start = at_bar.last().unwrap_or(posture);
+        let mut met = HandleObstacle::OutOfReach;
+        for pivot in self.pivots() {
+            let tools = self.way.tools(&grasp.grip, [0.0, pivot]);
+            let Ok(points) = follow(&tools, start, self.jump) else {
+                continue;
+            };
+            let own = (side, handle);
+            if let Some((_, hit)) = robot_obstacle(self.world, robot, own, &self.way, &points) {
+                met = HandleObstacle::Collision(Box::new(hit));
+                continue;
+            }
+            let (Some(end), Some(tool)) = (points.last(), tools.last()) else {
+                continue;
+            };
+            let back = match follow(&line(tool, &(tool * away())), end, 2.0) {
+                Ok(back) => back,
+                Err(_) => continue,
+            };
+            match is_free(&back, last) {
+                Ok(()) => return Ok(()),
+                Err(obstacle) => met = obstacle,
+            }
+        }
+        Err(met)
+    }
+}
+
+/// From the bar to where the hand is before the approach, along the tool's axis.
+fn away() -> Translation3<f64> {
+    Translation3::new(-AWAY, 0.0, 0.0)
+}
+
+/// Poses on a straight line between two of the same orientation.
+fn line(from: &Pose, to: &Pose) -> Vec<Pose> {
+    let count = (AWAY / APPROACH_STEP).ceil() as u32;
+    let at = |i: u32| spatial::pose::between(from, to, f64::from(i) / f64::from(count));
+    (0..=count).map(at).collect()
+}
+
+/// The ways to take the bar, the plainest first.
+fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
+    let handle = question.handle;
+    let (bar, half) = world.bar(handle);
+    let out = outward(world, handle, &bar);
+    let is_upright = (world.furniture_pose(handle).rotation * bar).z.abs() > 0.7;
+    let mut all = Vec::new();
+    for shift in SHIFTS {
+        if shift.abs() > (half - END).max(0.0) {
+            continue;
+        }
+        for tilt in TILTS {
+            for roll in [1.0, -1.0] {
+                let name = match (is_upright, tilt) {
+                    (false, _) => "FRONT-ALONG-Y",
+                    (true, t) if t > 0.0 => "LEFT-SIDE",
+                    (true, t) if t < 0.0 => "RIGHT-SIDE",
+                    (true, _) => "FRONT",
+                };
+                let is_wanted = |wanted: &String| wanted == name;
+                if !question.grasps.is_empty() && !question.grasps.iter().any(is_wanted) {
+                    continue;
+                }
+                // x towards the furniture, z along the bar, so that the fingers close across it.
+                let x = -out;
+                let z = bar * roll;
+                let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+                let facing =
+                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+                let point = Point3::from(bar * shift);
+                let tool =
+                    Pose::from_parts(Translation3::from(point.coords), turn(&bar, tilt) * facing);
+                all.push(Grasp {
+                    name,
+                    grip: BarGrip {
+                        handle,
+                        tool,
+                        point,
+                        bar,
+                    },
+                });
+            }
+        }
+    }
+    all
+}
+
+/// The direction from the furniture to the bar, in the frame of the handle: away from the posts, or
+/// else along a drawer's axis.
+fn outward(world: &World, handle: LinkId, bar: &Vector3<f64>) -> Vector3<f64> {
+    let across = |v: Vector3<f64>| v - bar * v.dot(bar);
+    let posts = world.handle_posts(handle);
+    let kitchen = &world.models().kitchen;
+    let along = kitchen
+        .ancestors(handle)
+        .map(|joint| kitchen.joint(joint))
+        .find(|joint| joint.kind == JointKind::Prismatic)
+        .map_or_else(Vector3::x, |joint| {
+            let turned = world.furniture_pose(handle).rotation.inverse()
+                * world.furniture_pose(joint.child).rotation;
+            turned * joint.axis.into_inner()
+        });
+    across(-posts)
+        .try_normalize(1e-3)
+        .or_else(|| across(along).try_normalize(1e-3))
+        .unwrap_or_else(|| turn(&Vector3::z(), trig::wrap(std::f64::consts::FRAC_PI_2)) * bar)
+}

@@ -1,0 +1,10 @@
+//! Choices without moving: which grasp, which way to take a handle, and what is within reach from
+//! where.
+
+pub(crate) mod grasp_chooser;
+pub(crate) mod grasp_reach;
+pub(crate) mod handle_chooser;
+pub(crate) mod overhead;
+pub(crate) mod put_reach;
+pub(crate) mod reach;
+mod shoulder;

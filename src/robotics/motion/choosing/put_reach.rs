@@ -1,0 +1,202 @@
+//! Whether a hand could put down what it holds with the base at some pose, without moving
+//! anything.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Translation3, Vector3};
+
+use super::grasp_chooser::{TURNS, about_z};
+use super::grasp_reach::{Effort, GraspReach, Station};
+use super::overhead::Overhead;
+use super::shoulder::Shoulder;
+use crate::motion::contact::hand::releasing_opening;
+use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
+use crate::robot::Side;
+use crate::world::grasp_library::{GraspDefinition, Lift, NotARotation};
+use crate::world::{Models, World, WorldError};
+use spatial::Pose;
+
+/// How far (m) the hand lifts and withdraws if it is not known how it has grasped the object.
+const UP: [f64; 3] = [0.0, 0.0, 0.15];
+
+/// How much farther out and up (m) a hand must also be able to be where it puts something down:
+/// what it holds has moved a little in the hand, or comes to stand a little higher.
+const SLACK: f64 = 0.005;
+
+/// How a hand holds an object, as far as it matters for putting it down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldGrip {
+    /// Name of the object.
+    pub object: String,
+    /// The hand.
+    pub side: Side,
+    /// The pose of the tool in the frame of the object.
+    tool_in_object: Pose,
+    lift: Lift,
+    /// The tool's way off the object, in the frame of the object (m).
+    second_pregrasp: [f64; 3],
+    pregrasp: [f64; 3],
+    /// The angle (rad) by which the grasp is turned about the axis of a round object.
+    turn: f64,
+    is_round: bool,
+    /// How far (m) the fingers are apart when they have let go of the object.
+    pub opening: f64,
+}
+
+impl HeldGrip {
+    /// The grip of a hand on an object of the world. `grasp` is what it was grasped by, if that is
+    /// known, turned (rad) about the object's axis.
+    pub fn of(
+        world: &World,
+        side: Side,
+        object: &str,
+        grasp: Option<&GraspDefinition>,
+        turn: f64,
+    ) -> Result<Self, WorldError> {
+        let models = world.models();
+        // The grasps use a tool frame of their own, ahead of the wrist.
+        let arm = models.description.arm(side);
+        let tool = arm.tool_for_wrist(&world.link_pose(arm.wrist));
+        let kind = models.objects.get(world.object(object)?.type_name());
+        Ok(Self {
+            object: object.to_owned(),
+            side,
+            tool_in_object: world.object_pose(object)?.inv_mul(&tool),
+            lift: grasp.map_or(Lift::along_object(UP), |grasp| grasp.lift),
+            second_pregrasp: grasp.map_or(UP, |grasp| grasp.second_pregrasp),
+            pregrasp: grasp.map_or(UP, |grasp| grasp.pregrasp),
+            turn,
+            is_round: kind.is_some_and(|kind| kind.is_round),
+            opening: releasing_opening(world, side),
+        })
+    }
+
+    /// The grip that a hand has after picking an object up by a grasp, turned (rad) about the axis of
+    /// a round object. How far the fingers will be apart on it is not known: they open as far (m) to let
+    /// go as to grasp.
+    pub fn by(
+        models: &Models,
+        side: Side,
+        (object, kind): (&str, &str),
+        grasp: &GraspDefinition,
+        turn: f64,
+        opening: f64,
+    ) -> Result<Self, NotARotation> {
+        let axes = &models.description.arm(side).tool_axes;
+        let upright = Pose::identity() * about_z(turn);
+        let kind = models.objects.get(kind);
+        Ok(Self {
+            object: object.to_owned(),
+            side,
+            tool_in_object: grasp.tool_poses(&upright, axes)?.grasp,
+            lift: grasp.lift,
+            second_pregrasp: grasp.second_pregrasp,
+            pregrasp: grasp.pregrasp,
+            turn,
+            is_round: kind.is_some_and(|kind| kind.is_round),
+            opening,
+        })
+    }
+
+    /// The headings (rad, relative to the one that is wanted) at which the object may be put down,
+    /// the nearest first.
+    pub fn headings(&self) -> Vec<f64> {
+        let count = if self.is_round { TURNS } else { 1 };
+        let step = TAU / f64::from(count);
+        let nearest_first = |i: i32| match i % 2 {
+            0 => -step * f64::from(i / 2),
+            _ => step * f64::from(i / 2 + 1),
+        };
+        let headings = (0..count).map(nearest_first);
+        headings.map(|heading| heading.min(PI)).collect()
+    }
+
+    /// The poses of the tool for an object at a pose, in the same frame: over the place, at it, and
+    /// the two on the way off the object.
+    pub fn poses(&self, object: &Pose) -> [Pose; 4] {
+        let turn = about_z(self.turn);
+        let tool = |offset: [f64; 3]| {
+            let offset = turn * Vector3::from(offset);
+            object * Translation3::from(offset) * self.tool_in_object
+        };
+        [
+            self.lift.in_base * tool(self.lift.offset),
+            tool([0.0; 3]),
+            tool(self.second_pregrasp),
+            tool(self.pregrasp),
+        ]
+    }
+}
+
+/// Tells from which base poses an object could be put down at a place.
+pub struct PutReach<'w> {
+    grip: &'w HeldGrip,
+    target: Pose,
+    reach: GraspReach<'w>,
+    shoulder: Shoulder,
+    /// How far (m) the wrist is from the object.
+    span: f64,
+    overhead: Overhead<'w>,
+}
+
+impl<'w> PutReach<'w> {
+    /// In a world in which the object stands at the place already, and the hand has let it go.
+    pub fn new(world: &'w World, grip: &'w HeldGrip) -> Result<Self, WorldError> {
+        let arm = world.models().description.arm(grip.side);
+        let wrist = arm.wrist_for_tool(&grip.tool_in_object);
+        let target = world.object_pose(&grip.object)?;
+        Ok(Self {
+            span: wrist.translation.vector.norm(),
+            overhead: Overhead::of(world, &grip.object, &target)?,
+            grip,
+            target,
+            reach: GraspReach::new(world, Some(&grip.object), true),
+            shoulder: Shoulder::of(world, grip.side, true),
+        })
+    }
+
+    /// Number of postures that have been checked for collisions.
+    pub(crate) fn postures(&self) -> u32 {
+        self.reach.postures()
+    }
+
+    /// Whether the place may be near enough to the base at a pose in the map frame. Cheap.
+    pub fn is_near(&self, base: &Pose) -> bool {
+        let place = base.inverse_transform_point(&self.target.translation.vector.into());
+        self.shoulder.reaches(&place.coords, self.span)
+    }
+
+    /// The nearest heading (rad, relative to the one that is wanted) at which the object can be put
+    /// down there with the base at a pose in the map frame.
+    pub fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<f64, GraspObstacle> {
+        let object = base.inverse() * self.target;
+        let mut from = self.reach.with_base_at(base, effort);
+        let mut nearest = None;
+        for heading in self.grip.headings() {
+            let poses = self.grip.poses(&(object * about_z(heading)));
+            let poses = self.overhead.putting(base, poses);
+            // Things come to stand a little farther away than planned.
+            let poses = poses.into_iter().flat_map(|tool| [tool, farther(&tool)]);
+            // The hand may touch the object all the time.
+            let part = GraspPart::Lift;
+            let stations: Vec<Station> = poses.map(|tool| Station { part, tool }).collect();
+            match from.check(self.grip.side, self.grip.opening, &stations) {
+                Ok(_) => return Ok(heading),
+                Err(GraspObstacle::OutOfReach { part }) => {
+                    nearest = nearest.or(Some(GraspObstacle::OutOfReach { part }));
+                }
+                Err(obstacle) => nearest = Some(obstacle),
+            }
+        }
+        let part = GraspPart::Lift;
+        Err(nearest.unwrap_or(GraspObstacle::OutOfReach { part }))
+    }
+}
+
+/// The pose in the frame of the base, `SLACK` further out and up.
+fn farther(tool: &Pose) -> Pose {
+    let at = tool.translation.vector;
+    let out = Vector3::new(at.x, at.y, 0.0).try_normalize(1e-9);
+    let out = out.unwrap_or_else(Vector3::zeros);
+    Translation3::from((out + Vector3::z()) * SLACK) * tool
+}

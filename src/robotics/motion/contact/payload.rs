@@ -1,0 +1,69 @@
+//! What an arm can carry.
+//!
+//! The weight of a held object acts on every joint of the arm; springs balance the arm's own
+//! weight, as those of the PR2 do. The URDF limits the torques of the joints, and the maker may
+//! limit the mass.
+
+use nalgebra::Vector3;
+
+use crate::motion::failure::overload::Overload;
+use crate::motion::failure::overload::PayloadLimit;
+use crate::robot::{JointKind, LinkId, Side};
+use crate::world::physics::GRAVITY;
+use crate::world::{Object, World};
+
+/// The first object held by a hand on one of the links whose weight the arm carries, though it
+/// cannot. An object that still stands on something weighs on no arm.
+pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<Overload> {
+    let description = &world.models().description;
+    for arm in &description.arms {
+        let held = world
+            .objects()
+            .filter(|o| o.attachment().is_some_and(|a| a.link == arm.gripper.palm));
+        for object in held.filter(|_| is_hand(arm.gripper.palm)) {
+            let Some(limit) = exceeded(world, arm.side, object) else {
+                continue;
+            };
+            return Some(Overload {
+                object: object.name().to_owned(),
+                mass: object.mass(),
+                side: arm.side,
+                limit,
+            });
+        }
+    }
+    None
+}
+
+/// What the object's weight exceeds, as far as the hand carries it.
+fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> {
+    let arm = world.models().description.arm(side);
+    let weld = world.weld_error(object.name()).ok().flatten()?;
+    let weight = object.mass() * GRAVITY;
+    let carried = weld.force.min(weight);
+    if let Some(payload) = arm.payload
+        && object.mass() > payload
+        && carried >= payload * GRAVITY
+    {
+        return Some(PayloadLimit::Maker(payload));
+    }
+    let at = world.object_pose(object.name()).ok()?.translation.vector;
+    let force = Vector3::new(0.0, 0.0, -carried);
+    let tree = &world.models().robot;
+    arm.joints().iter().find_map(|id| {
+        let joint = tree.joint(*id);
+        let frame = world.link_pose(joint.child);
+        let axis = frame.rotation * joint.axis.into_inner();
+        let torque = (at - frame.translation.vector)
+            .cross(&force)
+            .dot(&axis)
+            .abs();
+        let effort = joint.max_effort?;
+        let turns = joint.kind != JointKind::Prismatic;
+        (turns && torque > effort).then(|| PayloadLimit::Joint {
+            joint: joint.name.clone(),
+            torque,
+            effort,
+        })
+    })
+}

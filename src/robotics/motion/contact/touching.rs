@@ -1,0 +1,117 @@
+//! Pairs that touch before a motion begins.
+//!
+//! Such pairs must be able to separate, wherever the contact came from, but a motion must not
+//! press them together any further.
+
+use super::expected_contacts::ExpectedContacts;
+use super::guard::GREATEST_LAG;
+use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration};
+
+/// A pair may seem to overlap this much (m) more: rounding, not motion.
+const SAME_DEPTH: f64 = 5e-5;
+
+/// The pairs that are close at the start, with their initial overlap.
+#[derive(Clone, Debug)]
+pub(crate) struct TouchingPairs {
+    hits: Vec<CollisionHit>,
+    /// Pairs that the motion declares.
+    allowed: AllowedPairs,
+    /// The declared pairs, the pairs that are expected to touch, and the close pairs.
+    relaxed: AllowedPairs,
+    /// Overlap (m) that any close pair may have.
+    depth: f64,
+}
+
+impl TouchingPairs {
+    /// The pairs closer than `margin` (m) in the robot's present configuration; each may overlap
+    /// by `depth` (m), or as much as it already does.
+    pub(crate) fn new(
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        contacts: &ExpectedContacts,
+        margin: f64,
+        depth: f64,
+    ) -> Self {
+        Self::some(checker, robot, contacts, margin, depth, |_| true)
+    }
+
+    /// As [`Self::new`], for some pairs only: all others must keep the distance that planned
+    /// configurations have.
+    pub(crate) fn some(
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        contacts: &ExpectedContacts,
+        margin: f64,
+        depth: f64,
+        counts: impl Fn(&CollisionHit) -> bool,
+    ) -> Self {
+        let mut hits = checker.all_hits(robot, &contacts.allowed, margin);
+        hits.retain(|hit| hit.depth < GREATEST_LAG && counts(hit));
+        let relaxed = hits.iter().fold(contacts.allowed.clone(), |all, hit| {
+            all.and(hit.moving.clone(), hit.other.clone())
+        });
+        let expected = contacts.touching.iter().cloned();
+        let relaxed = expected.fold(relaxed, |all, (a, b)| all.and(a, b));
+        Self {
+            hits,
+            allowed: contacts.allowed.clone(),
+            relaxed,
+            depth,
+        }
+    }
+
+    /// Also allows contact for pairs that touch, but do not overlap, in the configuration.
+    pub(crate) fn expect(
+        &mut self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) {
+        for hit in checker.all_hits(robot, &self.relaxed, margin) {
+            if hit.depth <= self.depth {
+                let relaxed = std::mem::take(&mut self.relaxed);
+                self.relaxed = relaxed.and(hit.moving, hit.other);
+            }
+        }
+    }
+
+    /// Whether nothing is close at the start, nor expected to touch.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.relaxed.is_same(&self.allowed)
+    }
+
+    /// The pairs that were close, and those that are declared.
+    pub(crate) fn relaxed(&self) -> &AllowedPairs {
+        &self.relaxed
+    }
+
+    /// A pair closer than `margin` (m) in the configuration, or overlapping more than allowed, which
+    /// is the lesser demand.
+    pub(crate) fn first_hit(
+        &self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        let near = checker.first_hit(robot, &self.relaxed, margin);
+        // No others are that close.
+        near.or_else(|| self.first_deep(checker, robot))
+    }
+
+    /// A pair that was close at the start and overlaps more than allowed in the configuration.
+    pub(crate) fn first_deep(
+        &self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+    ) -> Option<CollisionHit> {
+        if self.is_empty() {
+            return None;
+        }
+        let deep = checker.hits_among(robot, &self.relaxed, &self.allowed, -self.depth);
+        deep.into_iter().find(|hit| {
+            let mut before = self.hits.iter();
+            let before = before.find(|b| b.moving == hit.moving && b.other == hit.other);
+            hit.depth > before.map_or(0.0, |b| b.depth).max(self.depth) + SAME_DEPTH
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! Turning the head to look at something.
+//!
+//! The head is aimed, not one of its cameras: the x axis of the tilted link passes through
+//! the point if the point is level with it.
+
+use nalgebra::Point3;
+
+use super::job::{Job, MotionOutcome, check_finite};
+use super::joint_motion::{Arrival, JointGoal, JointMotion};
+use crate::motion::failure::joint_limit::violation;
+use crate::motion::failure::motion_failure::MotionFailure;
+use crate::motion::failure::process_module::ProcessModule;
+use crate::motion::planning::configuration::with_joints;
+use crate::motion::planning::joint_plan::JointPlan;
+use crate::motion::trajectories::speeds;
+use crate::motion::trajectories::trajectory::Trajectory;
+use crate::robot::{JointId, LimitViolation, LinkId, RobotDescription};
+use crate::world::{AllowedPairs, CollisionHit, World};
+use spatial::{Pose, trig};
+
+/// An angle farther outside its limits than this (rad) is a failure.
+const CROPPED: f64 = 1e-4;
+
+/// A direction to look in, relative to the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LookDirection {
+    /// Straight ahead, both neck joints at 0.
+    Forward,
+    /// At a table in front of the robot.
+    Down,
+    /// At a table, to the left.
+    Left,
+    /// At a table, to the right.
+    Right,
+    /// Ahead and above the head.
+    Up,
+}
+
+impl LookDirection {
+    /// The point (m) in the base's frame to look at; `None` for straight ahead.
+    fn point(self) -> Option<Point3<f64>> {
+        match self {
+            Self::Forward => None,
+            Self::Down => Some(Point3::new(0.65, 0.08, 0.76)),
+            Self::Left => Some(Point3::new(0.65, 0.76, 0.76)),
+            Self::Right => Some(Point3::new(0.65, -0.76, 0.76)),
+            Self::Up => Some(Point3::new(1.5, 0.0, 2.2)),
+        }
+    }
+}
+
+/// What to look at.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LookTarget {
+    /// The origin of a pose in the map frame.
+    InMap(Pose),
+    /// The origin of a pose in the frame of the robot's base.
+    InBase(Pose),
+    /// The origin of a link of the robot or the kitchen, or of an object, by name.
+    Frame(String),
+    /// A direction.
+    Direction(LookDirection),
+}
+
+/// Turns the head. Angles beyond the neck's limits are clamped, the head moves as far as
+/// possible, and then the motion fails.
+pub type Look = Job<JointMotion<LookGoal>>;
+
+/// The point at which the head is to be aimed.
+#[derive(Clone, Debug)]
+pub struct LookGoal {
+    target: LookTarget,
+    violation: Option<LimitViolation>,
+}
+
+impl Look {
+    /// Looks at the target's position when the motion starts.
+    pub fn new(target: LookTarget) -> Self {
+        Self::begin(JointMotion::to(LookGoal {
+            target,
+            violation: None,
+        }))
+    }
+}
+
+impl LookGoal {
+    /// The point to look at in the map frame; `None` for straight ahead.
+    fn point(&self, world: &World) -> Result<Option<Point3<f64>>, MotionFailure> {
+        let base = world.robot_configuration().base;
+        let origin = |pose: &Pose| Point3::from(pose.translation.vector);
+        Ok(match &self.target {
+            LookTarget::InMap(pose) => Some(origin(pose)),
+            LookTarget::InBase(pose) => Some(origin(&(base * pose))),
+            LookTarget::Direction(direction) => direction.point().map(|p| base * p),
+            LookTarget::Frame(name) => {
+                let models = world.models();
+                let robot = models.robot.link_named(name).map(|l| world.link_pose(l));
+                let kitchen = || {
+                    models
+                        .kitchen
+                        .link_named(name)
+                        .map(|l| world.furniture_pose(l))
+                };
+                let found = robot.or_else(kitchen);
+                let pose = match found {
+                    Some(pose) => pose,
+                    None => world.object_pose(name).map_err(|_| {
+                        MotionFailure::UnknownName(format!("there is no frame {name}"))
+                    })?,
+                };
+                Some(origin(&pose))
+            }
+        })
+    }
+}
+
+impl JointGoal for LookGoal {
+    const MODULE: ProcessModule = ProcessModule::Neck;
+    const BLOCKED_TIMEOUT: f64 = 0.3;
+
+    fn what(&self) -> &'static str {
+        "looking"
+    }
+
+    fn plan(&mut self, world: &World, _: u32) -> Result<JointPlan, MotionFailure> {
+        let point = self.point(world)?;
+        if let Some(point) = &point {
+            check_finite(Self::MODULE, point.coords.as_slice())?;
+        }
+        let wanted = match point {
+            None => [0.0; 2],
+            Some(point) => pan_and_tilt(world, &point),
+        };
+        let tree = &world.models().robot;
+        let mut goal = Vec::new();
+        for (id, wanted) in neck_joints(&world.models().description)
+            .into_iter()
+            .zip(wanted)
+        {
+            let joint = tree.joint(id);
+            let cropped = joint.limits.map_or(wanted, |l| l.clamp(wanted));
+            goal.push(cropped);
+            if let Some(l) = joint.limits.filter(|l| l.excess(wanted) > CROPPED) {
+                self.violation = Some(violation(joint, l, wanted));
+            }
+        }
+        let joints = neck_joints(&world.models().description).to_vec();
+        let now = joints
+            .iter()
+            .map(|j| world.robot_configuration().joints.get(*j))
+            .collect();
+        let limits = speeds::limits_of(&world.models().description, &joints);
+        let trajectory = Trajectory::new(&[now, goal], &limits);
+        Ok(JointPlan::new(joints, trajectory, AllowedPairs::none()))
+    }
+
+    fn carriers(&self, _: &World) -> Vec<LinkId> {
+        Vec::new()
+    }
+
+    fn arrived(&mut self, _: &mut World) -> Arrival {
+        match self.violation.take() {
+            None => Arrival::Done(MotionOutcome::Arrived),
+            Some(violation) => Arrival::Failed(MotionFailure::NeckLimit { violation }),
+        }
+    }
+
+    fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {
+        MotionFailure::NeckBlocked { hit: hit.into() }
+    }
+}
+
+fn neck_joints(body: &RobotDescription) -> [JointId; 2] {
+    [body.neck.pan_joint, body.neck.tilt_joint]
+}
+
+/// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
+pub fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
+    let tree = &world.models().robot;
+    let body = &world.models().description;
+    let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);
+    let level = with_joints(world.robot_configuration(), &neck_joints(body), &[0.0, 0.0]);
+    let frame_of = |link| tree.link_pose(link, &level.base, &level.joints);
+    // Each joint turns about an axis of its own frame: pan about z, tilt about y.
+    let seen = frame_of(pan).inverse_transform_point(point);
+    let axis = frame_of(pan).inverse() * frame_of(tilt);
+    let pan_angle = trig::atan2(seen.y, seen.x);
+    let ahead = libm::hypot(seen.x, seen.y) - axis.translation.x;
+    let tilt_angle = trig::atan2(axis.translation.z - seen.z, ahead);
+    [pan_angle, tilt_angle]
+}

@@ -1,0 +1,154 @@
+//! Checking configurations of some joints while everything else stays as it is.
+
+use crate::motion::contact::expected_contacts::ExpectedContacts;
+use crate::motion::contact::guard::GUARD_DEPTH;
+use crate::motion::contact::touching::TouchingPairs;
+use crate::robot::JointId;
+use crate::world::{
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, RobotConfiguration,
+    World,
+};
+
+/// Clearance (m) of planned configurations from everything.
+pub(super) const PLAN_MARGIN: f64 = 0.004;
+/// Overlap (m) accepted for pairs that are close at the start.
+const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
+
+/// Tells which configurations are free. Pairs that are close at the start, such as a held
+/// object and what it stands on, may stay close, but not overlap more.
+pub(crate) struct ConfigurationChecker<'w> {
+    checker: CollisionChecker<'w>,
+    robot: RobotConfiguration,
+    joints: Vec<JointId>,
+    touching: TouchingPairs,
+    /// The pairs that decide whether a configuration is free.
+    pairs: Pairs,
+}
+
+impl<'w> ConfigurationChecker<'w> {
+    pub(crate) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
+        let robot = world.robot_configuration().clone();
+        Self::at(world, robot, joints, contacts)
+    }
+
+    fn at(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+    ) -> Self {
+        let all = |_: &CollisionHit| true;
+        Self::about(world, robot, joints, contacts, all)
+    }
+
+    /// For the pairs that count where they are close at the start.
+    fn about(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+        counts: impl Fn(&CollisionHit) -> bool,
+    ) -> Self {
+        let mut checker = world.collision_checker();
+        let touching = TouchingPairs::some(
+            &mut checker,
+            &robot,
+            contacts,
+            PLAN_MARGIN,
+            TOUCH_DEPTH,
+            counts,
+        );
+        // What does not move with the joints is checked once and for all.
+        let moving = MovingParts::of_joints(&world.models().robot, &joints);
+        checker.expect(moving, Pairs::Constant);
+        let pairs = match touching.first_hit(&mut checker, &robot, PLAN_MARGIN) {
+            None => Pairs::Changing,
+            Some(_) => Pairs::All,
+        };
+        checker.look_at(pairs);
+        Self {
+            checker,
+            robot,
+            joints,
+            touching,
+            pairs,
+        }
+    }
+
+    /// As [`Self::new`], with the robot elsewhere, and without regard to where the moving bodies
+    /// are at the start: they may be close to nothing.
+    pub(crate) fn away_from_start(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+        moving: &[BodyName],
+    ) -> Self {
+        let stays =
+            |hit: &CollisionHit| !moving.contains(&hit.moving) && !moving.contains(&hit.other);
+        Self::about(world, robot, joints, contacts, stays)
+    }
+
+    /// Pairs that touch at the goal may also touch on the way.
+    pub(crate) fn accept_goal(&mut self, positions: &[f64]) {
+        self.set(positions);
+        self.checker.look_at(Pairs::All);
+        self.touching
+            .expect(&mut self.checker, &self.robot, PLAN_MARGIN);
+        self.checker.look_at(self.pairs);
+    }
+
+    fn set(&mut self, positions: &[f64]) {
+        for (joint, position) in self.joints.iter().zip(positions) {
+            self.robot.joints.set(*joint, *position);
+        }
+    }
+
+    /// What rules out the joint positions, if anything does.
+    pub(crate) fn blocked(&mut self, positions: &[f64]) -> Option<CollisionHit> {
+        self.set(positions);
+        self.touching
+            .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// The pairs that overlap by more than `depth` (m) in that configuration, whatever the motion
+    /// declares, the deepest first.
+    pub(crate) fn overlaps(&mut self, positions: &[f64], depth: f64) -> Vec<CollisionHit> {
+        self.set(positions);
+        let none = AllowedPairs::none();
+        self.checker.look_at(Pairs::All);
+        let hits = self.checker.all_hits(&self.robot, &none, -depth);
+        self.checker.look_at(self.pairs);
+        hits
+    }
+
+    /// Whether the configuration would also be free with other joints at the given positions.
+    pub(super) fn is_free_with(&mut self, positions: &[f64], others: &[(JointId, f64)]) -> bool {
+        let joints = &self.robot.joints;
+        let before: Vec<_> = others
+            .iter()
+            .map(|(joint, _)| (*joint, joints.get(*joint)))
+            .collect();
+        for (joint, position) in others {
+            self.robot.joints.set(*joint, *position);
+        }
+        self.checker.look_at(Pairs::All);
+        let free = self.blocked(positions).is_none();
+        self.checker.look_at(self.pairs);
+        for (joint, position) in before {
+            self.robot.joints.set(joint, position);
+        }
+        free
+    }
+
+    /// The smallest gap (m) in that configuration, up to `reach` (m).
+    pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
+        self.set(positions);
+        self.checker.look_at(Pairs::All);
+        let nearest = self
+            .checker
+            .clearance(&self.robot, self.touching.relaxed(), reach);
+        self.checker.look_at(self.pairs);
+        nearest.map_or(reach, |c| c.distance)
+    }
+}

@@ -1,0 +1,15 @@
+//! Checking a text without running it, and hints for somebody whose program has met a name that means
+//! nothing.
+
+mod judge;
+mod known;
+mod meant;
+mod text;
+mod tokens;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use known::KnownNames;
+pub(super) use meant::hint;
+pub(super) use text::check_text;

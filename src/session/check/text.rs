@@ -1,0 +1,195 @@
+//! Checking a text without running it.
+//!
+//! A text is read and compiled form by form. Definitions take effect, so that later forms
+//! can be read and compiled with them and calls can be checked; nothing else is evaluated,
+//! and the values of variables are not computed. The compiler's notes are judged at the end,
+//! when all definitions are known.
+
+use super::judge;
+use super::known::KnownNames;
+use super::tokens;
+use crate::dialogue::{Finding, Severity};
+use crate::printing;
+use lisp::compile;
+use lisp::evaluator::nested;
+use lisp::image::Image;
+use lisp::image::notes::{Note, NoteKind};
+use lisp::reader::Reader;
+use lisp::source::Place;
+use lisp::value::Value;
+use lisp::value::known as names;
+use lisp::value::raise::Raise;
+use lisp::value::symbol::VariableKind;
+
+/// The mistakes in a text, in the order of the text; what it defines is added to what is known.
+pub(crate) fn check_text(
+    image: &mut Image,
+    known: &mut KnownNames,
+    source_name: &str,
+    text: &str,
+) -> Vec<Finding> {
+    Check { image, known }.text(source_name, text)
+}
+
+/// The check of a text.
+struct Check<'s> {
+    image: &'s mut Image,
+    known: &'s mut KnownNames,
+}
+
+impl Check<'_> {
+    fn text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        let source = self.image.sources.add(source_name, text);
+        let mut reader = Reader::new(self.image, source);
+        let mut findings = Vec::new();
+        self.image.notes = Some(Vec::new());
+        let was_open = self.known.is_open;
+        loop {
+            let form = match reader.next_form(self.image) {
+                Ok(Some((form, _))) => form,
+                Ok(None) => break,
+                Err(error) => {
+                    let finding = self.finding(error.raise());
+                    findings.push(finding);
+                    // What the rest of the text defines is unknown.
+                    self.known.is_open = true;
+                    break;
+                }
+            };
+            self.known.note_form(self.image, &form);
+            self.check_form(&form, &mut findings);
+        }
+        let notes = self.image.notes.take().unwrap_or_default();
+        for note in &notes {
+            match &note.kind {
+                NoteKind::Definition(form) => self.known.note_definition(self.image, form),
+                NoteKind::Assigned(name) => {
+                    self.known.defined.insert(*name);
+                }
+                _ => {}
+            }
+        }
+        for note in notes {
+            let finding = self.warning(&note);
+            findings.extend(finding.filter(|finding| !findings.contains(finding)));
+        }
+        self.known.is_open = was_open;
+        findings.sort_by_key(|f| f.place.as_ref().map(|place| (place.line, place.column)));
+        findings
+    }
+
+    /// Checks one form at top level.
+    fn check_form(&mut self, form: &Value, findings: &mut Vec<Finding>) {
+        let head = form.car_or_nil().as_symbol();
+        let inner = match head {
+            Some(names::PROGN | names::LOCALLY) => form.cdr_or_nil(),
+            Some(names::EVAL_WHEN) => form.cdr_or_nil().cdr_or_nil(),
+            _ => return self.check_single(form, findings),
+        };
+        for form in inner.iter_list() {
+            self.check_form(&form, findings);
+        }
+    }
+
+    fn check_single(&mut self, form: &Value, findings: &mut Vec<Finding>) {
+        let effect = self.effect(form);
+        if effect != Effect::Reading
+            && let Err(raise) = compile::compile_form(self.image, form)
+        {
+            let finding = self.finding(raise);
+            return findings.push(finding);
+        }
+        let form = match effect {
+            Effect::None => return,
+            Effect::Reading | Effect::Definition => form.clone(),
+            Effect::Variable => {
+                let name = form.cdr_or_nil().car_or_nil();
+                Value::list([names::DEFVAR.into(), name])
+            }
+        };
+        let notes = self.image.notes.take();
+        let result = nested::call_nested(self.image, names::EVAL.into(), vec![form]);
+        self.image.output.take();
+        self.image.notes = notes;
+        if let (Effect::Reading, Err(raise)) = (effect, result) {
+            let finding = self.finding(raise);
+            findings.push(finding);
+        }
+    }
+
+    /// Does what later forms need to be read and compiled.
+    fn effect(&self, form: &Value) -> Effect {
+        let Some(head) = form.car_or_nil().as_symbol() else {
+            return Effect::None;
+        };
+        match head {
+            names::IN_PACKAGE
+            | names::DEFPACKAGE
+            | names::DEFMACRO
+            | names::DEFSTRUCT
+            | names::DEFINE_SYMBOL_MACRO
+            | names::DEFSETF => return Effect::Reading,
+            _ => {}
+        }
+        let entry = self.image.entry(head);
+        match entry.map(|_| self.image.name(head)) {
+            Some("DEFVAR" | "DEFPARAMETER" | "DEFCONSTANT" | "DEFINE-CONSTANT") => {
+                let name = form.cdr_or_nil().car_or_nil().as_symbol();
+                let is_fresh =
+                    name.is_some_and(|name| self.image.symbol(name).kind == VariableKind::Lexical);
+                if is_fresh {
+                    Effect::Variable
+                } else {
+                    Effect::None
+                }
+            }
+            Some("DECLAIM") => Effect::Definition,
+            Some(name) if name.starts_with("DEF") => Effect::Definition,
+            _ => Effect::None,
+        }
+    }
+
+    fn finding(&mut self, raise: Box<Raise>) -> Finding {
+        let abort = printing::raised(self.image, raise);
+        Finding {
+            message: abort.report,
+            place: abort.place,
+            severity: Severity::Error,
+        }
+    }
+
+    fn warning(&mut self, note: &Note) -> Option<Finding> {
+        let mistake = judge::judge(self.image, self.known, &note.kind)?;
+        let place = match mistake.name {
+            Some(name) => self.place_of_name(note.place, &name),
+            None => note.place,
+        };
+        Some(Finding {
+            message: mistake.text,
+            place: self.image.sources.locate(place),
+            severity: Severity::Warning,
+        })
+    }
+
+    /// The place of a name in a form, or of the form itself.
+    fn place_of_name(&mut self, form: Place, name: &str) -> Place {
+        let sources = &mut self.image.sources;
+        let range = sources.text(form).and_then(|text| tokens::find(text, name));
+        range
+            .and_then(|range| sources.within(form, range.start, range.end))
+            .unwrap_or(form)
+    }
+}
+
+/// The effect of a form on later forms.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Effect {
+    /// None that matters here.
+    None,
+    /// Later forms cannot be read or expanded without it.
+    Reading,
+    /// It defines something.
+    Definition,
+    /// It defines a variable; its value must not be computed.
+    Variable,
+}

@@ -1,0 +1,37 @@
+//! Observing a session.
+
+use super::observer::Observer;
+use super::{PlanEvent, TaskLog};
+use crate::Session;
+use crate::audience::FollowerId;
+
+/// An observer of a session.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ObserverId(FollowerId);
+
+impl Session {
+    /// Calls a function with everything that happens in plans from now on, in the order in which it
+    /// happens. It is called in the midst of an evaluation, which waits for it.
+    pub fn on_event(&mut self, tell: impl FnMut(&PlanEvent) + 'static) -> ObserverId {
+        let observer = Box::new(Observer::new(Box::new(tell)));
+        let host = &mut self.host;
+        let added = host
+            .audience
+            .add_follower(&host.simulation, &self.image, observer);
+        ObserverId(added)
+    }
+
+    /// Observes no more.
+    pub fn remove_observer(&mut self, observer: ObserverId) {
+        self.host.audience.remove_follower(observer.0);
+    }
+
+    /// Keeps all tasks, actions and motions from now on, for
+    /// [`TaskLog::tree`].
+    pub fn log_tasks(&mut self) -> TaskLog {
+        let log = TaskLog::default();
+        let kept = log.clone();
+        self.on_event(move |event| kept.note(event));
+        log
+    }
+}
