@@ -142,7 +142,7 @@ impl Serve for Session {
 
     fn look_into(&mut self, object: ObjectNumber, parts: Range<usize>) -> Option<Inspection> {
         let value = self.evaluator.objects.get(object)?;
-        let view = View::of(&mut self.evaluator.host, &mut self.evaluator.image, &value);
+        let view = View::of(&self.evaluator.host, &mut self.evaluator.image, &value);
         let (count, title) = (view.parts.len(), view.title);
         let wanted = view.parts.into_iter().skip(parts.start);
         let wanted = wanted.take(parts.len());

@@ -36,7 +36,7 @@ impl Evaluator {
             "" => {}
             word => {
                 let number: usize = word.parse().ok()?;
-                let view = View::of(&mut self.host, &mut self.image, &current);
+                let view = View::of(&self.host, &mut self.image, &current);
                 match view.parts.into_iter().nth(number) {
                     Some((_, part)) if !part.is_unbound() => self.console.inspected.push(part),
                     _ => return Some(self.tell("; There is no such part.", sink)),
@@ -49,7 +49,7 @@ impl Evaluator {
     }
 
     fn tell_inspected(&mut self, value: &Value, sink: &mut dyn FnMut(Event)) -> Outcome {
-        let view = View::of(&mut self.host, &mut self.image, value);
+        let view = View::of(&self.host, &mut self.image, value);
         let text = view.text(&self.image);
         self.tell(&format!("{text}{REMARK}"), sink)
     }
