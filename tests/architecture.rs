@@ -488,9 +488,9 @@ fn circles(sources: &Sources, wrong: &mut Vec<String>) {
     }
 }
 
-/// Whatever a part needs of the session, it is given; the console evaluates, as the session does.
+/// Whatever a part needs of the session, it is given.
 #[test]
-fn of_the_folders_of_the_session_only_the_console_names_the_session() {
+fn no_folder_of_the_session_names_the_session() {
     let sources = Sources::of("src/session");
     let folders: BTreeSet<&String> = (sources.names.keys())
         .filter(|module| module.len() > 1)
@@ -506,7 +506,7 @@ fn of_the_folders_of_the_session_only_the_console_names_the_session() {
         }
     }
     let naming: Vec<&str> = naming.into_iter().map(String::as_str).collect();
-    assert_eq!(naming, ["console"]);
+    assert_eq!(naming, [""; 0]);
 }
 
 #[test]
@@ -519,4 +519,78 @@ fn only_one_module_names_the_physics_engine() {
         named.extend(modules.map(|(module, _)| module.join("::")));
     }
     assert_eq!(named, ["world::physics", "world::physics::raw_contact"]);
+}
+
+#[test]
+fn only_the_library_itself_has_examples_in_rust() {
+    let mut found = Vec::new();
+    // `cargo test` runs the examples of no other crate.
+    for folder in CRATES.iter().filter(|folder| **folder != "src/front") {
+        for (module, text) in Sources::of(folder).texts {
+            let fences = text.lines().map(str::trim_start).filter_map(|line| {
+                let comment = line.strip_prefix("///").or(line.strip_prefix("//!"))?;
+                comment.trim_start().strip_prefix("```")
+            });
+            let languages = fences.step_by(2);
+            let rust = |language: &str| !matches!(language, "lisp" | "text");
+            if languages.into_iter().any(rust) {
+                found.push(format!("{folder}: {}", module.join("::")));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{found:?}");
+}
+
+/// The names of the links and joints of the built-in robot and the built-in kitchen, of several words.
+fn described_names() -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for file in ["world/pr2.urdf", "world/kitchen.urdf"] {
+        let text = fs::read_to_string(root().join(file)).expect("the file can be read");
+        for element in ["<link name=\"", "<joint name=\""] {
+            let after = text.split(element).skip(1);
+            names.extend(after.filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())));
+        }
+    }
+    // A single word, such as the link map, means other things, too.
+    names.retain(|name| name.contains('_'));
+    names
+}
+
+/// The texts in quotes, each on one line, that are among some names; comments are passed over.
+fn quoted<'a>(text: &'a str, comment: &str, names: &BTreeSet<String>) -> Vec<&'a str> {
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim_start().starts_with(comment));
+    let parts = lines.flat_map(|line| line.split('"').skip(1).step_by(2));
+    parts.filter(|part| names.contains(*part)).collect()
+}
+
+/// What is measured is the built-in robot, and a wrong URDF is told what a right one looks like.
+const MAY_NAME_PARTS: [&str; 2] = ["measured", "urdf_schema"];
+
+#[test]
+fn only_descriptions_name_parts_of_robot_and_kitchen() {
+    let names = described_names();
+    assert!(names.contains("torso_lift_joint") && names.contains("kitchen_island_surface"));
+    let mut found = Vec::new();
+    for folder in CRATES {
+        for (module, text) in Sources::of(folder).texts {
+            if module
+                .iter()
+                .any(|part| MAY_NAME_PARTS.contains(&part.as_str()))
+            {
+                continue;
+            }
+            let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let named = quoted(text, "//", &names).into_iter();
+            found.extend(named.map(|name| format!("{folder} {}: {name}", module.join("::"))));
+        }
+    }
+    for entry in fs::read_dir(root().join("plans/lib")).expect("the folder can be read") {
+        let path = entry.expect("the folder can be listed").path();
+        let text = fs::read_to_string(&path).expect("the file can be read");
+        let named = quoted(&text, ";", &names).into_iter();
+        found.extend(named.map(|name| format!("{}: {name}", path.display())));
+    }
+    assert_eq!(found, Vec::<String>::new());
 }

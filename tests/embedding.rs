@@ -142,7 +142,7 @@ fn values_are_data_in_both_directions() {
     let failure = session.call("identity", &other).unwrap_err();
     assert!(failure.to_string().contains("cannot be an argument"));
     let digits = session.call("identity", &[Datum::Big("0x7".to_owned())]);
-    assert!(matches!(digits, Err(Failure::Unknown(_))));
+    assert!(matches!(digits, Err(Failure::Invalid(_))));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn functions_are_called_and_variables_read_without_text() {
         ("no-such-package:f", "There is no package no-such-package."),
     ] {
         let failure = session.call(name, &[]).unwrap_err();
-        assert!(matches!(&failure, Failure::Unknown(_)), "{failure:?}");
+        assert!(matches!(&failure, Failure::Invalid(_)), "{failure:?}");
         assert_eq!(failure.to_string(), report);
     }
 }

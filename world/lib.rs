@@ -9,6 +9,9 @@ pub const PR2_DESCRIPTION: &str = include_str!("pr2.sexp");
 /// The kitchen; its root is the map frame.
 pub const KITCHEN_URDF: &str = include_str!("kitchen.urdf");
 
+/// What the furniture of the kitchen is for.
+pub const KITCHEN_DESCRIPTION: &str = include_str!("kitchen.sexp");
+
 /// The types of objects.
 pub const OBJECTS: &str = include_str!("objects.sexp");
 

@@ -1,14 +1,14 @@
-; The roles of the PR2's links and joints, and how fast they may move.
-; Units: m, rad, s. Names are those in world/pr2.urdf.
+; The roles of the PR2's links and joints, and how fast they may move. Units: m, rad, s. Names are those
+; in world/pr2.urdf; (alias NAME LINK-OR-JOINT) lets users call one by another name.
 
 (robot PR2)
 
-; The mobile base: the frame on the floor to which poses of the robot refer, the link of the
-; body, and how fast it drives and turns.
+; The mobile base: the frame on the floor to which poses of the robot refer, the link of the body,
+; how fast it drives and turns, and the frame in which it measures its way: here, the map.
 (base :frame base_footprint
       :body base_link
       :drive-velocity 0.5 :drive-acceleration 1.0
-      :turn-velocity 0.6 :turn-acceleration 1.2)
+      :turn-velocity 0.6 :turn-acceleration 1.2 :odometry odom_combined)
 
 ; The torso lift and its height after start-up.
 (torso :link torso_lift_link :joint torso_lift_joint :start 0.15)

@@ -95,6 +95,7 @@ mod tests {
     mod replay;
     mod swank;
     mod view;
+    mod waiting;
 
     /// A folder for files that tests write.
     fn scratch_folder() -> std::path::PathBuf {

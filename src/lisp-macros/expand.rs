@@ -40,6 +40,7 @@ pub(crate) fn builtin(attribute: TokenStream, item: TokenStream) -> Result<Token
     let (text, examples) = (&doc.text, &doc.examples);
     let about = format!("The entry of `{name}`.");
     Ok(quote! {
+        #[allow(clippy::too_many_arguments, reason = "a call has so many")]
         #function
 
         #[doc = #about]

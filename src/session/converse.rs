@@ -8,34 +8,35 @@ use lisp::image::input::Source;
 
 impl Repeat for Session {
     fn set_interactive(&mut self, is_interactive: bool) {
-        self.console.is_interactive = is_interactive;
-        self.scheduler.set_stops_in_place(is_interactive);
-        self.host
+        self.evaluator.console.is_interactive = is_interactive;
+        self.evaluator.scheduler.set_stops_in_place(is_interactive);
+        self.evaluator
+            .host
             .person
             .snapshots
             .keep_snapshots_of_motions(is_interactive);
     }
 
     fn interrupted_at(&self) -> Option<u64> {
-        self.image.polls().seen_at()
+        self.evaluator.image.polls().seen_at()
     }
 
     fn interrupt_next_at(&mut self, at: u64) {
-        self.console.interrupt_next = Some(at);
+        self.evaluator.console.interrupt_next = Some(at);
     }
 }
 
 impl Converse for Session {
     fn level(&self) -> usize {
-        self.console.level()
+        self.evaluator.console.level()
     }
 
     fn answer_to_interrupt(&self) -> Option<&'static str> {
-        self.console.answer_to_interrupt()
+        self.evaluator.console.answer_to_interrupt()
     }
 
     fn take_draft(&mut self) -> Option<String> {
-        self.console.take_draft()
+        self.evaluator.console.take_draft()
     }
 
     fn completions(&self, text: &str, at: usize) -> Completions {
@@ -51,15 +52,15 @@ impl Converse for Session {
     }
 
     fn set_source(&mut self, source: Option<Rc<Source>>) {
-        self.image.input.set_source(source);
+        self.evaluator.image.input.set_source(source);
     }
 
     fn world_hash(&self) -> u64 {
-        self.host.simulation.world().hash()
+        self.evaluator.host.simulation.world().hash()
     }
 
     fn set_hurried(&mut self, is_hurried: bool) {
-        self.host.audience.set_hurried(is_hurried);
+        self.evaluator.host.audience.set_hurried(is_hurried);
     }
 
     fn finish(&mut self) -> Result<(), String> {

@@ -1,8 +1,8 @@
 //! A copy of a session that has nothing to do: it goes on as the original would, and neither notices
 //! what happens in the other.
 
-use super::objects::Objects;
-use super::{Audience, Session, assist, console};
+use super::console::Evaluator;
+use super::{Audience, Session, assist};
 use lisp::value::release::FreesAll;
 
 impl Session {
@@ -13,26 +13,22 @@ impl Session {
     ///
     /// What there cannot be a copy of: tasks, an open file, a live view, a robot that moves.
     pub fn copied(&self) -> Result<Session, &'static str> {
-        let Some(scheduler) = self.scheduler.copied() else {
+        let Some(scheduler) = self.evaluator.scheduler.copied() else {
             return Err("tasks");
         };
-        if !self.console.is_unused() {
+        if !self.evaluator.console.is_unused() {
             return Err("an evaluation that has stopped");
         }
         let audience = Audience::new(self.options.realtime, self.options.view_port);
-        let (mut image, host) = self
+        let (image, host) = self
+            .evaluator
             .image
-            .copied(|copier| self.host.copied(copier, audience))?;
+            .copied(|copier| self.evaluator.host.copied(copier, audience))?;
         Ok(Session {
             options: self.options.clone(),
-            scheduler,
-            host,
+            evaluator: Evaluator::new(image, scheduler, host),
             checked: self.checked.clone(),
-            console: console::Console::default(),
             told_names: assist::ToldNames::default(),
-            objects: Objects::of(&mut image),
-            image,
-            failed_with: None,
             _rest: FreesAll,
         })
     }

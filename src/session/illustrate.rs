@@ -12,7 +12,7 @@ impl Illustrate for Session {
     }
 
     fn backtrace(&self, most: usize) -> String {
-        self.backtrace_text(most)
+        self.evaluator.backtrace_text(most)
     }
 
     fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image> {
@@ -20,13 +20,13 @@ impl Illustrate for Session {
     }
 
     fn table(&self) -> Option<Table> {
-        let mut values = self.image.special(known::DIVIDE).iter_list();
+        let mut values = self.evaluator.image.special(known::DIVIDE).iter_list();
         let value = values.next().filter(|_| values.next().is_none())?;
-        table_of(&self.image, &value)
+        table_of(&self.evaluator.image, &value)
     }
 
     fn take_swept(&mut self) -> Option<Swept> {
-        self.host.audience.swept.take()
+        self.evaluator.host.audience.swept.take()
     }
 
     fn now(&self) -> f64 {

@@ -7,9 +7,9 @@ use super::log_level::LogLevel;
 use lisp::guard::heap::HeapLimit;
 use robotics::robot::{KinematicTree, MissingNames, RobotDescription};
 use robotics::sexp::DataError;
-use robotics::world::Models;
 use robotics::world::noise::NoiseLevels;
 use robotics::world::object_library::{OBJECTS, ObjectLibrary};
+use robotics::world::{KitchenDescription, Models};
 
 /// What a session starts with.
 #[derive(Clone, Debug)]
@@ -23,6 +23,9 @@ pub struct SessionOptions {
     pub robot_description: Option<(String, String)>,
     /// Name and text of a URDF in place of the built-in kitchen's.
     pub world: Option<(String, String)>,
+    /// Name and text of a description of the kitchen's furniture. Without one, what of the built-in
+    /// kitchen's description names only furniture that is there is true of a given kitchen, too.
+    pub world_description: Option<(String, String)>,
     /// How large the errors of the robot's sensors and motors are, such as
     /// `position=0.01,misses=0.1`; an empty text stands for usual errors, `None` for none.
     pub noise: Option<String>,
@@ -46,6 +49,7 @@ impl Default for SessionOptions {
             robot: None,
             robot_description: None,
             world: None,
+            world_description: None,
             noise: None,
             systems: Vec::new(),
             log_level: LogLevel::Info,
@@ -108,9 +112,25 @@ impl SessionOptions {
         let robot = tree(&self.robot, PR2_URDF, "pr2.urdf")?;
         let kitchen = tree(&self.world, KITCHEN_URDF, "kitchen.urdf")?;
         let description = self.description(&robot)?;
+        let furnishing = self.furnishing(&kitchen)?;
         let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")
             .map_err(|e| SessionError::Models(e.to_string()))?;
-        Ok(Models::new(robot, description, kitchen, objects))
+        Ok(Models::new(
+            robot,
+            description,
+            kitchen,
+            furnishing,
+            objects,
+        ))
+    }
+
+    /// Reads the description of the kitchen's furniture.
+    fn furnishing(&self, kitchen: &KinematicTree) -> Result<KitchenDescription, SessionError> {
+        let description = match &self.world_description {
+            Some((name, text)) => KitchenDescription::from_sexp(text, name, kitchen),
+            None => KitchenDescription::built_in(kitchen),
+        };
+        description.map_err(|error| SessionError::Models(error.to_string()))
     }
 
     /// Reads the description of the robot's links and joints.

@@ -4,7 +4,7 @@
 //! frame: its origin is on the floor, x points forward, y to the left and z up. Names of
 //! links and joints are those of the URDF.
 
-use super::Session;
+use super::{FramedPose, Session};
 use robotics::robot::Side;
 use spatial::Pose;
 
@@ -24,6 +24,14 @@ impl Session {
     /// Pose of an object's frame in the map frame (m).
     pub fn object_pose(&self, object: &str) -> Option<Pose> {
         self.simulation().world().object_pose(object).ok()
+    }
+
+    /// The pose in the map frame of a pose in any frame; `None` if there is no such frame.
+    pub fn in_map(&self, placed: &FramedPose) -> Option<Pose> {
+        let frame = self
+            .simulation()
+            .frame_in_map(&self.evaluator.image, &placed.frame);
+        frame.ok().map(|frame| frame * placed.pose)
     }
 
     /// Pose of the robot's base, on the floor, in the map frame (m).

@@ -159,12 +159,20 @@ impl Session {
     pub fn known_sweeps(&mut self) -> Vec<Known> {
         let ask = "(planwright::%describe-sweeps)";
         self.evaluate("sweep", ask, &mut |_| {});
-        Sweeping::of(&mut self.image).0.borrow().known.clone()
+        Sweeping::of(&mut self.evaluator.image)
+            .0
+            .borrow()
+            .known
+            .clone()
     }
 
     /// The simplest values that the draws of the world at hand could have had.
     pub fn simplest_draws(&mut self) -> Pairs<Drawn> {
-        Sweeping::of(&mut self.image).0.borrow().simplest.clone()
+        Sweeping::of(&mut self.evaluator.image)
+            .0
+            .borrow()
+            .simplest
+            .clone()
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes
@@ -185,10 +193,11 @@ impl Session {
         form.push_str(&format!(
             "(planwright::%sweep-one-world {name:?} {seed} {world}))"
         ));
-        let state = Sweeping::of(&mut self.image);
+        let state = Sweeping::of(&mut self.evaluator.image);
         state.begin(seed, world);
         self.interrupt_next_at(most_polls);
-        self.image
+        self.evaluator
+            .image
             .polls()
             .set_again(Some((most_polls / CLEANING).max(1)));
         let mut ending = Ending::Failure;
@@ -197,13 +206,13 @@ impl Session {
             if let Event::Aborted(abort) = event {
                 ending = match abort.condition.as_str() {
                     super::dialogue::screen::INTERRUPT => Ending::Endless,
-                    super::recovery::CONDITION => Ending::Defect,
+                    super::console::recovery::CONDITION => Ending::Defect,
                     _ => Ending::Failure,
                 };
                 class = Some(abort.class.clone()).filter(|class| !class.is_empty());
             }
         });
-        self.image.polls().set_again(None);
+        self.evaluator.image.polls().set_again(None);
         let mut kept = state.0.borrow_mut().record.take();
         if let Outcome::Quit(_) = outcome {
             // Who leaves has not done what was wanted.
@@ -214,9 +223,9 @@ impl Session {
             }
         }
         kept.unwrap_or_else(|| {
-            let mut record = state.record(&mut self.image, ending);
+            let mut record = state.record(&mut self.evaluator.image, ending);
             record.class = class;
-            let simulation = &mut self.host.simulation;
+            let simulation = &mut self.evaluator.host.simulation;
             simulation.end_tally();
             simulation.complete(&mut record);
             record

@@ -62,7 +62,7 @@ mod tests {
         let mut session = Session::new(&SessionOptions::default()).unwrap();
         let mut table = |form: &str| {
             session.evaluate("test", form, &mut |_| {});
-            table_of(&session.image, session.image.special(known::TIMES))
+            table_of(session.image(), session.image().special(known::TIMES))
         };
         let found = table(
             "(list (desig:an object (type cup) (name a)) (desig:an object (name b) (colour \"<\")))",

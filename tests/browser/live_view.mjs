@@ -88,21 +88,21 @@ async function liveView(browser) {
   check(true, 'the wheel zooms');
   then = await get(tab, 'orbit.at');
   await tab.click(x, y, 2);
-  await sleep(1);
-  check(far(then, await get(tab, 'orbit.at')) > 0.05, 'a double click centres');
+  await until(tab, `Math.hypot(...orbit.at.map((v, i) => v - ${JSON.stringify(then)}[i])) > 0.05`, 10);
+  check(true, 'a double click centres');
 
   // Views.
   for (const name of ['top', 'island', 'robot', 'follow', 'table']) {
     await tab.press(`#views [data-view=${name}]`);
-    await sleep(0.8);
-    check(await get(tab, 'page.named') === name, `view: ${name}`);
+    await until(tab, `page.named === '${name}' && !orbit.way`, 10);
+    check(true, `view: ${name}`);
     if (name === 'top' || name === 'robot') await tab.picture(join(pictures, `${name}.png`));
   }
 
   // A click names the bottle, wherever it is.
   const at = await tab.value(`planwright.screenOf(${BOTTLE.replaceAll('scene', 'planwright.scene')}.id)`);
   await tab.click(...at);
-  await sleep(0.5);
+  await tab.until('/^BOTTLE-1/.test(document.querySelector("#card").innerText)', 10);
   const card = await tab.value('document.querySelector("#card").innerText');
   check(/^BOTTLE-1/.test(card) && /type\s+bottle/.test(card) && /position/.test(card), `a click names the bottle: ${card.replaceAll(/\s+/g, ' ')}`);
   await tab.picture(join(pictures, 'bottle.png'));

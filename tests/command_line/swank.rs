@@ -20,9 +20,18 @@ impl Connection {
 
     /// Makes a request; returns the messages up to its answer, or to the end of the connection.
     fn call(&mut self, id: u32, form: &str) -> String {
+        self.request(id, form);
+        self.until("(:return")
+    }
+
+    fn request(&mut self, id: u32, form: &str) {
         let message = format!("(:emacs-rex {form} \"CL-USER\" t {id})");
         let message = format!("{:06x}{message}", message.len());
         self.0.write_all(message.as_bytes()).unwrap();
+    }
+
+    /// The messages up to one that begins in this way, or to the end of the connection.
+    fn until(&mut self, wanted: &str) -> String {
         let mut told = String::new();
         loop {
             let mut digits = [0; 6];
@@ -34,7 +43,7 @@ impl Connection {
             self.0.read_exact(&mut bytes).unwrap();
             let message = String::from_utf8(bytes).unwrap();
             told.push_str(&message);
-            if message.starts_with("(:return") {
+            if message.starts_with(wanted) {
                 return told;
             }
         }
@@ -114,13 +123,13 @@ fn an_evaluation_that_ctrl_c_interrupts_is_left_to_the_prompt() {
     terminal.line("(swank:create-server :port 0)");
     terminal.wait_for("Ctrl-C returns to the prompt.");
     let mut connection = Connection::to(port(&terminal.text()).unwrap());
-    let evaluation = std::thread::spawn(move || {
-        connection.call(1, "(swank-repl:listener-eval \"(loop)\")");
-    });
-    std::thread::sleep(Duration::from_millis(500));
+    let endless = r#"(swank-repl:listener-eval "(progn (princ \\"begun\\") (loop))")"#;
+    connection.request(1, endless);
+    let begun = connection.until("(:write-string \"begun");
+    assert!(begun.contains("begun"), "{begun}");
     terminal.keys(CTRL_C);
     terminal.wait_for("0: Continue.");
-    evaluation.join().unwrap();
+    connection.until("(:return");
     terminal.line("1");
     terminal.wait_for_last_line("CL-USER>");
     let shown = terminal.evaluate("(+ 20 3)");

@@ -236,8 +236,8 @@ fn a_form_is_changed_and_retried() {
 fn ctrl_c_stops_and_asks() {
     let state = State::new("interrupt");
     let terminal = in_tutorial(&state, &[]);
-    terminal.line("(loop)");
-    std::thread::sleep(Duration::from_millis(300));
+    terminal.line("(progn (print :begun) (loop))");
+    terminal.wait_for("\n:BEGUN");
     terminal.keys(CTRL_C);
     terminal.wait_for("0: Continue.");
     // A second one aborts.

@@ -9,11 +9,11 @@ use super::corpus;
 use super::run::{Taker, Target};
 use crate::prompt::Earlier;
 use crate::transcript::{Transcript, Verdict, blessed};
-use descriptions::{PR2_DESCRIPTION, PR2_URDF};
+use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use robotics::robot::{KinematicTree, RobotDescription};
 use robotics::world::grasp_library::{GRASPS, GraspLibrary};
 use robotics::world::object_library::{OBJECTS, ObjectLibrary};
-use robotics::world::{Models, RobotConfiguration, World};
+use robotics::world::{KitchenDescription, Models, RobotConfiguration, World};
 use view::watch::live::{History, Origin};
 use view::watch::recording::{RecordingError, read_recording};
 
@@ -221,6 +221,9 @@ static PR2: LazyLock<Pr2> = LazyLock::new(|| {
     Pr2 { tree, description }
 });
 
+static KITCHEN: LazyLock<KinematicTree> =
+    LazyLock::new(|| KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf").unwrap());
+
 /// Reads a kitchen, and now and then builds a world with it and lets it take some steps.
 fn urdf() -> Taker {
     let mut read = 0;
@@ -232,7 +235,14 @@ fn urdf() -> Taker {
         read += 1;
         if read % 100 == 0 {
             let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp").unwrap();
-            let models = Models::new(PR2.tree.clone(), PR2.description.clone(), kitchen, objects);
+            let furnishing = KitchenDescription::built_in(&kitchen).unwrap();
+            let models = Models::new(
+                PR2.tree.clone(),
+                PR2.description.clone(),
+                kitchen,
+                furnishing,
+                objects,
+            );
             let joints = models.description.start_positions(&models.robot);
             let base = spatial::Pose::identity();
             let mut world = World::new(Arc::new(models), RobotConfiguration { base, joints });
@@ -246,6 +256,7 @@ fn urdf() -> Taker {
 
 fn data() -> Taker {
     LazyLock::force(&PR2);
+    LazyLock::force(&KITCHEN);
     Box::new(|input| {
         let text = String::from_utf8_lossy(input);
         let _ = ObjectLibrary::from_sexp(&text, "objects.sexp");
@@ -266,6 +277,16 @@ fn data() -> Taker {
                 &PR2.tree,
             )),
             3 => drop(RobotDescription::from_sexp(&text, "pr2.sexp", &PR2.tree)),
+            4 => drop(KitchenDescription::from_sexp(
+                &format!("{KITCHEN_DESCRIPTION}\n{text}"),
+                "kitchen.sexp",
+                &KITCHEN,
+            )),
+            5 => drop(KitchenDescription::from_sexp(
+                &text,
+                "kitchen.sexp",
+                &KITCHEN,
+            )),
             _ => {}
         }
         Ok(())

@@ -2,8 +2,6 @@
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
-use std::thread;
-use std::time::Duration;
 
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -11,6 +9,7 @@ use serde_json::json;
 
 use super::client::{Client, connect, greeting, receive, start};
 use crate::jupyter::zmtp::encoded;
+use crate::tests::waiting::{file_to_come, wait_for_file};
 
 #[test]
 fn messages_without_the_right_signature_are_not_answered() {
@@ -68,8 +67,8 @@ fn connections_beyond_what_a_kernel_takes_are_turned_away() {
     assert!(matches!(ended, Ok(0) | Err(_)), "{ended:?}");
     drop(connections);
     // There is room again as soon as the kernel has noticed.
-    thread::sleep(Duration::from_millis(200));
-    assert_eq!(Client::new(&kernel, "b").run("(+ 1 2)").value(), Some("3"));
+    let mut late = Client::once_there_is_room(&kernel, "b");
+    assert_eq!(late.run("(+ 1 2)").value(), Some("3"));
 }
 
 #[test]
@@ -93,11 +92,14 @@ fn a_client_may_vanish_in_the_middle_of_a_cell_or_of_a_question() {
 fn nothing_is_dropped_for_a_client_that_reads_slowly() {
     let kernel = start();
     let mut slow = Client::new(&kernel, "slow");
-    let name = slow.send(
-        "(dotimes (i 300000) (format t \"line ~d of the output~%\" i))",
-        false,
+    let file = file_to_come("jupyter-slow-client");
+    let cell = format!(
+        "(dotimes (i 300000)
+           (format t \"line ~d of the output~%\" i)
+           (when (= i 100000) (close (open {file:?} :direction :output))))"
     );
-    thread::sleep(Duration::from_millis(300));
+    let name = slow.send(&cell, false);
+    wait_for_file(&file);
     let text = slow.wait(&name).text();
     let lines = text.lines().enumerate();
     for (number, line) in lines {
@@ -123,11 +125,14 @@ fn a_client_that_never_reads_is_disconnected_and_the_others_miss_nothing() {
 fn an_interrupt_ends_a_flood_that_nobody_reads() {
     let kernel = start();
     let mut client = Client::new(&kernel, "a");
-    let name = client.send(
-        "(loop (write-line (make-string 100000 :initial-element #\\x)))",
-        false,
+    let file = file_to_come("jupyter-flood");
+    let cell = format!(
+        "(loop for i from 0
+               do (write-line (make-string 100000 :initial-element #\\x))
+                  (when (= i 30) (close (open {file:?} :direction :output))))"
     );
-    thread::sleep(Duration::from_millis(200));
+    let name = client.send(&cell, false);
+    wait_for_file(&file);
     client.control("interrupt_request");
     let answer = client.wait(&name);
     assert_eq!(answer.of("error")[0]["ename"], json!("INTERRUPT"));

@@ -1,8 +1,5 @@
 //! What cells do.
 
-use std::thread;
-use std::time::Duration;
-
 use serde_json::json;
 
 use super::client::{Client, start, start_at};
@@ -86,8 +83,8 @@ fn an_interrupt_ends_a_cell_and_leaves_out_those_that_wait() {
     let first = client.send("(loop)", false);
     let second = client.send("(+ 1 2)", false);
     client.wait_for(&first, "execute_input");
-    // Time for the second request to be read, too: only what waits is left out.
-    thread::sleep(Duration::from_millis(500));
+    // Only what waits is left out.
+    client.wait_until_read();
     assert_eq!(client.control("interrupt_request"), json!({"status": "ok"}));
     let answer = client.wait(&first);
     assert_eq!(answer.of("error")[0]["ename"], json!("INTERRUPT"));

@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use crate::command::open_default;
 use crate::jupyter::zmtp::{encoded, read_frame};
 use crate::jupyter::{Author, Connection, Interrupter, Kernel, Settings, Signer};
+use crate::tests::waiting::wait_for;
 use session::dialogue::Evaluate;
 
 /// How long an answer may take.
@@ -102,17 +103,19 @@ pub(super) fn greeting(kind: &str, identity: &str) -> Vec<u8> {
 
 /// A connection that has been greeted.
 pub(super) fn connect(address: SocketAddr, kind: &str, identity: &str) -> TcpStream {
-    let mut stream = TcpStream::connect(address).expect("the kernel listens");
-    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
-    stream.set_nodelay(true).expect("no delay");
-    stream
-        .write_all(&greeting(kind, identity))
-        .expect("it is read");
+    try_to_connect(address, kind, identity).expect("the kernel has room")
+}
+
+fn try_to_connect(address: SocketAddr, kind: &str, identity: &str) -> io::Result<TcpStream> {
+    let mut stream = TcpStream::connect(address)?;
+    stream.set_read_timeout(Some(PATIENCE))?;
+    stream.set_nodelay(true)?;
+    stream.write_all(&greeting(kind, identity))?;
     let mut theirs = [0; 64];
-    stream.read_exact(&mut theirs).expect("a greeting");
-    let ready = read_frame(&mut stream, 1000).expect("a command");
+    stream.read_exact(&mut theirs)?;
+    let ready = read_frame(&mut stream, 1000)?;
     assert!(ready.is_command && ready.body.starts_with(b"\x05READY"));
-    stream
+    Ok(stream)
 }
 
 /// The frames of a message.
@@ -198,11 +201,24 @@ impl Client {
     }
 
     pub(super) fn with_key(kernel: &Running, identity: &str, key: &str) -> Client {
-        let [shell, iopub, stdin, control, _] = kernel.addresses[..] else {
+        let shell = connect(kernel.addresses[0], "DEALER", identity);
+        Client::with_shell(kernel, shell, identity, key)
+    }
+
+    /// A client, as soon as there is room for it on the shell channel.
+    pub(super) fn once_there_is_room(kernel: &Running, identity: &str) -> Client {
+        let shell = wait_for("room for a client", || {
+            try_to_connect(kernel.addresses[0], "DEALER", identity).ok()
+        });
+        Client::with_shell(kernel, shell, identity, KEY)
+    }
+
+    fn with_shell(kernel: &Running, shell: TcpStream, identity: &str, key: &str) -> Client {
+        let [_, iopub, stdin, control, _] = kernel.addresses[..] else {
             panic!("there are five channels");
         };
         let mut client = Client {
-            shell: connect(shell, "DEALER", identity),
+            shell,
             iopub: connect(iopub, "SUB", ""),
             stdin: connect(stdin, "DEALER", identity),
             control: connect(control, "DEALER", identity),
@@ -231,6 +247,19 @@ impl Client {
         let (bytes, name) = self.request("execute_request", &content);
         self.shell.write_all(&bytes).expect("it is read");
         name
+    }
+
+    /// Waits until the kernel has read all that was sent on the shell channel, and has answered
+    /// nothing.
+    pub(super) fn wait_until_read(&mut self) {
+        let ping = b"\x04\x07\x04PING\0\0";
+        self.shell.write_all(ping).expect("it is read");
+        let pong = read_frame(&mut self.shell, 1000).expect("a command");
+        assert!(
+            pong.is_command && pong.body == b"\x04PONG",
+            "{:?}",
+            pong.body
+        );
     }
 
     /// Collects what comes of a request.

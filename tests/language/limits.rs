@@ -1,10 +1,10 @@
 //! What is too much ends in a condition, and what is used up is given back.
 
 use std::sync::atomic::Ordering;
-use std::time::Duration;
 
 use proptest::prelude::*;
-use session::dialogue::{Evaluate, Event, Outcome};
+use session::dialogue::screen::INTERRUPT;
+use session::dialogue::{Evaluate, Event, Outcome, Repeat};
 use session::{Session, SessionOptions};
 
 fn session() -> Session {
@@ -49,6 +49,9 @@ fn a_list_of_a_million_elements_is_worked_on_and_freed() {
     assert_eq!(shown, "[\"(1000000 499999500000 0 T)\"]\n");
 }
 
+/// How often a form looks whether it is to end before it is interrupted.
+const LOOKS: u64 = 20;
+
 #[test]
 fn endless_loops_can_be_interrupted() {
     for endless in [
@@ -73,14 +76,12 @@ fn endless_loops_can_be_interrupted() {
         "(length (multiple-value-list (apply #'values (make-list 10000000))))",
     ] {
         let mut session = session();
-        let flag = session.interrupt_handle();
-        let watch = std::thread::spawn(move || {
-            std::thread::sleep(Duration::from_millis(50));
-            flag.store(true, Ordering::Relaxed);
-        });
+        // It is then in the middle.
+        session.interrupt_next_at(LOOKS);
         let (outcome, shown) = told(&mut session, endless);
-        watch.join().unwrap();
         assert_eq!(outcome, Outcome::Aborted, "{endless}: {shown}");
+        assert_eq!(shown, format!("{INTERRUPT} Interrupted.\n"), "{endless}");
+        assert_eq!(session.interrupted_at(), Some(LOOKS), "{endless}");
         let (outcome, shown) = told(&mut session, "(+ 1 1)");
         assert_eq!((outcome, shown.as_str()), (Outcome::Finished, "[\"2\"]\n"));
     }
@@ -98,16 +99,19 @@ fn what_has_been_written_is_seen_while_a_form_runs() {
     ] {
         let mut session = session();
         let flag = session.interrupt_handle();
-        let mut shown = String::new();
-        let outcome = session.evaluate("test", endless, &mut |event| {
-            if let Event::Output(text) = event {
+        let (mut shown, mut condition) = (String::new(), String::new());
+        let outcome = session.evaluate("test", endless, &mut |event| match event {
+            Event::Output(text) => {
                 shown.push_str(&text);
                 if shown.contains("SHOWN") {
                     flag.store(true, Ordering::Relaxed);
                 }
             }
+            Event::Aborted(abort) => condition = abort.condition,
+            _ => {}
         });
         assert_eq!(outcome, Outcome::Aborted, "{endless}");
+        assert_eq!(condition, INTERRUPT, "{endless}");
     }
 }
 
@@ -245,18 +249,21 @@ fn program() -> BoxedStrategy<String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 30, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn random_programs_never_panic_and_do_the_same_twice(form in program()) {
-        let text = format!("(let ((x '(3 1 2)) (y 2)) (catch 'c (block b (tagbody (return-from b {form}) again))))");
+    fn random_programs_never_panic_and_do_the_same_twice(forms in proptest::collection::vec(program(), 4)) {
+        let texts: Vec<String> = forms.iter().map(|form| {
+            format!("(let ((x '(3 1 2)) (y 2)) (catch 'c (block b (tagbody (return-from b {form}) again))))")
+        }).collect();
+        // To open a session takes longer than to run most programs.
         let run = || {
             let mut session = session();
-            let (_, shown) = told(&mut session, &text);
+            let shown: String = texts.iter().map(|text| told(&mut session, text).1).collect();
             prop_assert!(!shown.contains("panic"), "{}", shown);
             Ok(shown)
         };
         let first = run()?;
-        prop_assert_eq!(&first, &run()?, "{}", text);
+        prop_assert_eq!(&first, &run()?, "{:?}", texts);
     }
 }

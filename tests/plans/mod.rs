@@ -16,6 +16,7 @@ mod location_solutions;
 mod locations;
 mod noise;
 mod occasions;
+mod other_kitchens;
 mod out_of_containers;
 pub(crate) mod overlaps;
 mod packages;

@@ -2,6 +2,7 @@
 //! hints and saved transcripts.
 
 use super::talk::{BOTTLE, Talk};
+use crate::tests::waiting::wait_for;
 use crate::transcript::{Transcript, Verdict, replay};
 use session::dialogue::{Converse, Evaluate, Outcome, Repeat};
 use session::{Session, SessionOptions};
@@ -249,8 +250,8 @@ fn an_interrupt_can_be_repeated_at_the_same_step() {
 
 #[test]
 fn planning_that_is_interrupted_has_no_effect() {
+    use std::sync::Arc;
     use std::sync::atomic::Ordering;
-    use std::time::Duration;
 
     // To find the ways takes longer than to drive them, and all of it takes many seconds.
     let drive = "(with-simulated-robot
@@ -260,8 +261,12 @@ fn planning_that_is_interrupted_has_no_effect() {
           (perform (an action (type going) (target (a location (pose ?far))))))))";
     let mut talk = Talk::new();
     let flag = talk.session.interrupt_handle();
+    // A search for a way holds the flag as long as it lasts.
+    let holders = Arc::strong_count(&flag);
     let pressed = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(700));
+        wait_for("a search", || {
+            (Arc::strong_count(&flag) > holders).then_some(())
+        });
         flag.store(true, Ordering::Relaxed);
     });
     let (shown, outcome) = talk.take(drive);

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use crate::command::open_default;
 use crate::swank::{Ended, Server, ServerOptions, Stopper};
+use crate::tests::waiting::wait_for;
 
 /// How long a client waits for a message.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -55,6 +56,19 @@ impl Served {
         Client { stream, id: 0 }
     }
 
+    /// A client that has a prompt, as soon as there is room for one.
+    pub(super) fn client_once_there_is_room(&self) -> Client {
+        let mut client = wait_for("room for a client", || {
+            let mut client = self.stranger();
+            client.id = 1;
+            let request = framed("(:emacs-rex (swank:connection-info) nil t 1)");
+            client.stream.write_all(request.as_bytes()).ok()?;
+            client.receive().map(|_| client)
+        });
+        client.call("(swank-repl:create-repl nil :coding-system \"utf-8-unix\")");
+        client
+    }
+
     /// How the server ends by itself.
     pub(super) fn wait(mut self) -> Ended {
         self.thread.take().unwrap().join().unwrap()
@@ -83,7 +97,7 @@ impl Client {
     }
 
     pub(super) fn send(&mut self, message: &str) {
-        self.send_bytes(format!("{:06x}{message}", message.len()).as_bytes());
+        self.send_bytes(framed(message).as_bytes());
     }
 
     /// The next message; `None` if the connection has ended.
@@ -154,12 +168,24 @@ impl Client {
         self.request(&format!("(swank-repl:listener-eval {})", quoted(text)))
     }
 
+    /// Types a form at the prompt; returns the number of the request once it is evaluated.
+    pub(super) fn begin(&mut self, form: &str) -> u32 {
+        let id = self.type_in(&format!("(progn (princ \"begun\") {form})"));
+        self.until("(:write-string \"begun");
+        id
+    }
+
     /// What appears at the prompt: output, values, and a condition with which it was aborted.
     pub(super) fn shown(&mut self, text: &str) -> String {
         let id = self.type_in(text);
         let messages = self.answer(id);
         shown(&messages)
     }
+}
+
+/// A message with its length.
+fn framed(message: &str) -> String {
+    format!("{:06x}{message}", message.len())
 }
 
 /// A text as a string in a message.

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::client::Served;
 use crate::swank::ServerOptions;
+use crate::tests::waiting::{file_to_come, wait_for};
 
 #[test]
 fn garbage_ends_only_its_own_connection() {
@@ -95,8 +96,7 @@ fn a_client_that_leaves_leaves_nothing_running() {
     // In the middle of an evaluation that never ends, with and without output.
     for text in ["(loop)", "(loop (print 1))"] {
         let mut client = served.client();
-        client.type_in(text);
-        std::thread::sleep(Duration::from_millis(200));
+        client.begin(text);
         drop(client);
         assert_eq!(bystander.shown("(+ 1 2)"), "3\n");
     }
@@ -125,8 +125,20 @@ fn a_client_that_leaves_leaves_nothing_running() {
 fn endless_output_nobody_reads_holds_nobody_up() {
     let served = Served::start();
     let mut client = served.client();
-    client.type_in("(loop (print (make-string 1000 :initial-element #\\x)))");
-    std::thread::sleep(Duration::from_secs(1));
+    let file = file_to_come("swank-endless-output");
+    client.type_in(&format!(
+        "(with-open-file (count {file:?} :direction :output :if-exists :supersede)
+           (loop (print (make-string 1000 :initial-element #\\x))
+                 (write-char #\\x count)
+                 (finish-output count)))"
+    ));
+    // It stands still once there is no room for more.
+    let mut before = None;
+    wait_for("the output to stand still", || {
+        std::thread::sleep(Duration::from_millis(100));
+        let lines = std::fs::metadata(&file).ok()?.len();
+        (lines > 0 && before.replace(lines) == Some(lines)).then_some(())
+    });
     client.send("(:emacs-interrupt :repl-thread)");
     let messages = client.until("(:debug-activate ");
     let bytes: usize = messages.iter().map(String::len).sum();
@@ -175,6 +187,6 @@ fn more_connections_than_there_may_be_are_closed() {
     let many: Vec<_> = (0..100).map(|_| served.stranger()).collect();
     assert_eq!(first.shown("(+ 1 2)"), "3\n");
     drop(many);
-    std::thread::sleep(Duration::from_millis(300));
-    assert_eq!(served.client().shown("(+ 1 2)"), "3\n");
+    let mut late = served.client_once_there_is_room();
+    assert_eq!(late.shown("(+ 1 2)"), "3\n");
 }

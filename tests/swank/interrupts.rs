@@ -15,10 +15,10 @@ const PLAN: &str = "(pp-tut:with-simulated-robot (loop for x = 0 then (- 1 x) do
         (pp-plans::park-arms))) \
     (princ \".\")))";
 
-/// Interrupts the plan after so long; returns how long that takes. The plan is then abandoned, or
+/// Interrupts the plan at a moment so long after its beginning; returns how long that takes. The plan is then abandoned, or
 /// goes on first.
 fn interrupt_after(client: &mut Client, wait: Duration, goes_on: bool) -> Duration {
-    let id = client.type_in(PLAN);
+    let id = client.begin(PLAN);
     std::thread::sleep(wait);
     let mut took = interrupt(client);
     if goes_on {

@@ -1,7 +1,5 @@
 //! Several clients of one session.
 
-use std::time::Duration;
-
 use super::client::Served;
 
 #[test]
@@ -27,8 +25,7 @@ fn each_client_has_its_package_and_values() {
 fn names_are_known_while_another_client_evaluates() {
     let served = Served::start();
     let (mut busy, mut idle) = (served.client(), served.client());
-    busy.type_in("(loop)");
-    std::thread::sleep(Duration::from_millis(200));
+    busy.begin("(loop)");
     assert_eq!(
         idle.call("(swank:operator-arglist \"car\" \"CL-USER\")"),
         "(:ok \"(car list)\")"

@@ -2,13 +2,14 @@
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, mpsc};
 use std::thread;
 use std::time::Duration;
 
-use super::viewed::viewed;
-use session::dialogue::{Evaluate, Outcome};
+use super::viewed::{Viewed, viewed};
+use session::dialogue::screen::INTERRUPT;
+use session::dialogue::{Evaluate, Event, Outcome};
 use session::{Session, SessionOptions};
 
 /// Moves arms and torso for some simulated seconds.
@@ -180,15 +181,13 @@ fn who_says_nothing_is_left() {
 fn a_viewer_gets_the_scene_and_its_changes_and_the_result_is_the_same() {
     let mut viewed = viewed();
     assert_eq!(viewed.ask("speed max"), "204");
-    let mut stream = viewed.connect();
-    let (path, host) = (&viewed.path, &viewed.host);
-    let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
-    stream.write_all(request.as_bytes()).unwrap();
+    let mut events = viewed.events();
+    let mut all = events.until(|name, _| name == "hello");
     let reader = thread::spawn(move || {
-        let mut text = String::new();
-        stream.read_to_string(&mut text).map(|_| text)
+        all.extend(events.until(|name, _| name == "over"));
+        events.until_its_end();
+        all
     });
-    thread::sleep(Duration::from_millis(300));
     viewed.evaluate(EXERCISE);
     assert_eq!(viewed.hash(), unseen());
     let span = viewed.get("past?from=0&to=1000");
@@ -196,11 +195,12 @@ fn a_viewer_gets_the_scene_and_its_changes_and_the_result_is_the_same() {
     assert!(frames.as_array().unwrap().len() > 50);
     drop(viewed);
     // The end of the session is told, then the connection ends.
-    let text = reader.join().unwrap().unwrap();
+    let all = reader.join().unwrap();
     for event in ["hello", "nodes", "news", "pace", "frame", "over"] {
-        assert!(text.contains(&format!("event: {event}\ndata: ")), "{event}");
+        assert!(all.iter().any(|(name, _)| name == event), "{event}");
     }
-    assert!(text.contains("\"BOTTLE-1\"") && text.contains("moving-torso"));
+    let tells = |what: &str| all.iter().any(|(_, data)| data.to_string().contains(what));
+    assert!(tells("\"BOTTLE-1\"") && tells("moving-torso"));
 }
 
 /// Sends nonsense on ever new connections until it is enough.
@@ -238,24 +238,43 @@ fn stalling_and_flooding_clients_change_nothing() {
     assert_eq!(viewed.hash(), unseen());
 }
 
+impl Viewed {
+    /// Evaluates the exercise and tells when that has begun; how it ends, and the condition that
+    /// has aborted it.
+    fn evaluate_telling(&mut self, tell: &mpsc::Sender<()>) -> (Outcome, String) {
+        let mut condition = String::new();
+        let text = format!("(princ :begun) {EXERCISE}");
+        let outcome = self
+            .session
+            .evaluate("test", &text, &mut |event| match event {
+                // Nobody may wait for it any more.
+                Event::Output(text) if text.contains("BEGUN") => drop(tell.send(())),
+                Event::Aborted(abort) => condition = abort.condition,
+                _ => {}
+            });
+        (outcome, condition)
+    }
+}
+
 #[test]
 fn a_pause_ends_when_everybody_has_left() {
     let mut viewed = viewed();
-    let mut stream = viewed.connect();
-    let (path, host) = (&viewed.path, &viewed.host);
-    let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
-    stream.write_all(request.as_bytes()).unwrap();
-    thread::sleep(Duration::from_millis(200));
+    let mut events = viewed.events();
+    events.until(|name, _| name == "hello");
     assert_eq!(viewed.ask("speed max"), "204");
     assert_eq!(viewed.ask("pause"), "204");
     let is_gone = Arc::new(AtomicBool::new(false));
     let leaves = Arc::clone(&is_gone);
+    let (tell, told) = mpsc::channel();
     let viewer = thread::spawn(move || {
+        told.recv().unwrap();
+        // Were there no pause, the evaluation would soon be over.
         thread::sleep(Duration::from_millis(300));
         leaves.store(true, Ordering::Relaxed);
-        drop(stream);
+        drop(events);
     });
-    viewed.evaluate(EXERCISE);
+    let (outcome, _) = viewed.evaluate_telling(&tell);
+    assert_eq!(outcome, Outcome::Finished);
     assert!(is_gone.load(Ordering::Relaxed));
     viewer.join().unwrap();
 }
@@ -265,11 +284,15 @@ fn an_interrupt_ends_what_is_paused() {
     let mut viewed = viewed();
     assert_eq!(viewed.ask("pause"), "204");
     let interrupt = viewed.session.interrupt_handle();
+    let (tell, told) = mpsc::channel();
     let user = thread::spawn(move || {
-        thread::sleep(Duration::from_millis(300));
+        told.recv().unwrap();
+        // If it comes before the pause, the same is to happen.
+        thread::sleep(Duration::from_millis(50));
         interrupt.store(true, Ordering::Relaxed);
     });
-    let outcome = viewed.session.evaluate("test", EXERCISE, &mut |_| {});
+    let (outcome, condition) = viewed.evaluate_telling(&tell);
     assert_eq!(outcome, Outcome::Aborted);
+    assert_eq!(condition, INTERRUPT);
     user.join().unwrap();
 }

@@ -100,12 +100,20 @@ impl Viewed {
 }
 
 /// A stream of events.
+#[derive(Debug)]
 pub(super) struct Events {
     stream: TcpStream,
     bytes: Vec<u8>,
 }
 
 impl Events {
+    /// Reads until the server ends the connection.
+    pub(super) fn until_its_end(mut self) {
+        let timeout = Some(Duration::from_secs(60));
+        self.stream.set_read_timeout(timeout).unwrap();
+        self.stream.read_to_end(&mut self.bytes).unwrap();
+    }
+
     /// Everything up to the first event of which the predicate is true: names and data.
     pub(super) fn until(&mut self, is_last: impl Fn(&str, &Value) -> bool) -> Vec<(String, Value)> {
         let begin = Instant::now();

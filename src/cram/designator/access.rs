@@ -80,10 +80,9 @@ fn desig_equal(designator: &Value, other: &Value) -> bool {
 #[builtin(_, "description other")]
 fn desig_descr_included(description: &Value, other_value: &Value) -> bool {
     let other: Vec<Value> = other_value.iter_list().collect();
-    let included = description
+    description
         .iter_list()
-        .all(|p| other.iter().any(|q| lisp::value::equality::equal(&p, q)));
-    included
+        .all(|p| other.iter().any(|q| lisp::value::equality::equal(&p, q)))
 }
 
 /// Does the designator refer to something known by effect, such as a perceived object?

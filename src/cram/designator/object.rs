@@ -68,18 +68,18 @@ fn object_data<'a>(image: &mut Image, argument: &'a Value) -> Result<&'a ObjectD
 
 /// A designator of a perceived object: type, name and poses, and the other properties of the query.
 /// `name` is the name given when the object was spawned, `kind` the keyword of its type; the poses
-/// are in the frames "base_footprint" and "map". It is not equated with the query.
+/// are in the frame `base`, that of the robot's base, and in the map. It is not equated with the query.
 pub fn perceived(
     image: &mut Image,
     query: &Value,
     name: Value,
     kind: Value,
+    base: &str,
     pose_in_base: &Pose,
     pose_in_map: &Pose,
 ) -> Value {
     let frame = names::name_text(image, &name).unwrap_or_default();
     let frame = names::rosify(&frame);
-    let base = "base_footprint";
     let pose = pose_stamped(base, pose_in_base);
     let poses = [
         ("POSE", pose.clone()),

@@ -38,16 +38,6 @@ const CLASSES: &[(Sym, &str, Sym, bool)] = &[
     ),
 ];
 
-/// Variables that contain names of frames.
-const FRAMES: &[(&str, &str)] = &[
-    ("*FIXED-FRAME*", "map"),
-    ("*ODOM-FRAME*", "odom_combined"),
-    ("*ROBOT-BASE-FRAME*", "base_footprint"),
-    ("*ROBOT-TORSO-FRAME*", "torso_lift_link"),
-    ("*ROBOT-LEFT-TOOL-FRAME*", "l_gripper_tool_frame"),
-    ("*ROBOT-RIGHT-TOOL-FRAME*", "r_gripper_tool_frame"),
-];
-
 /// Defines the packages, classes, variables and functions.
 pub fn install(image: &mut Image) {
     let plain = ensure(image, "CL-TRANSFORMS", &[]);
@@ -101,10 +91,9 @@ pub fn install(image: &mut Image) {
             image.packages.export(&mut image.symbols, stamped, sym);
         }
     }
-    for (name, frame) in FRAMES {
-        let sym = image.export_symbol(cram, name);
-        image.define_special(sym, Value::string(*frame));
-    }
+    // What the robot calls its frames is known where there is a robot.
+    let fixed = image.export_symbol(cram, "*FIXED-FRAME*");
+    image.define_special(fixed, Value::string("map"));
 }
 
 #[cfg(test)]

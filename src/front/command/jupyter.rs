@@ -177,6 +177,7 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     }
     let files = [
         ("world", &options.world),
+        ("world-description", &options.world_description),
         ("robot", &options.robot),
         ("robot-description", &options.robot_description),
     ];

@@ -33,6 +33,10 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         robot: options.robot.as_deref().map(read).transpose()?,
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: options.world.as_deref().map(read).transpose()?,
+        world_description: world_description(options)
+            .as_deref()
+            .map(read)
+            .transpose()?,
         noise: options.noise.clone(),
         systems: folders(&options.systems)?,
         log_level: match options.log_level {
@@ -48,6 +52,16 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     };
     set_stack_budget(COMPILER_STACK);
     Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))
+}
+
+/// The description of the kitchen's furniture: the one that is given, or else the file beside the
+/// given kitchen that is called like it.
+fn world_description(options: &Options) -> Option<PathBuf> {
+    let beside = || {
+        let file = options.world.as_ref()?.with_extension("sexp");
+        file.is_file().then_some(file)
+    };
+    options.world_description.clone().or_else(beside)
 }
 
 /// A fresh session, as with no options on the command line.

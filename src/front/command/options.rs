@@ -16,6 +16,10 @@ pub(crate) struct Options {
     /// Kitchen to load (a URDF file) instead of the built-in one
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
+    /// What the kitchen's furniture is for (in the form of world/kitchen.sexp) [default: with
+    /// --world FILE.urdf, a file FILE.sexp beside it]
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) world_description: Option<PathBuf>,
     /// Robot to load (a URDF file) instead of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot: Option<PathBuf>,

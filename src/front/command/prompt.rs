@@ -61,6 +61,7 @@ pub(super) fn open_journals(
     let beginning = Beginning {
         seed: options.seed,
         world: options.world.clone(),
+        world_description: options.world_description.clone(),
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
         noise: options.noise.clone(),
@@ -83,6 +84,10 @@ pub(super) fn open_journals(
                 options.seed != 0 && options.seed != beginning.seed,
             ),
             ("--world", differs(&options.world, &beginning.world)),
+            (
+                "--world-description",
+                differs(&options.world_description, &beginning.world_description),
+            ),
             ("--robot", differs(&options.robot, &beginning.robot)),
             (
                 "--robot-description",
@@ -103,6 +108,7 @@ pub(super) fn open_journals(
         }));
         options.seed = beginning.seed;
         options.world = beginning.world;
+        options.world_description = beginning.world_description;
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
         options.noise = beginning.noise;

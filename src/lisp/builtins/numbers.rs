@@ -370,8 +370,7 @@ fn make_random_state(image: &mut Image, state_value: Option<&Value>) -> Outcome 
 /// `(random-state-p *random-state*)` => `T`
 #[builtin]
 fn random_state_p(object: &Value) -> bool {
-    let is_state = object.as_foreign::<number::RandomState>().is_some();
-    is_state
+    object.as_foreign::<number::RandomState>().is_some()
 }
 
 fn fold(args: &[Value], start: Value, operate: fn(&Value, &Value) -> Outcome) -> Outcome {

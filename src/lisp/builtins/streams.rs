@@ -81,8 +81,7 @@ fn interactive_stream_p(stream: &Value) -> Outcome {
 /// `(open-stream-p (make-string-input-stream "x"))` => `T`
 #[builtin]
 fn open_stream_p(stream: &Rc<Stream>) -> bool {
-    let open = !matches!(&*stream.kind.borrow(), StreamKind::Closed);
-    open
+    !matches!(&*stream.kind.borrow(), StreamKind::Closed)
 }
 
 /// The type of what the stream carries.

@@ -30,8 +30,7 @@ fn symbolp(object: &Value) -> bool {
 /// `(keywordp :a)` => `T`
 #[builtin]
 fn keywordp(image: &mut Image, object: &Value) -> bool {
-    let is = object.as_symbol().is_some_and(|s| image.is_keyword(s));
-    is
+    object.as_symbol().is_some_and(|s| image.is_keyword(s))
 }
 
 /// A symbol's name.
@@ -130,8 +129,7 @@ fn gentemp(
 /// `(boundp 'pi)` => `T`
 #[builtin]
 fn boundp(image: &mut Image, symbol: Sym) -> bool {
-    let bound = !image.special(symbol).is_unbound();
-    bound
+    !image.special(symbol).is_unbound()
 }
 
 /// The value of a global variable.
@@ -188,12 +186,11 @@ fn makunbound(image: &mut Image, symbol_value: &Value) -> Outcome {
 // evaluates to itself?
 #[builtin]
 fn constantp(image: &mut Image, form: &Value, _environment: Option<&Value>) -> bool {
-    let constant = match form {
+    match form {
         Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE, ..)),
         _ => true,
-    };
-    constant
+    }
 }
 
 /// Is the object a function that is not generic? All of these are compiled.
@@ -201,8 +198,7 @@ fn constantp(image: &mut Image, form: &Value, _environment: Option<&Value>) -> b
 /// `(compiled-function-p #'car)` => `T`
 #[builtin]
 fn compiled_function_p(object: &Value) -> bool {
-    let is_compiled = matches!(object, Value::Function(f) if !matches!(f.body, Body::Generic(_)));
-    is_compiled
+    matches!(object, Value::Function(f) if !matches!(f.body, Body::Generic(_)))
 }
 
 /// A symbol, or the place name in `(setf name)`.

@@ -37,7 +37,7 @@ pub use expand::{macroexpand, macroexpand_1};
 pub(crate) use expand::{macroexpand_1_in, macroexpand_in};
 pub use operators::OPERATORS;
 pub(crate) use operators::{SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
-pub use toplevel::evaluate_each;
+pub use toplevel::Parts;
 pub(crate) use toplevel::is_executed;
 
 /// Compiles a form at top level into the code of a function without parameters.

@@ -8,30 +8,36 @@ use crate::value::code::Code;
 use crate::value::known;
 use crate::value::raise::Raise;
 
-/// Compiles a form as `eval` does, part by part, and lets each part be run before the next one is
-/// expanded.
-pub fn evaluate_each<E: From<Box<Raise>>>(
-    image: &mut Image,
-    form: &Value,
-    run: &mut dyn FnMut(&mut Image, Rc<Code>) -> Result<(), E>,
-) -> Result<(), E> {
-    let mut left = vec![form.clone()];
-    while let Some(form) = left.pop() {
-        let (form, _) = super::macroexpand(image, &form)?;
-        let rest = form.cdr_or_nil();
-        let parts = match form.car_or_nil().as_symbol() {
-            Some(known::PROGN) => rest,
-            Some(known::EVAL_WHEN) if is_executed(&rest.car_or_nil()) => rest.cdr_or_nil(),
-            _ => {
-                let code = super::compile_form(image, &form)?;
-                run(image, code)?;
-                continue;
-            }
-        };
-        let parts: Vec<Value> = parts.iter_list().collect();
-        left.extend(parts.into_iter().rev());
+/// The parts of a form that `eval` compiles one after the other. Each is to be run before the next one
+/// is asked for, since it may define what that is expanded and compiled with.
+pub struct Parts {
+    /// Forms that have not been compiled yet, the next one last.
+    left: Vec<Value>,
+}
+
+impl Parts {
+    /// The parts of a form.
+    pub fn of(form: &Value) -> Parts {
+        Parts {
+            left: vec![form.clone()],
+        }
     }
-    Ok(())
+
+    /// Expands and compiles the next part.
+    pub fn next(&mut self, image: &mut Image) -> Result<Option<Rc<Code>>, Box<Raise>> {
+        while let Some(form) = self.left.pop() {
+            let (form, _) = super::macroexpand(image, &form)?;
+            let rest = form.cdr_or_nil();
+            let parts = match form.car_or_nil().as_symbol() {
+                Some(known::PROGN) => rest,
+                Some(known::EVAL_WHEN) if is_executed(&rest.car_or_nil()) => rest.cdr_or_nil(),
+                _ => return super::compile_form(image, &form).map(Some),
+            };
+            let parts: Vec<Value> = parts.iter_list().collect();
+            self.left.extend(parts.into_iter().rev());
+        }
+        Ok(None)
+    }
 }
 
 /// Do the situations of an `eval-when` include evaluation?

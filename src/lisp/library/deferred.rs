@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use super::definition::{Definition, Kind};
 use super::standard_value;
-use crate::compile::evaluate_each;
+use crate::compile::Parts;
 use crate::evaluator::nested;
 use crate::image::Image;
 use crate::image::precompiled::{Recording, Unit};
@@ -107,10 +107,11 @@ fn evaluate_parts(image: &mut Image, definition: &'static Definition) -> Result<
     }
     let form = read(image, definition, source)?;
     let mut recording = Recording::of(source);
-    evaluate_each(image, &form, &mut |image, code| {
+    let mut parts = Parts::of(&form);
+    while let Some(code) = parts.next(image)? {
         recording.add(image, &code);
-        run(image, code)
-    })?;
+        run(image, code)?;
+    }
     recording.finish(image, file, start);
     Ok(())
 }

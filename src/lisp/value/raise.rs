@@ -28,6 +28,15 @@ pub enum Raise {
     },
 }
 
+/// A report as a sentence: with a full stop at its end, unless it ends like a sentence already.
+pub fn sentence(report: impl std::fmt::Display) -> String {
+    let mut text = report.to_string();
+    if !text.ends_with(['.', '?', '!']) {
+        text.push('.');
+    }
+    text
+}
+
 impl Raise {
     /// A condition of a class with a report.
     pub fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
@@ -69,6 +78,11 @@ impl Raise {
             condition,
             place: Place::NONE,
         })
+    }
+
+    /// A `SIMPLE-ERROR` that reports an error, as a sentence.
+    pub fn reporting(error: impl std::fmt::Display) -> Box<Raise> {
+        Raise::simple(sentence(error))
     }
 
     /// A `SIMPLE-ERROR` with a text.

@@ -30,7 +30,7 @@ pub struct UnknownFurniture {
 fn hint(closest: Option<&str>) -> String {
     match closest {
         Some(name) => format!("; did you mean {}?", name.replace('_', "-")),
-        None => "; (list-surfaces) and (list-containers) tell the names.".to_owned(),
+        None => "; (list-surfaces) and (list-containers) tell the names".to_owned(),
     }
 }
 
@@ -40,10 +40,15 @@ pub fn link_named(models: &Models, name: &str) -> Result<LinkId, UnknownFurnitur
     let kitchen = &models.kitchen;
     let links = || kitchen.links().filter(|(_, l)| !l.collisions.is_empty());
     let found = links().find(|(_, link)| link.name.to_lowercase() == wanted);
-    found.map(|(id, _)| id).ok_or_else(|| UnknownFurniture {
-        name: name.to_owned(),
-        closest: closest_name(&wanted, links().map(|(_, l)| l.name.as_str())).map(str::to_owned),
-    })
+    let alias = || kitchen.link_named(&wanted);
+    found
+        .map(|(id, _)| id)
+        .or_else(alias)
+        .ok_or_else(|| UnknownFurniture {
+            name: name.to_owned(),
+            closest: closest_name(&wanted, links().map(|(_, l)| l.name.as_str()))
+                .map(str::to_owned),
+        })
 }
 
 /// The furniture on which things can be put, in the order of the kitchen, with the box around each.

@@ -6,7 +6,8 @@
 //! uses this description and never names a link itself.
 
 use super::{
-    ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId, Side,
+    Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
+    Side,
 };
 use nalgebra::{Translation3, UnitQuaternion};
 use spatial::{Pose, trig};
@@ -31,6 +32,8 @@ pub struct Base {
     pub drive: Speed,
     /// About the vertical axis (rad).
     pub turn: Speed,
+    /// The frame in which the base measures its way, if it has a name; here it is the map.
+    pub odometry: Option<String>,
 }
 
 /// The torso lift.
@@ -216,6 +219,8 @@ pub struct RobotDescription {
     pub(crate) wheels: Vec<LinkId>,
     /// Joints that could move but never do.
     pub(crate) idle_joints: Vec<JointId>,
+    /// Names by which users call links and joints, besides those in the URDF.
+    pub aliases: Vec<Alias>,
     /// Greatest velocity and acceleration of each joint, at its index.
     pub(super) speeds: Vec<Speed>,
 }

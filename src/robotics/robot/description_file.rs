@@ -3,7 +3,10 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 use super::description::{Arm, Base, Camera, Gripper, Neck, RobotDescription, Speed, Torso};
-use super::{ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits, LinkId, Side};
+use super::{
+    Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
+    LinkId, Side,
+};
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use closest_name::closest_name;
 
@@ -19,6 +22,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "drive-acceleration",
             "turn-velocity",
             "turn-acceleration",
+            "odometry",
         ],
     ),
     ("torso", &["link", "joint", "start"]),
@@ -69,6 +73,7 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("touching", &[]),
     ("wheels", &[]),
     ("idle-joints", &[]),
+    ("alias", &[]),
 ];
 
 /// Greatest force (N) of fingers whose description does not give it: little, so that nothing is
@@ -120,6 +125,7 @@ impl<'a> Reader<'a> {
             touching: self.groups("touching")?,
             wheels: self.groups("wheels")?.concat(),
             idle_joints: self.idle_joints()?,
+            aliases: aliases(self.tree, self.all("alias"))?,
             speeds: self.speeds()?,
         })
     }
@@ -204,6 +210,10 @@ impl<'a> Reader<'a> {
             body: self.link(record.required("body")?)?,
             drive: speed(record, "drive-velocity", "drive-acceleration")?,
             turn: speed(record, "turn-velocity", "turn-acceleration")?,
+            odometry: record
+                .optional("odometry")
+                .map(|node| node.symbol().map(str::to_owned))
+                .transpose()?,
         };
         if base.frame != self.tree.root() {
             let root = &self.tree.link(self.tree.root()).name;
@@ -372,6 +382,41 @@ impl<'a> Reader<'a> {
         }
         Ok(speeds)
     }
+}
+
+/// The aliases that records `(alias NAME LINK-OR-JOINT)` give to links and joints of a tree.
+pub(crate) fn aliases<'a>(
+    tree: &KinematicTree,
+    records: impl Iterator<Item = &'a Record<'a>>,
+) -> Result<Vec<Alias>, DataError> {
+    let mut aliases: Vec<Alias> = Vec::new();
+    for record in records {
+        let [name_node, part_node] = record.things() else {
+            return Err(record.node().expected("(alias NAME LINK-OR-JOINT)"));
+        };
+        let (name, part) = (name_node.symbol()?, part_node.symbol()?);
+        let is_alias = aliases.iter().any(|alias| alias.name == name);
+        if is_alias || tree.link_named(name).is_some() || tree.joint_named(name).is_some() {
+            return Err(name_node.error(DataProblem::Repeated(format!("the name {name}"))));
+        }
+        let link = tree.link_named(part).map(AliasedPart::Link);
+        let part = link.or_else(|| tree.joint_named(part).map(AliasedPart::Joint));
+        let part = part.ok_or_else(|| {
+            let links = tree.links().map(|(_, link)| link.name.as_str());
+            let joints = tree.joints().map(|(_, joint)| joint.name.as_str());
+            let wanted = part_node.symbol().unwrap_or_default();
+            part_node.unknown(
+                "link or joint",
+                wanted,
+                closest_name(wanted, links.chain(joints)),
+            )
+        })?;
+        aliases.push(Alias {
+            name: name.to_owned(),
+            part,
+        });
+    }
+    Ok(aliases)
 }
 
 fn optional_positive(record: &Record<'_>, key: &str) -> Result<Option<f64>, DataError> {

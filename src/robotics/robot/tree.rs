@@ -169,6 +169,26 @@ pub struct KinematicTree {
     root: LinkId,
     /// All joints, each after the joint that carries its parent link.
     order: Vec<Placement>,
+    /// Names in use for links and joints besides their own.
+    aliases: Vec<Alias>,
+}
+
+/// Another name of a link or a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alias {
+    /// The name in use.
+    pub name: String,
+    /// What it stands for.
+    pub part: AliasedPart,
+}
+
+/// What an alias stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AliasedPart {
+    /// A link.
+    Link(LinkId),
+    /// A joint.
+    Joint(JointId),
 }
 
 /// What places a link: a few words for each, since all are looked at again and again.
@@ -219,14 +239,32 @@ impl KinematicTree {
         &self.joints[id.0]
     }
 
-    /// The link with that name.
+    /// The link with that name, or with that alias.
     pub fn link_named(&self, name: &str) -> Option<LinkId> {
-        self.links.iter().position(|l| l.name == name).map(LinkId)
+        let own = self.links.iter().position(|l| l.name == name).map(LinkId);
+        own.or_else(|| match self.alias(name)? {
+            AliasedPart::Link(link) => Some(link),
+            AliasedPart::Joint(_) => None,
+        })
     }
 
-    /// The joint with that name.
+    /// The joint with that name, or with that alias.
     pub fn joint_named(&self, name: &str) -> Option<JointId> {
-        self.joints.iter().position(|j| j.name == name).map(JointId)
+        let own = self.joints.iter().position(|j| j.name == name).map(JointId);
+        own.or_else(|| match self.alias(name)? {
+            AliasedPart::Joint(joint) => Some(joint),
+            AliasedPart::Link(_) => None,
+        })
+    }
+
+    fn alias(&self, name: &str) -> Option<AliasedPart> {
+        let found = self.aliases.iter().find(|alias| alias.name == name);
+        found.map(|alias| alias.part)
+    }
+
+    /// Lets links and joints of this tree be found by other names, too.
+    pub(crate) fn set_aliases(&mut self, aliases: Vec<Alias>) {
+        self.aliases = aliases;
     }
 
     /// The joints from the link up to the root, nearest first.
@@ -334,6 +372,7 @@ impl KinematicTree {
             joints: Vec::with_capacity(joints.len()),
             root: LinkId(root),
             order: Vec::with_capacity(joints.len()),
+            aliases: Vec::new(),
         };
         for (i, part) in joints.iter().enumerate() {
             let mimic = follow(&joints, i)?;

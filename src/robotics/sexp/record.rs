@@ -92,6 +92,11 @@ impl<'a> Record<'a> {
         }
     }
 
+    /// The keys and their values, in order.
+    pub fn fields(&self) -> &[(&'a str, Node<'a>)] {
+        &self.fields
+    }
+
     /// The value of an optional key.
     pub fn optional(&self, key: &str) -> Option<Node<'a>> {
         let field = self.fields.iter().find(|(k, _)| *k == key);

@@ -2,6 +2,7 @@
 //! description and the kinds of objects, with the geometry prepared for queries.
 
 use super::body_name::BodyName;
+use super::kitchen_description::KitchenDescription;
 use super::link_geometry::TreeGeometry;
 use super::link_pairs::LinkPairs;
 use super::map_area::MapArea;
@@ -11,7 +12,7 @@ use super::physics::Surface;
 use crate::robot::description::Arm;
 use crate::robot::{KinematicTree, LinkId, RobotDescription, Side, UrdfError};
 use crate::sexp::DataError;
-use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
+use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
 
 /// The models that worlds are built from; shared by a world and its copies.
@@ -22,6 +23,8 @@ pub struct Models {
     pub description: RobotDescription,
     /// The furniture.
     pub kitchen: KinematicTree,
+    /// What the furniture is for.
+    pub kitchen_description: KitchenDescription,
     /// The kinds of objects that can be spawned.
     pub objects: ObjectLibrary,
     pub(crate) robot_geometry: TreeGeometry,
@@ -66,17 +69,22 @@ impl Models {
         let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
         let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
         let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf")?;
+        let furnishing =
+            KitchenDescription::from_sexp(KITCHEN_DESCRIPTION, "kitchen.sexp", &kitchen)?;
         let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")?;
-        Ok(Self::new(robot, description, kitchen, objects))
+        Ok(Self::new(robot, description, kitchen, furnishing, objects))
     }
 
-    /// Prepares the models; the description must belong to that robot.
+    /// Prepares the models; the descriptions must belong to that robot and that kitchen.
     pub fn new(
-        robot: KinematicTree,
+        mut robot: KinematicTree,
         description: RobotDescription,
-        kitchen: KinematicTree,
+        mut kitchen: KinematicTree,
+        kitchen_description: KitchenDescription,
         objects: ObjectLibrary,
     ) -> Self {
+        robot.set_aliases(description.aliases.clone());
+        kitchen.set_aliases(kitchen_description.aliases.clone());
         let idle = &description.idle_joints;
         let robot_geometry = TreeGeometry::new(&robot, |joint| idle.contains(&joint));
         let kitchen_geometry = TreeGeometry::new(&kitchen, |_| false);
@@ -130,6 +138,7 @@ impl Models {
             robot,
             description,
             kitchen,
+            kitchen_description,
             objects,
             robot_geometry,
             kitchen_geometry,

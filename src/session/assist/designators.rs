@@ -149,7 +149,10 @@ impl Assistant<'_> {
                 .map(|direction| candidate(direction, "where to look"))
                 .to_vec(),
             ("urdf-name", Class::Object) => self.furniture_names(),
-            ("part-of", Class::Object) => vec![candidate("kitchen", "the furniture")],
+            ("part-of", Class::Object) => {
+                let kitchen = &self.simulation.models.kitchen_description.name;
+                vec![candidate(kitchen.as_str(), "the furniture")]
+            }
             ("side", Class::Location) => Direction::ALL
                 .map(|side| candidate(side.name(), "in the frame of the furniture"))
                 .to_vec(),
@@ -163,7 +166,8 @@ impl Assistant<'_> {
                 vec![candidate("table-setting", "slots along the edges")]
             }
             ("reachable-for" | "visible-for", Class::Location) => {
-                vec![candidate("pr2", "the robot")]
+                let robot = &self.simulation.models.description.name;
+                vec![candidate(robot.to_lowercase(), "the robot")]
             }
             (
                 "on" | "in" | "above" | "for" | "left-of" | "right-of" | "in-front-of" | "behind"

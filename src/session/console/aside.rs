@@ -1,6 +1,7 @@
 //! Evaluating forms in a stack frame of a stopped evaluation.
 
-use super::{Cause, Session};
+use super::evaluator::Evaluator;
+use super::stopped::Cause;
 use crate::dialogue::{Event, Outcome};
 use crate::printing;
 use lisp::compile;
@@ -24,7 +25,7 @@ pub(super) struct InFrame {
     pub(super) link: usize,
 }
 
-impl Session {
+impl Evaluator {
     /// Evaluates forms in the selected frame, up to the first that does not return.
     pub(super) fn evaluate_aside(
         &mut self,

@@ -3,14 +3,13 @@
 //! The plan stands in the middle of something, so that nothing can run on top of it: forms are
 //! evaluated beside it, without any time passing.
 
-use crate::printing;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use super::Session;
 use super::aside::InFrame;
+use super::evaluator::{Evaluator, interrupted};
 use crate::dialogue::{Event, Outcome};
-use crate::interrupted;
+use crate::printing;
 use cram::Evaluation;
 use lisp::evaluator::aside::Aside;
 use lisp::value::Value;
@@ -21,7 +20,7 @@ use lisp::vm::step::Step;
 /// The values of variables after an evaluation.
 type Assigned = Rc<RefCell<Vec<Value>>>;
 
-impl Session {
+impl Evaluator {
     /// Evaluates a form in the selected frame of an interrupted plan.
     pub(super) fn evaluate_form_beside(
         &mut self,

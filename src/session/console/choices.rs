@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
-use super::{Asking, Outcome, Session};
-use crate::dialogue::Event;
+use super::choice::Choice;
+use super::evaluator::Evaluator;
+use super::stopped::Asking;
+use crate::dialogue::{Event, Outcome};
 use lisp::evaluator::nested;
 use lisp::evaluator::restart::Restart;
 use lisp::image::Image;
@@ -14,37 +16,7 @@ use lisp::value::known;
 use lisp::value::package::PackageTable;
 use lisp::vm::fiber::Dynamic;
 
-/// A way to continue.
-#[derive(Clone)]
-pub(super) enum Choice {
-    /// A restart of the program.
-    Restart {
-        restart: Value,
-        /// Whether it needs a value.
-        takes_value: bool,
-    },
-    /// Unwind a frame and call a function in its place.
-    Call {
-        /// Index of the frame's fiber, and of the frame in it.
-        frame: (usize, usize),
-        function: Value,
-        args: Vec<Value>,
-        /// The motion before which the world is restored first, by number.
-        motion: Option<u64>,
-    },
-    /// Evaluate the form at top level again.
-    RetryForm,
-    /// Restore the world to before the form at top level, and evaluate that form again.
-    RewindForm,
-    /// Evaluate an edited form instead.
-    EditForm,
-    /// Return to the previous level.
-    AbortLevel,
-    /// Return to the top level.
-    Abort,
-}
-
-impl Session {
+impl Evaluator {
     /// The choices at the last level, with labels.
     pub(super) fn choices(&mut self) -> Vec<(Choice, String)> {
         let mut choices = self.restart_choices();

@@ -1,6 +1,7 @@
 //! The inspector: descending into the parts of a value, and back.
 
-use super::{Asking, Session};
+use super::evaluator::Evaluator;
+use super::stopped::Asking;
 use crate::dialogue::{Event, Outcome};
 use crate::host::parts::View;
 use lisp::value::Value;
@@ -10,7 +11,7 @@ use lisp::value::known;
 const REMARK: &str =
     "; A number inspects a part, b goes back, q leaves; * is the value being inspected.";
 
-impl Session {
+impl Evaluator {
     /// Handles an input for the inspector; `None` if it is not for the inspector, or if nothing
     /// is being inspected.
     pub(crate) fn inspector_input(
@@ -35,7 +36,7 @@ impl Session {
             "" => {}
             word => {
                 let number: usize = word.parse().ok()?;
-                let view = View::of(&mut self.host, &mut self.image, &current);
+                let view = View::of(&self.host, &mut self.image, &current);
                 match view.parts.into_iter().nth(number) {
                     Some((_, part)) if !part.is_unbound() => self.console.inspected.push(part),
                     _ => return Some(self.tell("; There is no such part.", sink)),
@@ -48,7 +49,7 @@ impl Session {
     }
 
     fn tell_inspected(&mut self, value: &Value, sink: &mut dyn FnMut(Event)) -> Outcome {
-        let view = View::of(&mut self.host, &mut self.image, value);
+        let view = View::of(&self.host, &mut self.image, value);
         let text = view.text(&self.image);
         self.tell(&format!("{text}{REMARK}"), sink)
     }

@@ -1,7 +1,7 @@
 //! Calls in the place of a frame: a value is returned from it, or it is restarted.
 
-use super::{Outcome, Session};
-use crate::dialogue::Event;
+use super::evaluator::Evaluator;
+use crate::dialogue::{Event, Outcome};
 use cram::designator::perform::Performance;
 use cram::packages;
 use lisp::image::Image;
@@ -10,7 +10,7 @@ use lisp::value::function::{Body, Function};
 use lisp::value::known;
 use lisp::vm::step::Step;
 
-impl Session {
+impl Evaluator {
     /// Leaves a frame and all that it has called, and calls a function in its place.
     pub(super) fn replace_frame(
         &mut self,

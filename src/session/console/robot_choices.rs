@@ -1,9 +1,9 @@
 //! Choices that concern the robot: to repeat an action, with another grasp or arm, from
 //! another base pose, or with the world as it was before the action.
 
-use super::choices::Choice;
+use super::choice::Choice;
+use super::evaluator::Evaluator;
 use super::stack_frames::Told;
-use crate::Session;
 use crate::printing::on_one_line;
 use cram::designator::perform::Performance;
 use cram::designator::value::{Class, as_class};
@@ -25,7 +25,7 @@ struct Action {
     motions_before: u64,
 }
 
-impl Session {
+impl Evaluator {
     /// The choices for the actions being performed, with labels.
     pub(super) fn robot_choices(&mut self) -> Vec<(Choice, String)> {
         let actions = self.actions_to_retry();

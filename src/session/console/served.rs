@@ -1,11 +1,13 @@
 //! What an editor asks of stopped evaluations.
 
-use super::{Cause, Choice, Session};
+use super::choice::Choice;
+use super::evaluator::Evaluator;
+use super::stopped::Cause;
 use crate::dialogue::{Need, StackFrame, Stop};
 use lisp::print;
 use lisp::value::Value;
 
-impl Session {
+impl Evaluator {
     /// The numbers of the levels, innermost last.
     pub(crate) fn level_numbers(&self) -> Vec<u64> {
         let levels = self.console.levels.iter();

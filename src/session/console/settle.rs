@@ -1,13 +1,14 @@
 //! Handling the result of an evaluation that was continued.
 
-use crate::host::call::HostCall;
-use crate::printing;
 use std::ops::Range;
 
-use super::{Asking, Cause, Level, Suspended, choices};
-use crate::Session;
+use super::choices;
+use super::evaluator::{Evaluator, interrupted};
+use super::stopped::{Asking, Cause, Level, Suspended};
 use crate::dialogue::{Abort, Event, Outcome, Stop};
+use crate::host::call::HostCall;
 use crate::live_host::LiveHost;
+use crate::printing;
 use crate::printing::on_one_line;
 use cram::builtins::combinators::NESTED;
 use cram::{Evaluation, Scheduler};
@@ -21,7 +22,7 @@ const DEBUGGER_REMARK: &str =
 const INTERRUPT_REMARK: &str =
     "; Type a number, or a form to look around (:bt, :locals); Ctrl-C aborts.";
 
-impl Session {
+impl Evaluator {
     /// Runs the scheduler.
     pub(super) fn go_on_with(
         &mut self,
@@ -61,7 +62,7 @@ impl Session {
                 self.console.levels.push(Level {
                     number,
                     cause: Cause::Interrupt,
-                    abort: super::super::interrupted(),
+                    abort: interrupted(),
                     choices: Vec::new(),
                     outer: 0..0,
                     typed: None,

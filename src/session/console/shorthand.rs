@@ -1,6 +1,6 @@
 //! Shorthand for forms, which people type at a prompt.
 
-use super::Session;
+use super::evaluator::Evaluator;
 use crate::dialogue::screen::is_input_name;
 use lisp::value::symbol::FunctionCell;
 
@@ -8,7 +8,7 @@ use lisp::value::symbol::FunctionCell;
 const NOTHING_STOPPED: &str =
     r#"(progn (format t "; Nothing has stopped; (quit) or Ctrl-D leaves.~%") (values))"#;
 
-impl Session {
+impl Evaluator {
     /// The form that an input at a prompt is short for, whoever types it: `?name` asks for
     /// documentation, `help` and the like are calls, `_` is the last value, and the functions of
     /// package `PLANWRIGHT` can be called from every package. A variable with a value is meant as

@@ -1,7 +1,7 @@
 //! The stack frames of a stopped evaluation: the stopped task's and those of the tasks that
 //! wait for it, innermost first.
 
-use super::Session;
+use super::evaluator::Evaluator;
 use crate::dialogue::{ActionStep, Event, Outcome};
 use crate::printing;
 use crate::printing::on_one_line;
@@ -24,7 +24,7 @@ pub(super) struct Told {
 /// Internal builtins, which do not appear in users' code.
 const HIDDEN: [&str; 4] = ["SIGNAL", "DEBUGGER", "EVAL", "FUNCALL"];
 
-impl Session {
+impl Evaluator {
     /// All frames that are shown, innermost first.
     pub(super) fn frames(&self) -> Vec<Told> {
         let fibers = self.scheduler.stopped_fibers();

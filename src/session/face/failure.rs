@@ -30,7 +30,7 @@ pub enum Failure {
     Defect(String),
     /// A package, a function or an argument that cannot be; nothing has been evaluated.
     #[error("{0}")]
-    Unknown(String),
+    Invalid(String),
     /// The file cannot be read.
     #[error("cannot read {}: {reason}", path.display())]
     Unreadable {

@@ -14,16 +14,16 @@ impl Session {
     /// happens. It is called in the midst of an evaluation, which waits for it.
     pub fn on_event(&mut self, tell: impl FnMut(&PlanEvent) + 'static) -> ObserverId {
         let observer = Box::new(Observer::new(Box::new(tell)));
-        let host = &mut self.host;
+        let host = &mut self.evaluator.host;
         let added = host
             .audience
-            .add_follower(&host.simulation, &self.image, observer);
+            .add_follower(&host.simulation, &self.evaluator.image, observer);
         ObserverId(added)
     }
 
     /// Observes no more.
     pub fn remove_observer(&mut self, observer: ObserverId) {
-        self.host.audience.remove_follower(observer.0);
+        self.evaluator.host.audience.remove_follower(observer.0);
     }
 
     /// Keeps all tasks, actions and motions from now on, for

@@ -52,7 +52,7 @@ pub(super) fn value(
             make(image, Class::Object, &[("NAME", name)])
         }
         Datum::Other(text) => {
-            return Err(Failure::Unknown(format!(
+            return Err(Failure::Invalid(format!(
                 "A value that is known only as {text} cannot be an argument."
             )));
         }
@@ -65,7 +65,7 @@ fn ratio(numerator: &str, denominator: &str) -> Result<Value, Failure> {
     let ratio = parsed(numerator).zip(parsed(denominator));
     let ratio = ratio.and_then(|(numerator, denominator)| number::ratio(numerator, denominator));
     ratio.ok_or_else(|| {
-        Failure::Unknown(format!(
+        Failure::Invalid(format!(
             "{numerator}/{denominator} is no number in decimal digits."
         ))
     })

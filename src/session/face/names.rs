@@ -11,7 +11,7 @@ pub(super) fn known_symbol(image: &Image, text: &str) -> Result<Sym, Failure> {
     let found = image.packages.find_symbol(package, &name);
     found.map(|(sym, _)| sym).ok_or_else(|| {
         let package = &image.packages.get(package).name;
-        Failure::Unknown(format!("There is no symbol {name} in package {package}."))
+        Failure::Invalid(format!("There is no symbol {name} in package {package}."))
     })
 }
 
@@ -30,7 +30,7 @@ pub(super) fn package(image: &Image, name: Option<&str>) -> Result<PackageId, Fa
     let found = packages.find(name);
     let found = found.or_else(|| packages.find(&name.to_uppercase()));
     let found = found.filter(|id| !packages.is_deleted(*id));
-    found.ok_or_else(|| Failure::Unknown(format!("There is no package {name}.")))
+    found.ok_or_else(|| Failure::Invalid(format!("There is no package {name}.")))
 }
 
 /// The package and the name, in upper case.

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::{Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value};
-use super::{FramedPose, names};
+use super::{
+    Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value, names,
+};
+use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};
-use crate::halting::end_of;
-use crate::{Ended, Session, defect, recovery};
+use crate::{Session, defect};
 use lisp::reader::Reader;
 use lisp::value::Value;
 use lisp::value::known;
@@ -42,7 +43,7 @@ impl Within<'_> {
     /// As [`Session::call`].
     pub fn call(&mut self, function: &str, arguments: &[Datum]) -> Result<Vec<Datum>, Failure> {
         let session = &mut *self.session;
-        let function = names::known_symbol(&session.image, function)?;
+        let function = names::known_symbol(&session.evaluator.image, function)?;
         let mut form = vec![Value::from(function)];
         for argument in arguments {
             let value = session.value_of(argument)?;
@@ -89,15 +90,15 @@ impl Session {
     /// The value of a variable, `package:name` or a name that the current package knows; `None` if it
     /// has none.
     pub fn get(&self, variable: &str) -> Option<Datum> {
-        let sym = names::known_symbol(&self.image, variable).ok()?;
-        let value = self.image.special(sym);
-        (!value.is_unbound()).then(|| from_value::datum(&self.image, value))
+        let sym = names::known_symbol(&self.evaluator.image, variable).ok()?;
+        let value = self.evaluator.image.special(sym);
+        (!value.is_unbound()).then(|| from_value::datum(&self.evaluator.image, value))
     }
 
     /// Sets the value of a variable, as `set` does: one that the program has not defined is a
     /// special variable from then on, a constant is an error.
     pub fn set(&mut self, variable: &str, value: &Datum) -> Result<(), Failure> {
-        let sym = names::symbol(&mut self.image, variable)?;
+        let sym = names::symbol(&mut self.evaluator.image, variable)?;
         let value = self.value_of(value)?;
         let [variable, value] =
             [sym.into(), value].map(|part| Value::list([known::QUOTE.into(), part]));
@@ -110,17 +111,15 @@ impl Session {
 
     /// Interrupts what this session evaluates, from any thread.
     pub fn interrupter(&self) -> InterruptHandle {
-        self.host.bounds.handle()
-    }
-
-    /// The pose in the map frame of a pose in any frame; `None` if there is no such frame.
-    pub fn in_map(&self, placed: &FramedPose) -> Option<spatial::Pose> {
-        let frame = self.simulation().frame_in_map(&self.image, &placed.frame);
-        frame.ok().map(|frame| frame * placed.pose)
+        self.evaluator.host.bounds.handle()
     }
 
     fn value_of(&mut self, datum: &Datum) -> Result<Value, Failure> {
-        into_value::value(&mut self.image, &self.host.simulation, datum)
+        into_value::value(
+            &mut self.evaluator.image,
+            &self.evaluator.host.simulation,
+            datum,
+        )
     }
 
     /// Evaluates something within limits.
@@ -129,13 +128,13 @@ impl Session {
         limits: &Limits,
         work: impl FnOnce(&mut Session, &mut dyn FnMut(Event)) -> (Outcome, Vec<Value>),
     ) -> Result<Vec<Datum>, Failure> {
-        self.host.person.quit = None;
-        self.failed_with = None;
-        let polls = self.image.polls();
+        self.evaluator.host.person.quit = None;
+        self.evaluator.failed_with = None;
+        let polls = self.evaluator.image.polls();
         polls.begin(limits.looks);
         polls.set_again(limits.looks.map(|looks| (looks / CLEANING).max(1)));
-        let flag = self.image.interrupt();
-        self.host.begin_bounds(limits, flag);
+        let flag = self.evaluator.image.interrupt();
+        self.evaluator.host.begin_bounds(limits, flag);
         let (mut aborted, mut halt) = (None, None);
         let mut sink = |event| {
             halt = end_of(&event).or(halt.take());
@@ -145,19 +144,19 @@ impl Session {
         };
         let (outcome, values) = match defect::caught(|| {
             let (outcome, values) = work(self, &mut sink);
-            (outcome, from_value::data(&self.image, &values))
+            (outcome, from_value::data(&self.evaluator.image, &values))
         }) {
             Ok(done) => done,
-            Err(defect) => (self.recover(&defect, &mut sink), Vec::new()),
+            Err(defect) => (self.evaluator.recover(&defect, &mut sink), Vec::new()),
         };
-        let reached = self.host.bounds.end();
-        let polls = self.image.polls();
+        let reached = self.evaluator.host.bounds.end();
+        let polls = self.evaluator.image.polls();
         let has_looked = limits.looks.is_some() && polls.seen_at() == limits.looks;
         let reached = reached.or(has_looked.then_some(Limit::Looks));
         polls.set_again(None);
         polls.begin(None);
-        self.tell_halt(false, halt);
-        let condition = self.failed_with.take();
+        self.evaluator.tell_halt(false, halt);
+        let condition = self.evaluator.failed_with.take();
         match (outcome, aborted) {
             (Outcome::Quit(status), _) => Err(Failure::Quit(status)),
             (Outcome::Finished, _) => Ok(values),
@@ -166,7 +165,7 @@ impl Session {
                 INTERRUPT => reached.map_or(Failure::Interrupted, Failure::LimitReached),
                 recovery::CONDITION => Failure::Defect(abort.report),
                 _ => Failure::Unhandled(Box::new(Unhandled::of(
-                    &self.image,
+                    &self.evaluator.image,
                     abort,
                     condition.as_ref(),
                 ))),
@@ -181,11 +180,11 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> (Outcome, Vec<Value>) {
-        let source = self.image.sources.add(source_name, text);
-        let mut rest = Reader::new(&self.image, source);
+        let source = self.evaluator.image.sources.add(source_name, text);
+        let mut rest = Reader::new(&self.evaluator.image, source);
         let mut last = Vec::new();
         loop {
-            match self.read_form(&mut rest) {
+            match self.evaluator.read_form(&mut rest) {
                 Ok(Some(form)) => match self.evaluate_one(&form, sink) {
                     (Outcome::Finished, values) => last = values,
                     ended => return ended,
@@ -201,7 +200,7 @@ impl Session {
 
     /// Evaluates a form.
     fn evaluate_one(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> (Outcome, Vec<Value>) {
-        let values = match self.evaluate_form(form, sink) {
+        let values = match self.evaluator.evaluate_form(form, sink) {
             Ended::Values(values) => values,
             Ended::Aborted(abort) => {
                 sink(Event::Aborted(abort));
@@ -209,11 +208,11 @@ impl Session {
             }
             // Only in a session with a prompt.
             Ended::Stopped(_) => {
-                self.abort(sink);
+                self.evaluator.abort(sink);
                 return (Outcome::Stopped, Vec::new());
             }
         };
-        match self.host.person.quit {
+        match self.evaluator.host.person.quit {
             Some(status) => (Outcome::Quit(status), Vec::new()),
             None => (Outcome::Finished, values),
         }

@@ -40,17 +40,17 @@ impl Session {
     /// The present state of the world.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
-            state: person::Snapshot::take(&self.host.simulation),
-            session: Rc::clone(&self.objects),
+            state: person::Snapshot::take(&self.evaluator.host.simulation),
+            session: Rc::clone(&self.evaluator.objects),
         }
     }
 
     /// Takes the world to an earlier state, from which it then goes on as it did then.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), RestoreError> {
-        if !Rc::ptr_eq(&snapshot.session, &self.objects) {
+        if !Rc::ptr_eq(&snapshot.session, &self.evaluator.objects) {
             return Err(RestoreError::OtherSession);
         }
-        let host = &mut self.host;
+        let host = &mut self.evaluator.host;
         let snapshots = &mut host.person.snapshots;
         snapshots
             .go_to(&mut host.simulation, &snapshot.state)

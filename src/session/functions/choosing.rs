@@ -6,7 +6,6 @@ use crate::simulation::grasp_choice::PlacingTarget;
 use crate::simulation::motions::{side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
 use cram::Reply;
-use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
 use lisp::print;
@@ -106,7 +105,7 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         choice.poses.lift,
         choice.poses.second_lift,
     ];
-    let poses = poses.map(|pose| pose_stamped("base_footprint", &pose));
+    let poses = poses.map(|pose| simulation.in_base(&pose));
     done(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, &choice.grasp),

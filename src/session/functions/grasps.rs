@@ -146,7 +146,7 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
             simulation
                 .grasps
                 .change(|known| known.define(&kind, *arm, &grasp, definition.clone()))
-                .map_err(|error| Raise::simple(format!("{error}.")))?;
+                .map_err(Raise::reporting)?;
         }
     }
     done(args[2].clone())

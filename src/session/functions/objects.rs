@@ -175,7 +175,7 @@ impl Simulation {
 const SPAWN_TAGS: &str = "(BTR-UTILS SPAWN-OBJECT)";
 
 fn world_error(error: WorldError) -> Box<Raise> {
-    Raise::simple(format!("{error}."))
+    Raise::reporting(error)
 }
 
 /// A colour: a list of red, green, blue and optionally alpha, in 0..1.

@@ -207,7 +207,7 @@ fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3
         Value::Symbol(..) => {
             let name = simulation.object_named(image, value)?;
             let pose = simulation.world.object_pose(&name);
-            origin(&pose.map_err(|error| Raise::simple(format!("{error}.")))?)
+            origin(&pose.map_err(Raise::reporting)?)
         }
         _ if as_vector(value).is_some() || is_list_of_numbers(value) => {
             Point3::from(argument::vector(image, value)?.0)

@@ -91,7 +91,7 @@ fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
     let vertical_fov = request.field_of_view(image)?;
     let (picture, obstruction) = simulation
         .judged_picture(view, vertical_fov, width, height)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     if let Some(obstruction) = obstruction {
         image.output.fresh_line();
         let warning = format!("Warning: {obstruction}; choose another :from.\n");
@@ -144,7 +144,7 @@ fn map_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
         scene.add_location_map(map);
     }
     let camera = View::Map.camera(&simulation.world, width, height);
-    let camera = camera.map_err(|error| Raise::simple(format!("{error}.")))?;
+    let camera = camera.map_err(Raise::reporting)?;
     let mut picture = render(&scene, &camera);
     add_legend(&mut picture);
     publish(

@@ -6,18 +6,18 @@ use nalgebra::Translation3;
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
-use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::imagined::Imagined;
-use crate::simulation::motions::{side, side_keyword};
-use crate::simulation::names::{name_text, suggestion, type_keyword, type_text, type_text_of};
+use crate::simulation::motions::side;
+use crate::simulation::names::{suggestion, type_keyword, type_text, type_text_of};
 use cram::Reply;
-use cram::pose::value::{as_placement, frame_of, pose_stamped};
+use cram::pose::value::{as_placement, frame_of};
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
+use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::motion::{
@@ -102,32 +102,46 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(detach_object),
     ),
     control(
-        "OBJECT-TO-PLACE",
-        "object arm",
-        "The name of the object to be placed, and the arm that holds it.",
+        "TAKEN-FROM",
+        "name",
+        "Where an object was when a hand took it, in the frame of the robot's base; NIL if no hand holds it.",
         &[],
-        host!(object_to_place),
+        host!(taken_from),
     ),
     control(
-        "PLACING-TARGET",
-        "object target name",
-        "The pose where an object is to be placed: the target; else where the described object was detected; else where that of the name was when a hand took it.",
+        "PERCEIVED-POSE",
+        "object",
+        "Where an object was detected, in the frame of the robot's base.",
         &[],
-        host!(placing_target),
+        host!(perceived_pose),
     ),
     control(
-        "PUTTING-POSES",
+        "PUTTING-HEADINGS",
+        "name arm",
+        "The headings (rad, relative to the one of its target) at which a held object may be put down, the nearest first: several if it is round.",
+        &[],
+        host!(putting_headings),
+    ),
+    control(
+        "FREE-HEADING",
         "name arm target",
-        "Poses of the hand for placing: lift, grasp, second pregrasp, pregrasp.",
+        "A heading (rad) at which a held object can be put down at a pose, and the hand can open and retract without touching anything else; NIL if there is none.",
         &[],
-        host!(putting_poses),
+        host!(free_heading),
     ),
     control(
-        "RAISE-POSE",
-        "pose height",
-        "The pose raised by an offset (m).",
+        "PUTTING-POSES-AT",
+        "name arm target heading",
+        "Poses of the hand for placing at a heading (rad): lift, grasp, second pregrasp, pregrasp.",
         &[],
-        host!(raise_pose),
+        host!(putting_poses_at),
+    ),
+    control(
+        "POSES-REACHABLE-P",
+        "arm poses",
+        "Can a hand be brought to all poses, which are in the frame of the robot's base, by some height of the torso?",
+        &[],
+        host!(poses_reachable),
     ),
 ];
 
@@ -293,10 +307,6 @@ impl Simulation {
     }
 }
 
-fn in_base(pose: &Pose) -> Value {
-    pose_stamped("base_footprint", pose)
-}
-
 fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let side = side(image, &args[0])?;
     let name = type_text(image, &args[1]).unwrap_or_default();
@@ -355,10 +365,10 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let axes = &simulation.models.description.arm(side).tool_axes;
     let poses = definition
         .tool_poses(&object.in_base, axes)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     let base = simulation.base();
     let overhead = Overhead::of(&simulation.world, &object.name, &(base * object.in_base))
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     let poses = overhead.picking(&base, poses);
     done(Value::list(
         [
@@ -368,7 +378,7 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
             poses.lift,
             poses.second_lift,
         ]
-        .map(|pose| in_base(&pose)),
+        .map(|pose| simulation.in_base(&pose)),
     ))
 }
 
@@ -434,118 +444,75 @@ fn detach_object(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
     )))
 }
 
-fn object_to_place(
+fn taken_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let held = simulation.held.get(&name);
+    done(held.map_or(Value::NIL, |held| {
+        simulation.in_base(&(simulation.base().inverse() * held.taken_from))
+    }))
+}
+
+fn perceived_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    done(simulation.in_base(&object.in_base))
+}
+
+/// How the hand of the second argument holds the object of the first.
+fn grip(simulation: &Simulation, image: &Image, args: &[Value]) -> Result<HeldGrip> {
+    let name = simulation.object_named(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let grip = simulation.grip_on(&name, side);
+    grip.map_err(Raise::reporting)
+}
+
+/// A pose in the frame of the base.
+fn pose_in_base(simulation: &Simulation, image: &Image, pose: &Value) -> Result<Pose> {
+    match frame_of(pose) {
+        Some(frame) if simulation.is_base(&frame) => simulation.pose_as_given(image, pose),
+        _ => Ok(simulation.base().inverse() * simulation.pose_in_map(image, pose)?),
+    }
+}
+
+fn putting_headings(
     simulation: &mut Simulation,
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let object = current(&args[0]);
-    let name = property(image, &object, "NAME");
-    let name = match name {
-        Some(name) => Some(simulation.object_named(image, &name)?),
-        None => None,
-    };
-    let wanted = match &args[1] {
-        arm if arm.is_true() => Some(side(image, arm)?),
-        _ => None,
-    };
-    let (name, side) = match (name, wanted) {
-        (Some(name), Some(side)) => {
-            if !simulation.held_by(side).contains(&name) {
-                let shown = print::to_string(image, &object, false);
-                image.output.fresh_line();
-                image.output.write(&format!(
-                    "WARNING: Wanted to place an object {shown} with arm {side}, but it's not in the arm.\n"
-                ));
-            }
-            (name, side)
-        }
-        (Some(name), None) => match simulation.hand_of(&name) {
-            Some(side) => (name, side),
-            None => return Err(Raise::simple(format!("No hand holds {name}."))),
-        },
-        (None, Some(side)) => match simulation.held_by(side).into_iter().next() {
-            Some(name) => (name, side),
-            None => return Err(Raise::simple(format!("The {side} hand holds nothing."))),
-        },
-        (None, None) => {
-            let holding = [Side::Right, Side::Left]
-                .into_iter()
-                .find_map(|s| Some((simulation.held_by(s).into_iter().next()?, s)));
-            match holding {
-                Some(found) => found,
-                None => {
-                    return Err(Raise::simple(
-                        "There is nothing to place: both hands are empty.",
-                    ));
-                }
-            }
-        }
-    };
-    let symbol = simulation.symbol_of(&name);
-    let arm = side_keyword(image, side);
-    done(Value::values(vec![symbol, arm]))
+    let headings = grip(simulation, image, args)?.headings();
+    done(Value::list(headings.into_iter().map(Value::Double)))
 }
 
-fn placing_target(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    if args[1].is_true() {
-        return done(Simulation::location_pose(image, &args[1])?);
-    }
-    let name = simulation.object_named(image, &args[2])?;
-    if args[0].is_nil()
-        && let Some(held) = simulation.held.get(&name)
-    {
-        return done(in_base(&(simulation.base().inverse() * held.taken_from)));
-    }
-    let object = simulation.perceived(image, &args[0])?;
-    done(in_base(&object.in_base))
+fn free_heading(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let target = pose_in_base(simulation, image, &args[2])?;
+    let grip = grip(simulation, image, args)?;
+    let heading = simulation.free_heading(&grip, &target);
+    done(heading.map_or(Value::NIL, Value::Double))
 }
 
-fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    let target = match frame_of(&args[2]).as_deref() {
-        Some("base_footprint") => simulation.pose_as_given(image, &args[2])?,
-        _ => simulation.base().inverse() * simulation.pose_in_map(image, &args[2])?,
-    };
-    let grip = simulation
-        .grip_on(&name, side)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
-    let headings = grip.headings();
+fn putting_poses_at(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let target = pose_in_base(simulation, image, &args[2])?;
+    let heading =
+        number::to_f64(&args[3]).ok_or_else(|| Raise::type_error(&args[3], known::REAL))?;
+    let grip = grip(simulation, image, args)?;
     let base = simulation.base();
-    let overhead = Overhead::of(&simulation.world, &name, &(base * target))
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
-    let poses_at = |heading: f64| {
-        let turned = target * about_z(heading);
-        overhead.putting(&base, grip.poses(&turned))
-    };
-    let with_poses = |heading: &f64| (*heading, poses_at(*heading));
-    // Prefer a heading at which the hand can also open and retract, ideally without touching
-    // anything; a pose that cannot be reached at any heading fails later, with a reason.
-    let reachable = |count: usize| {
-        let mut poses = headings.iter().map(with_poses);
-        poses.find(|(_, poses)| simulation.is_reachable(side, &poses[..count]))
-    };
-    let free = simulation.free_heading(&grip, &target);
-    let free = free.map(|heading| with_poses(&heading));
-    let (heading, poses) = free
-        .or_else(|| reachable(4))
-        .or_else(|| reachable(2))
-        .unwrap_or_else(|| (0.0, poses_at(0.0)));
-    if heading != 0.0 {
-        let heading = heading.to_degrees().round();
-        let text = format!("{name} is round: it is put down turned by {heading} degrees.");
-        simulation.log(image, LogLevel::Info, "(PICK-PLACE PLACE)", &text);
-    }
-    done(Value::list(poses.map(|pose| in_base(&pose))))
+    let overhead = Overhead::of(&simulation.world, &grip.object, &(base * target))
+        .map_err(Raise::reporting)?;
+    let poses = overhead.putting(&base, grip.poses(&(target * about_z(heading))));
+    done(Value::list(poses.map(|pose| simulation.in_base(&pose))))
 }
 
-fn raise_pose(_: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let (Some(placement), Some(frame)) = (as_placement(&args[0]), frame_of(&args[0])) else {
-        let shown = name_text(image, &args[0]).unwrap_or_default();
-        return Err(Raise::simple(format!("{shown} is no pose with a frame.")));
-    };
-    let height = number::to_f64(&args[1]).unwrap_or(0.0);
-    let pose = Translation3::new(0.0, 0.0, height) * placement.to_pose();
-    done(pose_stamped(&frame, &pose))
+fn poses_reachable(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    let poses = args[1].iter_list();
+    let poses = poses.map(|pose| pose_in_base(simulation, image, &pose));
+    let poses: Vec<Pose> = poses.collect::<Result<_>>()?;
+    done(simulation.is_reachable(side, &poses))
 }

@@ -66,7 +66,7 @@ fn grasp_reachable(
     let object_pose = object_pose.map(|pose| simulation.pose_in_map(image, &pose));
     let base_pose = base_pose.filter(Value::is_true);
     let base_pose = base_pose.map(|pose| simulation.pose_as_given(image, &pose));
-    let raise = |error: WorldError| Raise::simple(format!("{error}."));
+    let raise = |error: WorldError| Raise::reporting(error);
     let kind = simulation.world.object(&name).map_err(raise)?;
     let kind = kind.type_name().to_owned();
     let definition = match simulation.grasp(image, &kind, side, &args[2]) {

@@ -60,7 +60,7 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 fn world_error(error: WorldError) -> Box<Raise> {
-    Raise::simple(format!("{error}."))
+    Raise::reporting(error)
 }
 
 impl Simulation {

@@ -116,7 +116,7 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 fn world_error(error: WorldError) -> Box<Raise> {
-    Raise::simple(format!("{error}."))
+    Raise::reporting(error)
 }
 
 fn real(value: &Value) -> Result<f64> {

@@ -269,12 +269,25 @@ impl Foreign for KitchenUrdf {
     }
 }
 
-fn get_kitchen_urdf(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+fn get_kitchen_urdf(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
     let symbol = image.keyword("ROBOT");
     done(Value::foreign(KitchenUrdf {
-        name: "iai_kitchen".to_owned(),
+        name: simulation.models.kitchen_description.urdf_name.clone(),
         symbol,
     }))
+}
+
+/// The joint of the kitchen that is meant where none is named.
+fn usual_joint(simulation: &Simulation) -> Result<String> {
+    let models = &simulation.models;
+    let joint = models.kitchen_description.usual_joint;
+    let name = joint.map(|joint| models.kitchen.joint(joint).name.clone());
+    name.ok_or_else(|| {
+        Raise::simple(
+            "This kitchen has no usual joint: give a :joint-name, or say in its description, \
+             (kitchen NAME :usual-joint JOINT), which one is meant.",
+        )
+    })
 }
 
 fn move_kitchen_joint(
@@ -291,7 +304,7 @@ fn move_kitchen_joint(
     let name = match name {
         Some(Value::Str(name)) => name.text(),
         Some(other) => return Err(Raise::type_error(&other, known::STRING)),
-        None => "iai_fridge_door_joint".to_owned(),
+        None => usual_joint(simulation)?,
     };
     let angle = angle.as_ref().and_then(number::to_f64).unwrap_or(0.2);
     if simulation.models.kitchen.joint_named(&name).is_none() {
@@ -307,7 +320,7 @@ fn move_kitchen_joint(
     simulation
         .world
         .teleport_kitchen_joint(&name, angle)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     simulation.world.settle(2.0);
     done(Value::NIL)
 }
@@ -319,7 +332,7 @@ fn get_robot_transformation(
 ) -> Result<Reply> {
     done(transform_stamped(
         "map",
-        "base_footprint",
+        simulation.base_frame(),
         &simulation.base(),
     ))
 }
@@ -333,7 +346,7 @@ fn get_current_pose(
     let pose = simulation
         .world
         .object_pose(&name)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     done(pose_stamped("map", &pose))
 }
 

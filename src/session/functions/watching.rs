@@ -46,7 +46,7 @@ fn view(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<
     let address = host
         .audience
         .open_view(&host.simulation, image)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     if !was_open {
         open_in_browser(&address);
     }
@@ -68,7 +68,7 @@ fn save_view(
     } = host;
     audience
         .save_view(simulation, image, Path::new(&name.text()))
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
+        .map_err(Raise::reporting)?;
     done(args[0].clone())
 }
 
@@ -87,6 +87,6 @@ fn record(
         nothing if nothing.is_nil() => audience.end_recording(simulation),
         other => return Err(Raise::type_error(other, known::STRING)),
     };
-    told.map_err(|error| Raise::simple(format!("{error}.")))?;
+    told.map_err(Raise::reporting)?;
     done(args[0].clone())
 }

@@ -9,7 +9,7 @@ use lisp::print;
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::location::{Container, Item, Target, UnknownFurniture, container_of, link_named};
+use robotics::location::{Container, Item, Target, container_of, link_named};
 use robotics::robot::Limits;
 use spatial::pose;
 
@@ -17,12 +17,6 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Travel (m or rad) below which a part counts as fixed.
 const FIXED: f64 = 1e-6;
-
-fn unknown_furniture(unknown: &UnknownFurniture) -> Box<Raise> {
-    let text = unknown.to_string();
-    let end = if text.ends_with(['?', '.']) { "" } else { "." };
-    Raise::simple(text + end)
-}
 
 impl Simulation {
     /// The drawer or door that a value describes or names, as itself, as the furniture that it is
@@ -49,8 +43,7 @@ impl Simulation {
                 text.to_lowercase()
             )));
         }
-        let link =
-            link_named(&self.models, &text).map_err(|unknown| unknown_furniture(&unknown))?;
+        let link = link_named(&self.models, &text).map_err(Raise::reporting)?;
         let found = container_of(&self.models, link).ok_or_else(|| {
             refused(
                 "it is no drawer or door with a handle; (list-containers) tells which there are.",
@@ -73,8 +66,7 @@ impl Simulation {
         let Some(text) = name.and_then(|name| name_text(image, &name)) else {
             return Ok(false);
         };
-        let link =
-            link_named(&self.models, &text).map_err(|unknown| unknown_furniture(&unknown))?;
+        let link = link_named(&self.models, &text).map_err(Raise::reporting)?;
         Ok(container_of(&self.models, link).is_some())
     }
 

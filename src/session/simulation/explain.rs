@@ -213,12 +213,13 @@ impl Simulation {
         }
         world.teleport_robot(&robot);
         let there = point(&(self.base().inverse() * at).translation.vector);
+        let base = self.base_frame();
         match Sight::of_robot(&world).visibility(name) {
             Ok(seen) if seen.is_seen() => format!(
-                "looking at {there} of base_footprint first: {:.0} % of {name} would be in sight",
+                "looking at {there} of {base} first: {:.0} % of {name} would be in sight",
                 seen.fraction() * 100.0
             ),
-            Ok(seen) => format!("not looking at {there} of base_footprint: even then, {seen}"),
+            Ok(seen) => format!("not looking at {there} of {base}: even then, {seen}"),
             Err(error) => error.to_string(),
         }
     }

@@ -106,7 +106,7 @@ impl Simulation {
         imagined: &Imagined<'_>,
         grasp: &GraspDefinition,
     ) -> Result<bool, Box<Raise>> {
-        let raise = |error: WorldError| Raise::simple(format!("{error}."));
+        let raise = |error: WorldError| Raise::reporting(error);
         let Some(world) = imagined.world(&self.world).map_err(raise)? else {
             return Ok(false);
         };
@@ -114,9 +114,7 @@ impl Simulation {
         let object = base.inverse() * world.object_pose(imagined.object).map_err(raise)?;
         let side = imagined.side;
         let axes = &self.models.description.arm(side).tool_axes;
-        let poses = grasp
-            .tool_poses(&object, axes)
-            .map_err(|error| Raise::simple(format!("{error}.")))?;
+        let poses = grasp.tool_poses(&object, axes).map_err(Raise::reporting)?;
         let overhead = Overhead::of(&world, imagined.object, &(base * object)).map_err(raise)?;
         let poses = overhead.picking(&base, poses);
         // As in the plans for picking up and placing: the hand approaches without contact, and

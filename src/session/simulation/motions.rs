@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 
 use super::Simulation;
 use super::names::{name_text, type_text};
-use super::transforms::{BASE, is_map};
 use crate::log_level::LogLevel;
 use crate::simulation::properties::property;
 use cram::designator::MotionRequest;
@@ -124,9 +123,11 @@ impl Simulation {
             }
             ArgumentKind::Place => {
                 let pose = Simulation::location_pose(image, value)?;
-                Argument::Place(match frame_of(&pose).as_deref() {
-                    Some(BASE) => PoseGoal::InBase(self.pose_as_given(image, &pose)?),
-                    _ => PoseGoal::InMap(self.pose_in_map(image, &pose)?),
+                let frame = frame_of(&pose);
+                Argument::Place(if frame.is_some_and(|frame| self.is_base(&frame)) {
+                    PoseGoal::InBase(self.pose_as_given(image, &pose)?)
+                } else {
+                    PoseGoal::InMap(self.pose_in_map(image, &pose)?)
                 })
             }
             ArgumentKind::Frame => {
@@ -154,7 +155,7 @@ impl Simulation {
     fn pose_on_floor(&self, image: &mut Image, pose: &Value) -> Result<Pose> {
         let goal = self.pose_as_given(image, pose)?;
         let mut ignored = Vec::new();
-        if let Some(frame) = frame_of(pose).filter(|frame| !is_map(frame)) {
+        if let Some(frame) = frame_of(pose).filter(|frame| !self.is_map(frame)) {
             ignored.push(format!(
                 "its frame {frame:?}: the numbers count as coordinates of the map"
             ));

@@ -12,7 +12,12 @@ use robotics::motion::{DetectedObject, MotionFailure, MotionOutcome};
 
 /// Designators of detected objects, each with the name by which users know it: the first one, or
 /// a list of all if all were requested.
-fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Value) -> Value {
+fn detected(
+    image: &mut Image,
+    objects: &[(Value, &DetectedObject)],
+    query: &Value,
+    base: &str,
+) -> Value {
     let found: Vec<Value> = objects
         .iter()
         .map(|(name, object)| {
@@ -22,6 +27,7 @@ fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Val
                 query,
                 name.clone(),
                 kind,
+                base,
                 &object.pose_in_base,
                 &object.pose_in_map,
             )
@@ -51,7 +57,7 @@ impl Simulation {
             MotionOutcome::Detected(objects) => {
                 let named = objects.iter().map(|o| (self.symbol_of(&o.name), o));
                 let named: Vec<(Value, &DetectedObject)> = named.collect();
-                detected(image, &named, subject)
+                detected(image, &named, subject, self.base_frame())
             }
         }
     }

@@ -2,28 +2,43 @@
 
 use super::Simulation;
 use super::names::suggestion;
+use cram::pose::value::pose_stamped;
 use lisp::image::Image;
+use lisp::value::Value;
 use lisp::value::raise::Raise;
 use spatial::Pose;
 
 /// The frame to which everything refers.
 pub(crate) const MAP: &str = "map";
-/// The frame of the robot's base on the floor.
-pub(crate) const BASE: &str = "base_footprint";
-
-/// Whether the frame is that of the map, under one of its names.
-pub(crate) fn is_map(frame: &str) -> bool {
-    matches!(
-        frame.trim_start_matches('/'),
-        "map" | "world" | "odom_combined"
-    )
-}
 
 impl Simulation {
+    /// Whether the frame is that of the map, under one of its names.
+    pub(crate) fn is_map(&self, frame: &str) -> bool {
+        let name = frame.trim_start_matches('/');
+        let odometry = self.models.description.base.odometry.as_deref();
+        matches!(name, MAP | "world") || odometry == Some(name)
+    }
+
+    /// The name of the frame of the robot's base on the floor.
+    pub(crate) fn base_frame(&self) -> &str {
+        let models = &self.models;
+        &models.robot.link(models.description.base.frame).name
+    }
+
+    /// Whether the frame is that of the robot's base, under one of its names.
+    pub(crate) fn is_base(&self, frame: &str) -> bool {
+        self.models.robot.link_named(frame) == Some(self.models.description.base.frame)
+    }
+
+    /// A pose in the frame of the robot's base.
+    pub(crate) fn in_base(&self, pose: &Pose) -> Value {
+        pose_stamped(self.base_frame(), pose)
+    }
+
     /// The pose of a frame in the map frame.
     pub(crate) fn frame_in_map(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
-        if is_map(name) {
+        if self.is_map(name) {
             return Ok(Pose::identity());
         }
         if let Some(link) = self.models.robot.link_named(name) {
@@ -31,10 +46,6 @@ impl Simulation {
         }
         if let Some(link) = self.models.kitchen.link_named(name) {
             return Ok(self.world.furniture_pose(link));
-        }
-        // The name that a robot gives its root link does not matter.
-        if name == BASE {
-            return Ok(self.base());
         }
         let object = name.to_uppercase().replace('_', "-");
         if let Ok(pose) = self.world.object_pose(&object) {

@@ -28,9 +28,9 @@ pub enum View {
     Map,
     /// Through the robot's camera.
     Robot,
-    /// The table.
+    /// The table; the kitchen's description says which furniture that is.
     Table,
-    /// The kitchen island.
+    /// The kitchen island; the same.
     Island,
     /// The robot, from the open side of the kitchen.
     Follow,
@@ -56,8 +56,13 @@ pub enum ViewError {
         /// The view.
         view: View,
         /// The link that it looks at.
-        link: &'static str,
+        link: String,
     },
+    /// The description of the kitchen does not say where the view is.
+    #[error(
+        "the view {0} is not in this kitchen's description, as (view {0} …); use --from and --at instead"
+    )]
+    Undescribed(View),
     /// The eye and the point that it looks at coincide.
     #[error("the view is from and at the same place, ({}, {}, {})", .0.x, .0.y, .0.z)]
     NoDirection(Point3<f64>),
@@ -148,13 +153,9 @@ impl View {
                     through.vertical_view,
                 ))
             }
-            Self::Table => {
-                let at = self.furniture(world, "table_area_main", [0.0, 0.0, 0.75])?;
-                look([at.x - 1.75, at.y - 1.9, 1.75], at.into(), FIELD_OF_VIEW)
-            }
-            Self::Island => {
-                let at = self.furniture(world, "kitchen_island_surface", [0.2, 0.2, 0.05])?;
-                look([at.x - 2.0, at.y - 1.7, 2.0], at.into(), FIELD_OF_VIEW)
+            Self::Table | Self::Island => {
+                let (eye, at) = self.close_up(world)?;
+                look(eye, at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
                 let [from, at] = Self::followed(world);
@@ -197,17 +198,21 @@ impl View {
         [FOLLOW_FROM, FOLLOW_AT].map(|from| Point3::from(base) + Vector3::from(from))
     }
 
-    /// A point on a link of the kitchen, in the map frame.
-    fn furniture(
-        self,
-        world: &World,
-        link: &'static str,
-        point: [f64; 3],
-    ) -> Result<Point3<f64>, ViewError> {
-        match world.models().kitchen.link_named(link) {
-            Some(id) => Ok(world.furniture_pose(id) * Point3::from(point)),
-            None => Err(ViewError::NothingThere { view: self, link }),
-        }
+    /// The eye of a view of furniture, and the point that it looks at (m, map frame).
+    fn close_up(self, world: &World) -> Result<([f64; 3], Point3<f64>), ViewError> {
+        let models = world.models();
+        let Some(found) = models.kitchen_description.close_up(self.name()) else {
+            return Err(ViewError::Undescribed(self));
+        };
+        let Some(link) = models.kitchen.link_named(&found.link) else {
+            return Err(ViewError::NothingThere {
+                view: self,
+                link: found.link.clone(),
+            });
+        };
+        let at = world.furniture_pose(link) * Point3::from(found.at);
+        let [x, y, z] = found.eye;
+        Ok(([at.x + x, at.y + y, z], at))
     }
 }
 

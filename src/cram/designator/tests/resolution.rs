@@ -81,6 +81,7 @@ fn perceived_objects_keep_what_was_asked_for() {
         &query,
         name.into(),
         kind.into(),
+        "base_footprint",
         &pose,
         &pose,
     );

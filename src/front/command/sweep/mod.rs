@@ -161,6 +161,7 @@ fn into_folder(
     threads: usize,
 ) -> Result<Status, CommandError> {
     let is_special = options.world.is_some()
+        || options.world_description.is_some()
         || options.robot.is_some()
         || options.robot_description.is_some()
         || options.noise.is_some()

@@ -2,8 +2,8 @@
 //! however it ended.
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
-//! [`record`]). `seed`, `world`, `robot`, `robot-description` and `noise` say how the session began.
-//! `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
+//! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description` and `noise` say how
+//! the session began. `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
 //! when the record is on disk. `interrupted` says where it was interrupted, and `ended` that it
 //! has ended, with the hash of the world then. While a session is resumed, `again` says that
 //! the evaluation of that input begins once more, and `skipped` that it is left out. Replaying
@@ -37,6 +37,8 @@ pub(crate) struct Beginning {
     pub(crate) seed: u64,
     /// The kitchen used instead of the built-in one.
     pub(crate) world: Option<PathBuf>,
+    /// What that kitchen's furniture is for.
+    pub(crate) world_description: Option<PathBuf>,
     /// The robot used instead of the built-in one.
     pub(crate) robot: Option<PathBuf>,
     /// What that robot's links and joints are for.

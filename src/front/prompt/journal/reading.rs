@@ -104,6 +104,9 @@ impl Earlier {
         match record {
             Record::Seed(seed) => self.beginning.seed = seed,
             Record::World(file) => self.beginning.world = Some(file.into()),
+            Record::WorldDescription(file) => {
+                self.beginning.world_description = Some(file.into());
+            }
             Record::Robot(file) => self.beginning.robot = Some(file.into()),
             Record::RobotDescription(file) => {
                 self.beginning.robot_description = Some(file.into());

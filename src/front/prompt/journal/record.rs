@@ -23,6 +23,7 @@ const NO_HASH: &str = "-";
 pub(super) enum Record {
     Seed(u64),
     World(String),
+    WorldDescription(String),
     Robot(String),
     RobotDescription(String),
     Noise(String),
@@ -47,6 +48,7 @@ impl Record {
     pub(super) fn of_beginning(beginning: &Beginning) -> Vec<Record> {
         let files = [
             (&beginning.world, Record::World as fn(String) -> Record),
+            (&beginning.world_description, Record::WorldDescription),
             (&beginning.robot, Record::Robot),
             (&beginning.robot_description, Record::RobotDescription),
         ];
@@ -69,6 +71,7 @@ impl Record {
         match self {
             Record::Seed(seed) => ("seed", seed.to_string()),
             Record::World(file) => ("world", escaped(file)),
+            Record::WorldDescription(file) => ("world-description", escaped(file)),
             Record::Robot(file) => ("robot", escaped(file)),
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
@@ -88,6 +91,7 @@ impl Record {
         Some(match word {
             "seed" => Record::Seed(value.parse().ok()?),
             "world" => Record::World(unescaped(value)),
+            "world-description" => Record::WorldDescription(unescaped(value)),
             "robot" => Record::Robot(unescaped(value)),
             "robot-description" => Record::RobotDescription(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),

@@ -68,6 +68,7 @@ fn what_is_written_is_read_again() {
     let beginning = Beginning {
         seed: 7,
         world: Some("/a b\\n.urdf".into()),
+        world_description: Some("/a b.sexp".into()),
         robot: None,
         robot_description: None,
         noise: Some("position=0.01".to_owned()),

@@ -7,8 +7,7 @@ use std::cell::Cell;
 
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
 use crate::motion::contact::hand::{arm_names, hand_names};
-use crate::motion::failure::grasp_obstacle::GraspObstacle;
-use crate::motion::failure::grasp_obstacle::GraspPart;
+use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
 use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
 use crate::robot::torso_search::TorsoSearch;

@@ -6,8 +6,7 @@
 
 use nalgebra::Vector3;
 
-use crate::motion::failure::overload::Overload;
-use crate::motion::failure::overload::PayloadLimit;
+use crate::motion::failure::overload::{Overload, PayloadLimit};
 use crate::robot::{JointKind, LinkId, Side};
 use crate::world::physics::GRAVITY;
 use crate::world::{Object, World};

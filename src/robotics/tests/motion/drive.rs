@@ -1,8 +1,7 @@
 //! Driving: what is in the way, and what is said about it.
 
 use super::fixture::Kitchen;
-use crate::motion::plan_drive;
-use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus};
+use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus, plan_drive};
 use crate::robot::Side;
 use spatial::pose::{from_xyz_rpy, yaw};
 

@@ -91,17 +91,12 @@ impl Simulation {
             Ok(link) => Ok(Support::Furniture(link)),
             Err(unknown) => {
                 let near = closest_name(&text, self.names.keys().map(String::as_str));
-                let known = match (&unknown.closest, near) {
-                    (None, Some(near)) if !is_link => {
-                        format!("There is no object named {text}; did you mean {near}?")
-                    }
-                    _ => {
-                        let end = if unknown.closest.is_some() { "" } else { "." };
-                        let text = unknown.to_string();
-                        format!("{}{end}", text.replacen("the", "The", 1))
-                    }
-                };
-                Err(Raise::simple(known))
+                Err(match (&unknown.closest, near) {
+                    (None, Some(near)) if !is_link => Raise::simple(format!(
+                        "There is no object named {text}; did you mean {near}?"
+                    )),
+                    _ => Raise::reporting(unknown.to_string().replacen("the", "The", 1)),
+                })
             }
         }
     }

@@ -1,17 +1,16 @@
 //! What the followers of a session learn when an evaluation does not go on.
 
-use super::Session;
-use super::audience::task_news::class_name;
-use super::dialogue::{Abort, Event};
+use super::evaluator::Evaluator;
+use crate::audience::task_news::class_name;
 use lisp::image::identity::aside;
 use lisp::print::report::report;
-use view::watch::{Cause, Halt, HaltKind, TaskId, TaskNews, TaskState};
+use view::watch::{Cause, Halt, TaskId, TaskNews, TaskState};
 
-impl Session {
+impl Evaluator {
     /// Tells the followers whether the session goes on. Call when an input has been dealt with;
     /// `aborted` is what has ended it, and `was_stopped` tells whether an evaluation was stopped
     /// before it.
-    pub(super) fn tell_halt(&mut self, was_stopped: bool, aborted: Option<Halt>) {
+    pub(crate) fn tell_halt(&mut self, was_stopped: bool, aborted: Option<Halt>) {
         let is_stopped = self.console.level() > 0;
         let halt = if is_stopped {
             self.console.halt()
@@ -37,23 +36,5 @@ impl Session {
         if was_stopped || is_stopped {
             self.host.audience.show(&self.host.simulation, Cause::Rest);
         }
-    }
-}
-
-/// What an event says about the end of an input.
-pub(super) fn end_of(event: &Event) -> Option<Halt> {
-    match event {
-        Event::Aborted(abort) => Some(halt_of(HaltKind::Aborted, abort)),
-        _ => None,
-    }
-}
-
-/// The halt at a condition or an interrupt.
-pub(super) fn halt_of(kind: HaltKind, abort: &Abort) -> Halt {
-    let place = abort.main_place();
-    Halt {
-        class: abort.class.clone(),
-        place: place.map_or_else(String::new, ToString::to_string),
-        ..Halt::new(kind, abort.report.clone())
     }
 }

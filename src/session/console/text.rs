@@ -1,11 +1,11 @@
 //! Evaluating a text: reading and evaluating one form after another.
 
-use crate::printing;
 use std::rc::Rc;
 
-use super::console::Suspended;
-use super::dialogue::{Abort, Event, Outcome};
-use super::{Ended, Session};
+use super::evaluator::{Ended, Evaluator};
+use super::stopped::Suspended;
+use crate::dialogue::{Abort, Event, Outcome};
+use crate::printing;
 use lisp::evaluator::nested;
 use lisp::guard::stoppable;
 use lisp::reader;
@@ -14,7 +14,7 @@ use lisp::source::Place;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 
-impl Session {
+impl Evaluator {
     /// Evaluates all forms of a text. Each is read after the previous ones have been evaluated,
     /// so that it is read in the package that they selected.
     pub(super) fn evaluate_text(
@@ -102,7 +102,7 @@ impl Session {
     }
 
     /// The next form of the text, `#.` evaluated.
-    pub(super) fn read_form(&mut self, reader: &mut Reader) -> Result<Option<Value>, Box<Abort>> {
+    pub(crate) fn read_form(&mut self, reader: &mut Reader) -> Result<Option<Value>, Box<Abort>> {
         Ok(self.read_placed(reader)?.map(|(form, _)| form))
     }
 

@@ -1,8 +1,8 @@
 //! Going on after a defect: a panic in the middle of an input.
 
-use super::Session;
-use super::dialogue::{Abort, Event, Outcome};
+use super::evaluator::Evaluator;
 use crate::defect::Defect;
+use crate::dialogue::{Abort, Event, Outcome};
 use view::watch::Cause;
 
 /// What people are asked to do.
@@ -12,12 +12,12 @@ const REQUEST: &str = "This is a defect of planwright, not of your program. The 
                        \"defect.transcript\") writes.";
 
 /// The condition as it is shown.
-pub(super) const CONDITION: &str = "#<DEFECT>";
+pub(crate) const CONDITION: &str = "#<DEFECT>";
 
-impl Session {
+impl Evaluator {
     /// Makes the session usable again after a panic: the world is taken back to before the last
     /// form at top level; its tasks, and all that was stopped, are given up.
-    pub(super) fn recover(&mut self, defect: &Defect, sink: &mut dyn FnMut(Event)) -> Outcome {
+    pub(crate) fn recover(&mut self, defect: &Defect, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.scheduler.give_up(&mut self.image);
         self.console.give_up();
         self.image.nesting = 0;

@@ -1,0 +1,150 @@
+//! What the descriptions of robot and kitchen say, as variables for plans.
+
+use crate::simulation::transforms::MAP;
+use cram::packages::symbol;
+use lisp::image::Image;
+use lisp::value::Value;
+use robotics::robot::Side;
+use robotics::world::Models;
+use robotics::world::kitchen_description::{
+    KitchenDescription, PlaceProperty, PlaceRule, PlaceValue,
+};
+
+/// The package of the variables that hold the descriptions.
+const PACKAGE: &str = "CRAM-ROBOT-INTERFACES";
+
+/// Gives the variables their values. They are set, not defined by plans, since they depend on the
+/// robot and the kitchen of a session.
+pub(super) fn install(image: &mut Image, models: &Models) {
+    let frames = frames(models);
+    for (name, frame) in frames {
+        let sym = symbol(image, "CRAM-TF", name);
+        image.define_special(sym, Value::string(frame));
+    }
+    let robot = robot(image, models);
+    let sym = symbol(image, PACKAGE, "*ROBOT*");
+    image.define_special(sym, robot);
+    let kitchen = kitchen(image, &models.kitchen_description);
+    let sym = symbol(image, PACKAGE, "*KITCHEN*");
+    image.define_special(sym, kitchen);
+}
+
+/// CRAM's variables that hold names of the robot's frames.
+fn frames(models: &Models) -> [(&'static str, String); 5] {
+    let description = &models.description;
+    let link = |link| models.robot.link(link).name.clone();
+    let tool = |side| link(description.arm(side).tool);
+    let odometry = description.base.odometry.as_deref().unwrap_or(MAP);
+    [
+        ("*ODOM-FRAME*", odometry.to_owned()),
+        ("*ROBOT-BASE-FRAME*", link(description.base.frame)),
+        ("*ROBOT-TORSO-FRAME*", link(description.torso.link)),
+        ("*ROBOT-LEFT-TOOL-FRAME*", tool(Side::Left)),
+        ("*ROBOT-RIGHT-TOOL-FRAME*", tool(Side::Right)),
+    ]
+}
+
+/// What else is known of the robot, as a property list.
+fn robot(image: &mut Image, models: &Models) -> Value {
+    let description = &models.description;
+    let joint = &models.robot.joint(description.torso.joint).name;
+    let camera = &models.robot.link(description.camera().frame).name;
+    let wrists = Side::BOTH.map(|side| {
+        let wrist = &models.robot.link(description.arm(side).wrist).name;
+        Value::list([keyword(image, side.name()), Value::string(wrist.as_str())])
+    });
+    let links = Side::BOTH.map(|side| {
+        let robot = &models.robot;
+        let first = robot.joint(description.arm(side).joints()[0]).child;
+        let links = robot
+            .links()
+            .filter(|(link, _)| robot.carries(first, *link));
+        let links = links.map(|(_, link)| Value::string(link.name.as_str()));
+        let arm = std::iter::once(keyword(image, side.name()));
+        Value::list(arm.chain(links).collect::<Vec<_>>())
+    });
+    let entries = [
+        ("name", keyword(image, &description.name)),
+        ("torso-joint", Value::string(joint.as_str())),
+        ("camera-frame", Value::string(camera.as_str())),
+        ("wrists", Value::list(wrists)),
+        ("arm-links", Value::list(links)),
+    ];
+    property_list(image, entries)
+}
+
+/// What is known of the kitchen, as a property list.
+fn kitchen(image: &mut Image, kitchen: &KitchenDescription) -> Value {
+    let places = kitchen.places.iter().map(|(name, properties)| {
+        let name = keyword(image, name);
+        let properties = properties.iter().map(|one| place_property(image, one));
+        let properties: Vec<Value> = properties.collect();
+        Value::list(std::iter::once(name).chain(properties))
+    });
+    let places = Value::list(places.collect::<Vec<_>>());
+    let stores = kitchen.stores.iter().map(|store| {
+        Value::list([
+            keyword(image, &store.kind),
+            Value::string(store.link.as_str()),
+            Value::list(store.position.map(Value::Double)),
+            Value::Double(store.heading),
+        ])
+    });
+    let stores = Value::list(stores.collect::<Vec<_>>());
+    let margins = kitchen.margins.iter().map(|(link, margins)| {
+        let margins = margins.iter().copied().map(single);
+        Value::list(std::iter::once(Value::string(link.as_str())).chain(margins))
+    });
+    let margins = Value::list(margins.collect::<Vec<_>>());
+    let entries = [
+        ("name", keyword(image, &kitchen.name)),
+        ("places", places),
+        ("usually", rules(image, &kitchen.usually)),
+        ("belongs", rules(image, &kitchen.belongs)),
+        ("stores", stores),
+        ("margins", margins),
+    ];
+    property_list(image, entries)
+}
+
+/// Rules, each as a list of contexts, types and the name of the place.
+fn rules(image: &mut Image, rules: &[PlaceRule]) -> Value {
+    let rules = rules.iter().map(|rule| {
+        let contexts = keywords(image, &rule.contexts);
+        let types = keywords(image, &rule.types);
+        Value::list([contexts, types, keyword(image, &rule.place)])
+    });
+    Value::list(rules.collect::<Vec<_>>())
+}
+
+/// A property as designators have it, but for furniture, of which there is only the name.
+fn place_property(image: &mut Image, property: &PlaceProperty) -> Value {
+    let value = match &property.value {
+        PlaceValue::Furniture(link) => Value::string(link.as_str()),
+        PlaceValue::Word(word) => keyword(image, word),
+        PlaceValue::Words(words) => keywords(image, words),
+        PlaceValue::Number(number) => single(*number),
+        PlaceValue::Count(count) => Value::from(*count as i64),
+    };
+    Value::list([keyword(image, property.key), value])
+}
+
+/// A number as the reader of plans makes it of a decimal fraction.
+fn single(number: f64) -> Value {
+    Value::Single(number as f32)
+}
+
+fn keyword(image: &mut Image, name: &str) -> Value {
+    image.keyword(&name.to_uppercase()).into()
+}
+
+fn keywords(image: &mut Image, names: &[String]) -> Value {
+    let keywords: Vec<Value> = names.iter().map(|name| keyword(image, name)).collect();
+    Value::list(keywords)
+}
+
+fn property_list<const N: usize>(image: &mut Image, entries: [(&str, Value); N]) -> Value {
+    let entries = entries.into_iter();
+    let flat = entries.flat_map(|(key, value)| [keyword(image, key), value]);
+    Value::list(flat.collect::<Vec<_>>())
+}

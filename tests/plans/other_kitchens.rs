@@ -1,0 +1,196 @@
+//! Kitchens that lack what the built-in one has, and descriptions of kitchens.
+
+use super::cook::Cook;
+use session::{Session, SessionOptions};
+
+/// A room with a desk on the floor, which every kitchen has.
+const ROOM: &str = r#"
+<robot name="room">
+  <link name="map"/>
+  <link name="desk">
+    <collision><geometry><box size="0.8 1.4 0.7"/></geometry></collision>
+  </link>
+  <joint name="desk_joint" type="fixed">
+    <parent link="map"/><child link="desk"/><origin xyz="1.2 0 0.35"/>
+  </joint>
+</robot>"#;
+
+/// What such a room is for.
+const DESCRIPTION: &str = "
+(kitchen office)
+(alias table desk)
+(place table :on desk)
+(place desk-corner :on desk :side (back left))
+(usually table :contexts (table-setting table-cleaning) :types (milk))
+(belongs desk-corner :contexts (table-setting) :types (milk))
+(view table :link desk :at (0 0 0.3) :eye (-1.5 -1.5 1.7))";
+
+fn room(description: Option<&str>) -> SessionOptions {
+    SessionOptions {
+        world: Some(("room.urdf".to_owned(), ROOM.to_owned())),
+        world_description: description.map(|text| ("room.sexp".to_owned(), text.to_owned())),
+        ..SessionOptions::default()
+    }
+}
+
+fn cook(description: Option<&str>) -> Cook {
+    let mut cook = Cook::with(&room(description));
+    cook.done("(init-projection) (spawn-object '((1.1 0.2 0.85) (0 0 0 1)) :milk 'milk-1)");
+    cook
+}
+
+const LACKS_TABLE: &str = "the milk belongs beside the bowl on the table, but it is not known where \
+    the table is: the description of this kitchen has no (place table …). Give one with \
+    --world-description, or give a (target …).";
+
+#[test]
+fn a_kitchen_with_one_desk_says_what_it_lacks() {
+    let mut cook = cook(None);
+    let bring = "(perform (an action (type transporting) (object (an object (type milk)))";
+    assert_eq!(
+        cook.fails(
+            "OBJECT-UNDELIVERABLE",
+            &format!("{bring} (context table-setting)))")
+        ),
+        LACKS_TABLE
+    );
+    assert_eq!(
+        cook.fails(
+            "OBJECT-UNDELIVERABLE",
+            &format!("{bring} (context table-cleaning)))")
+        ),
+        "It is not known where the milk belongs: the description of this kitchen has no (belongs …). \
+         Give one with --world-description, or give a (target …)."
+    );
+    let report = cook.fails("DESIGNATOR-REFERENCE-FAILURE", &format!("{bring}))"));
+    assert!(
+        report.ends_with("The action TRANSPORTING needs one of target, context."),
+        "{report}"
+    );
+    // Without knowing where such things are, the robot looks on all surfaces.
+    cook.done(
+        "(with-simulated-robot
+           (perform (an action (type searching) (object (an object (type milk)))
+                        (context table-setting))))",
+    );
+}
+
+#[test]
+fn a_kitchen_without_surfaces_says_so() {
+    let empty = "<robot name=\"empty\"><link name=\"map\"/></robot>";
+    let mut cook = Cook::with(&SessionOptions {
+        world: Some(("empty.urdf".to_owned(), empty.to_owned())),
+        ..SessionOptions::default()
+    });
+    let search = "(perform (an action (type searching) (object (an object (type milk)))))";
+    assert_eq!(
+        cook.fails("SEARCHING-FAILED", search),
+        "This kitchen has no surface on which the milk could be: give a (location …)."
+    );
+}
+
+#[test]
+fn the_household_demo_says_what_the_kitchen_lacks() {
+    let mut cook = cook(None);
+    cook.done("(asdf:load-system \"cram_projection_demos\")");
+    let end = cook.say("(demos::household-demo)").unwrap_err();
+    assert_eq!(
+        end.0,
+        "This kitchen has no places for the things of the demo: its description has no (store …). \
+         Give one with --world-description."
+    );
+    assert!(end.1.contains("ENVIRONMENT-UNREACHABLE"), "{}", end.1);
+    // The tutorial's and CRAM's own functions fail alike.
+    let moved = cook.say("(move-kitchen-joint)").unwrap_err().0;
+    assert_eq!(
+        moved,
+        "This kitchen has no usual joint: give a :joint-name, or say in its description, (kitchen \
+         NAME :usual-joint JOINT), which one is meant."
+    );
+}
+
+#[test]
+fn a_described_room_is_set_out() {
+    let mut cook = cook(Some(DESCRIPTION));
+    cook.done(
+        "(with-simulated-robot
+           (perform (an action (type transporting) (object (an object (type milk)))
+                        (context table-setting))))",
+    );
+    // The back of the desk is at the greater x, its left at the greater y.
+    let at = cook.pose("MILK-1").translation;
+    assert!(at.x > 1.2 && at.y > 0.0 && at.z > 0.7, "{at}");
+    assert_eq!(
+        cook.done("(prolog:prolog '(rob-int:environment-name ?name))"),
+        "(((?NAME . :OFFICE)))\n"
+    );
+    let known = "It is not known where the bowl belongs: give a (target …), or a (context …), one of \
+                 table-setting.";
+    let bring = "(perform (an action (type transporting) (object (an object (type bowl)))
+                              (context breakfast)))";
+    assert_eq!(cook.fails("OBJECT-UNDELIVERABLE", bring), known);
+    // An alias is a name for plans, too.
+    cook.done("(reference (a location (on (an object (urdf-name table)))))");
+}
+
+#[test]
+fn a_wrong_description_is_told_where() {
+    let refusal = |text: &str| match Session::new(&room(Some(text))) {
+        Ok(_) => panic!("{text} was accepted"),
+        Err(error) => error.to_string(),
+    };
+    let kitchen = "(kitchen office)";
+    assert_eq!(
+        refusal(""),
+        "room.sexp:1:1: the file has no (kitchen …); add one"
+    );
+    for (text, expected) in [
+        (
+            "(place table :on dek)",
+            "34: there is no link named dek; did you mean desk?",
+        ),
+        (
+            "(plaec table :on desk)",
+            "17: there is no record named plaec; did you mean place?",
+        ),
+        (
+            "(place table :side left :onn desk)",
+            "41: (place …) has no key :onn; it knows :on :in :above :side :level :level-invert \
+             :orientation :range :range-invert :context :object-count; did you mean :on?",
+        ),
+        (
+            "(place table)",
+            "17: (place table) says nothing; add :on, :in or :above",
+        ),
+        (
+            "(place table :on desk)(place table :on desk)",
+            "46: (place table …) is given twice; keep one",
+        ),
+        (
+            "(place table :on desk)(usually tabel :contexts (a) :types (milk))",
+            "48: there is no place named tabel; did you mean table?",
+        ),
+        (
+            "(place table :on desk)(belongs table :types (milk))",
+            "39: (belongs …) has no :contexts; add it",
+        ),
+        (
+            "(view iland :link desk :at (0 0 0) :eye (1 1 1))",
+            "23: there is no view named iland; did you mean island?",
+        ),
+        (
+            "(alias table desc)",
+            "30: there is no link or joint named desc; did you mean desk?",
+        ),
+        (
+            "(store milk :in desk :position (0 0) :heading 0)",
+            "48: expected a list of 3 numbers, found (0 0)",
+        ),
+    ] {
+        assert_eq!(
+            refusal(&format!("{kitchen}{text}")),
+            format!("room.sexp:1:{expected}"),
+            "{text}"
+        );
+    }
+}
