@@ -135,6 +135,13 @@ impl Session {
         Ok(session)
     }
 
+    /// Ends the session together with the process, to which freeing its memory is left.
+    pub fn end_with_process(self) {
+        let Evaluator { image, host, .. } = self.evaluator;
+        std::mem::forget(image);
+        drop(host);
+    }
+
     /// The examples of everything in the tables, with their names, in order of installation.
     pub fn examples(&self) -> Vec<(String, &'static str)> {
         let image = &self.evaluator.image;

@@ -66,7 +66,7 @@ fn every_symbol_that_is_exported_means_something() {
         if internal.contains(&&*package.name) {
             continue;
         }
-        for (name, (sym, is_external)) in &package.symbols {
+        for (name, (sym, is_external)) in package.symbols.iter() {
             seen += usize::from(*is_external);
             if *is_external && !means_something(image, &functors, *sym) {
                 empty.push(format!("{}:{name}", package.name));

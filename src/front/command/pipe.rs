@@ -56,6 +56,7 @@ pub(crate) fn evaluate_standard_input(
     let status = evaluate_lines(stdin, &mut session, &mut screen, &mut keeper, number)?;
     watching::linger(&session, has_browser);
     session.end_recording()?;
+    session.end_with_process();
     Ok(status)
 }
 

@@ -44,6 +44,7 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
     recorded?;
     writing.end();
     watching::linger(&session, has_browser);
+    session.end_with_process();
     Ok(status)
 }
 

@@ -152,7 +152,7 @@ pub struct Code {
     pub room: usize,
     /// The operations.
     pub ops: Rc<[Op]>,
-    pub(crate) constants: Vec<Value>,
+    pub constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
     pub inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
     /// For each tagbody that closures jump into: the positions of its tags.

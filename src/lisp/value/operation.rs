@@ -335,7 +335,7 @@ impl Op {
     }
 
     /// The symbol that the operation refers to, if there is one.
-    pub(crate) fn symbol_mut(&mut self) -> Option<&mut Sym> {
+    pub fn symbol_mut(&mut self) -> Option<&mut Sym> {
         match self {
             Op::Global(sym)
             | Op::SetGlobal(sym)

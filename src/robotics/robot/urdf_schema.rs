@@ -42,8 +42,8 @@ impl Value {
     fn accepts(self, value: &str) -> bool {
         let all = |count: usize, test: fn(f64) -> bool| {
             let good = |word: &str| word.parse().is_ok_and(|n: f64| n.is_finite() && test(n));
-            let words = || value.split_whitespace();
-            words().count() == count && words().all(good)
+            let mut words = value.split_whitespace();
+            (0..count).all(|_| words.next().is_some_and(good)) && words.next().is_none()
         };
         match self {
             Self::Text => !value.trim().is_empty(),

@@ -1,7 +1,7 @@
 //! Writing code as bytes.
 //!
-//! Numbers are written seven bits at a time, the lowest first. An object that there are several
-//! references to in a form is written once, and then referred to by number.
+//! Numbers are written seven bits at a time, the lowest first. Pairs, strings and vectors of a form
+//! are numbered in the order in which they are met; a further reference to one is its number.
 
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -32,10 +32,9 @@ pub(super) mod tag {
     pub(crate) const CONS: u8 = 10;
     /// A pair with its place.
     pub(crate) const PLACED: u8 = 11;
-    /// What comes next is referred to again.
-    pub(crate) const SHARED: u8 = 12;
-    /// What has been written as shared, by number.
-    pub(crate) const AGAIN: u8 = 13;
+    /// What has been written already, by number.
+    pub(crate) const AGAIN: u8 = 12;
+    pub(crate) const RATIO: u8 = 13;
 }
 
 /// How deeply values may be nested in what is written.
@@ -75,10 +74,8 @@ pub(super) struct Encoding {
     bytes: Vec<u8>,
     /// The sources of the places so far; first that of the form.
     sources: Vec<SourceId>,
-    /// The numbers of the objects that have been written as shared, by address.
-    shared: HashMap<usize, u32>,
-    /// The addresses of what has been written.
-    met: HashSet<usize>,
+    /// The numbers of the objects that have been written, by address.
+    objects: HashMap<usize, u32>,
     /// What has been written, so that no address is used again.
     kept: Vec<Rc<Code>>,
 }
@@ -89,8 +86,7 @@ impl Encoding {
         Encoding {
             bytes: Vec::new(),
             sources: source.into_iter().collect(),
-            shared: HashMap::new(),
-            met: HashSet::new(),
+            objects: HashMap::new(),
             kept: Vec::new(),
         }
     }
@@ -102,19 +98,12 @@ impl Encoding {
         symbols: &mut Symbols,
         code: &Rc<Code>,
     ) -> Option<()> {
-        let mut counting = Counting::default();
-        counting.code(code, 0)?;
-        // What is referred to again only in a later part cannot be told when it is written.
-        if !counting.met.is_disjoint(&self.met) {
-            return None;
-        }
-        self.met.extend(&counting.met);
         self.kept.push(code.clone());
         Writer {
             image,
             symbols,
-            counting,
             open: HashSet::new(),
+            depth: 0,
             encoding: self,
         }
         .code(code)
@@ -122,55 +111,6 @@ impl Encoding {
 
     pub(super) fn into_bytes(self) -> Vec<u8> {
         self.bytes
-    }
-}
-
-/// Finds the objects that there are several references to.
-#[derive(Default)]
-struct Counting {
-    met: HashSet<usize>,
-    several: HashSet<usize>,
-}
-
-impl Counting {
-    fn code(&mut self, code: &Code, depth: usize) -> Option<()> {
-        for value in &code.constants {
-            self.value(value, depth)?;
-        }
-        for (inner, _) in &code.inner {
-            self.code(inner, depth + 1)?;
-        }
-        Some(())
-    }
-
-    fn value(&mut self, value: &Value, depth: usize) -> Option<()> {
-        let mut value = value.clone();
-        loop {
-            if depth > DEEPEST {
-                return None;
-            }
-            let Some(address) = address(&value) else {
-                return Some(());
-            };
-            if !self.met.insert(address) {
-                self.several.insert(address);
-                return Some(());
-            }
-            match &value {
-                Value::Vector(vector) => {
-                    for item in vector.to_vec() {
-                        self.value(&item, depth + 1)?;
-                    }
-                    return Some(());
-                }
-                Value::Cons(cons) => {
-                    self.value(&cons.car(), depth + 1)?;
-                    let rest = cons.cdr();
-                    value = rest;
-                }
-                _ => return Some(()),
-            }
-        }
     }
 }
 
@@ -187,9 +127,9 @@ fn address(value: &Value) -> Option<usize> {
 struct Writer<'a> {
     image: &'a Image,
     symbols: &'a mut Symbols,
-    counting: Counting,
     /// The addresses of the vectors whose elements are being written.
     open: HashSet<usize>,
+    depth: usize,
     encoding: &'a mut Encoding,
 }
 
@@ -323,40 +263,56 @@ impl Writer<'_> {
     }
 
     fn value(&mut self, value: &Value) -> Option<()> {
+        self.depth += 1;
+        let written = self.list(value);
+        self.depth -= 1;
+        written
+    }
+
+    /// A value; a list in a loop.
+    fn list(&mut self, value: &Value) -> Option<()> {
+        if self.depth > DEEPEST {
+            return None;
+        }
         let mut value = value.clone();
         loop {
-            if let Some(address) = address(&value) {
-                if let Some(number) = self.encoding.shared.get(&address).copied() {
-                    self.bytes().push(tag::AGAIN);
-                    self.number(number);
-                    return Some(());
+            let address = address(&value);
+            let known = address.and_then(|address| self.encoding.objects.get(&address));
+            if let Some(number) = known.copied() {
+                self.bytes().push(tag::AGAIN);
+                self.number(number);
+                return Some(());
+            }
+            match (&value, address) {
+                (Value::Cons(cons), Some(address)) => {
+                    self.note(address)?;
+                    self.pair(cons)?;
+                    let rest = cons.cdr();
+                    value = rest;
                 }
-                let is_shared = self.counting.several.contains(&address);
-                if is_shared {
-                    self.bytes().push(tag::SHARED);
-                }
-                if let Value::Vector(vector) = &value {
+                (Value::Vector(vector), Some(address)) => {
                     // A vector gets its number after its elements, and so it cannot have itself.
                     if !self.open.insert(address) {
                         return None;
                     }
                     self.vector(vector)?;
                     self.open.remove(&address);
+                    return self.note(address);
                 }
-                if is_shared {
-                    let number = u32::try_from(self.encoding.shared.len()).ok()?;
-                    self.encoding.shared.insert(address, number);
+                (_, Some(address)) => {
+                    self.no_pair(&value)?;
+                    return self.note(address);
                 }
+                (_, None) => return self.no_pair(&value),
             }
-            let cons = match &value {
-                Value::Cons(cons) => cons,
-                Value::Vector(_) => return Some(()),
-                other => return self.no_pair(other),
-            };
-            self.pair(cons)?;
-            let rest = cons.cdr();
-            value = rest;
         }
+    }
+
+    /// Numbers an object.
+    fn note(&mut self, address: usize) -> Option<()> {
+        let number = u32::try_from(self.encoding.objects.len()).ok()?;
+        self.encoding.objects.insert(address, number);
+        Some(())
     }
 
     /// A pair up to its second half.
@@ -405,6 +361,11 @@ impl Writer<'_> {
             Value::Big(n) => {
                 self.bytes().push(tag::BIG);
                 slice(self.bytes(), &n.to_signed_bytes_le());
+            }
+            Value::Ratio(ratio) => {
+                self.bytes().push(tag::RATIO);
+                slice(self.bytes(), &ratio.numerator.to_signed_bytes_le());
+                slice(self.bytes(), &ratio.denominator.to_signed_bytes_le());
             }
             Value::Str(string) if string.is_simple() => {
                 self.bytes().push(tag::STRING);

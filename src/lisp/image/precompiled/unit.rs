@@ -12,6 +12,7 @@ use crate::value::Value;
 use crate::value::array::Vector;
 use crate::value::code::{Capture, Code, Local, Parameters, Signature};
 use crate::value::cons::Cons;
+use crate::value::number;
 use crate::value::operation::Op;
 use crate::value::raise::Raise;
 use crate::value::string::LispString;
@@ -102,7 +103,8 @@ pub struct Unit {
     bytes: Bytes,
     /// The sources of the places so far; first that of the form.
     sources: Vec<SourceId>,
-    shared: Vec<Value>,
+    /// The pairs, strings and vectors so far, by number.
+    objects: Vec<Value>,
 }
 
 impl Unit {
@@ -112,7 +114,7 @@ impl Unit {
             from,
             bytes: Bytes(form.code?),
             sources: source.into_iter().collect(),
-            shared: Vec::new(),
+            objects: Vec::new(),
         })
     }
 
@@ -251,6 +253,10 @@ impl Unit {
         Some(op)
     }
 
+    fn big(&mut self) -> Option<BigInt> {
+        Some(BigInt::from_signed_bytes_le(self.bytes.slice()?))
+    }
+
     /// A value; a list in a loop.
     fn value(&mut self, image: &mut Image) -> Option<Value> {
         let mut whole = None;
@@ -274,16 +280,10 @@ impl Unit {
 
     /// A value, and whether it is a pair whose second half comes next.
     fn single(&mut self, image: &mut Image) -> Option<(Value, bool)> {
-        let mut tag = self.bytes.byte()?;
-        let is_shared = tag == tag::SHARED;
-        if is_shared {
-            tag = self.bytes.byte()?;
-        }
+        let tag = self.bytes.byte()?;
         if let tag::CONS | tag::PLACED = tag {
             let cons = Cons::shared(Value::NIL, Value::NIL);
-            if is_shared {
-                self.shared.push(Value::Cons(cons.clone()));
-            }
+            self.objects.push(Value::Cons(cons.clone()));
             if tag == tag::PLACED {
                 cons.set_place(self.place(image)?);
             }
@@ -298,17 +298,18 @@ impl Unit {
             tag::SINGLE => Value::Single(f32::from_le_bytes(self.bytes.fixed()?)),
             tag::DOUBLE => Value::Double(f64::from_le_bytes(self.bytes.fixed()?)),
             tag::CHARACTER => Value::Char(char::from_u32(self.bytes.number()?)?),
-            tag::BIG => Value::Big(Rc::new(BigInt::from_signed_bytes_le(self.bytes.slice()?))),
+            tag::BIG => Value::Big(Rc::new(self.big()?)),
+            tag::RATIO => number::ratio(self.big()?, self.big()?)?,
             tag::STRING => Value::Str(Rc::new(LispString::new(self.bytes.text()?.to_owned()))),
             tag::VECTOR => Value::Vector(Rc::new(Vector::simple(self.all(image, Unit::value)?))),
             tag::AGAIN => {
                 let number = self.bytes.count()?;
-                return Some((self.shared.get(number)?.clone(), false));
+                return Some((self.objects.get(number)?.clone(), false));
             }
             _ => return None,
         };
-        if is_shared {
-            self.shared.push(value.clone());
+        if let tag::STRING | tag::VECTOR = tag {
+            self.objects.push(value.clone());
         }
         Some((value, false))
     }
