@@ -1,7 +1,7 @@
 //! `#[builtin]` makes a Rust function a builtin of the language, and `builtins!` lists the
 //! builtins of a file.
 //!
-//! ```ignore
+//! ```text
 //! /// The character of a code, or `NIL`.
 //! ///
 //! /// `(code-char 65)` => `#\A`

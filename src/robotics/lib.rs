@@ -10,6 +10,7 @@ pub mod world;
 
 /// White-box tests by room.
 #[cfg(test)]
+#[allow(clippy::print_stdout)]
 mod tests {
     mod motion;
     mod robot;

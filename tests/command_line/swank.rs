@@ -123,7 +123,7 @@ fn an_evaluation_that_ctrl_c_interrupts_is_left_to_the_prompt() {
     terminal.line("(swank:create-server :port 0)");
     terminal.wait_for("Ctrl-C returns to the prompt.");
     let mut connection = Connection::to(port(&terminal.text()).unwrap());
-    let endless = r#"(swank-repl:listener-eval "(progn (princ \\"begun\\") (loop))")"#;
+    let endless = r#"(swank-repl:listener-eval "(progn (princ \"begun\") (loop))")"#;
     connection.request(1, endless);
     let begun = connection.until("(:write-string \"begun");
     assert!(begun.contains("begun"), "{begun}");

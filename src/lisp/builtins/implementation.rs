@@ -16,7 +16,7 @@ use crate::value::symbol::VariableKind;
 /// `(lisp-implementation-type)` => `"planwright"`
 #[builtin(_, "")]
 fn lisp_implementation_type() -> Result<Value, Box<Raise>> {
-    Ok(env!("CARGO_PKG_NAME").into())
+    Ok("planwright".into())
 }
 
 /// The version of the implementation.

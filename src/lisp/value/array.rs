@@ -39,6 +39,11 @@ impl Vector {
         self.fill_pointer.get().unwrap_or_else(|| self.items.len())
     }
 
+    /// Whether there are no active elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// The element at an index, whether or not the fill pointer covers it.
     pub fn get(&self, index: usize) -> Option<Value> {
         self.items.get(index)

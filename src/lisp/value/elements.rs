@@ -124,6 +124,11 @@ impl Elements {
         matches!(&*self.0.borrow(), Place::Displaced(_))
     }
 
+    /// Whether there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Number of elements.
     #[inline]
     pub fn len(&self) -> usize {

@@ -176,6 +176,11 @@ impl LispString {
         self.length.get()
     }
 
+    /// Whether there are no characters.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// How many characters there is room for.
     pub fn capacity(&self) -> usize {
         self.capacity.get().max(self.len())

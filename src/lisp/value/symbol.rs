@@ -290,7 +290,7 @@ impl SymbolTable {
 
     /// Number of symbols.
     #[cfg(test)]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.entries.len() + self.passing.len()
     }
 
