@@ -103,11 +103,11 @@ impl SessionOptions {
     /// Reads the descriptions of robot, kitchen and objects.
     pub(super) fn models(&self) -> Result<Models, SessionError> {
         let tree = |given: &Option<(String, String)>, text: &str, name: &str| {
-            let (name, text) = match given {
-                Some((name, text)) => (name.as_str(), text.as_str()),
-                None => (name, text),
+            let read = match given {
+                Some((name, text)) => KinematicTree::from_urdf(text, name),
+                None => KinematicTree::built_in(text, name),
             };
-            KinematicTree::from_urdf(text, name).map_err(|e| SessionError::Models(e.to_string()))
+            read.map_err(|e| SessionError::Models(e.to_string()))
         };
         let robot = tree(&self.robot, PR2_URDF, "pr2.urdf")?;
         let kitchen = tree(&self.world, KITCHEN_URDF, "kitchen.urdf")?;

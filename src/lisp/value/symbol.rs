@@ -196,7 +196,7 @@ impl SymbolTable {
     /// An empty table.
     pub fn new() -> SymbolTable {
         SymbolTable {
-            entries: Vec::with_capacity(4096),
+            entries: Vec::with_capacity(8192),
             passing: BTreeMap::new(),
             next_passing: PASSING,
             gone: Rc::default(),
