@@ -4,6 +4,7 @@
 
 mod assist;
 mod audience;
+mod bounds;
 mod check;
 mod console;
 mod converse;
@@ -47,10 +48,10 @@ use view::picture::ViewError;
 use view::picture::animation::Shot;
 
 pub use audience::{Audience, Filming, WatchError};
+pub use bounds::{InterruptHandle, Limit, Limits};
 pub use face::{
-    Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
-    PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
-    Within,
+    Datum, Failure, FramedPose, ObserverId, PlanEvent, PlanEventKind, RestoreError, Snapshot,
+    TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions};

@@ -33,7 +33,9 @@ fn mistakes_are_told_with_their_places() {
 #[test]
 fn the_plans_that_come_with_the_program_have_no_mistakes() {
     for folder in ["plans/lib", "plans/tutorial"] {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../..")
+            .join(folder);
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             let text = fs::read_to_string(&path).unwrap();

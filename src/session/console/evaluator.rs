@@ -4,10 +4,10 @@ use std::rc::Rc;
 
 use super::halt;
 use super::stopped::Console;
+use crate::bounds::Limits;
 use crate::defect;
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Abort, Event, Outcome};
-use crate::face::Limits;
 use crate::host::SimulationHost;
 use crate::host::call::HostCall;
 use crate::live_host;

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{Datum, Limit, from_value};
+use super::{Datum, from_value};
+use crate::bounds::Limit;
 use crate::dialogue::Abort;
 use lisp::image::Image;
 use lisp::value::Value;

@@ -2,32 +2,25 @@
 //!
 //! [`Session::run_file`](crate::Session::run_file), [`run`](crate::Session::run) and
 //! [`call`](crate::Session::call) return values as [`Datum`] or a typed [`Failure`];
-//! [`within`](crate::Session::within) puts [`Limits`] around them.
+//! [`within`](crate::Session::within) puts [`Limits`](crate::Limits) around them.
 
-mod bounds;
 mod datum;
 mod edits;
 mod failure;
 mod followers;
 mod from_value;
-mod interrupt_handle;
 mod into_value;
-mod limits;
 mod names;
 mod observer;
 mod picture;
 mod plan_event;
 mod run;
-mod running;
 mod snapshot;
 mod task_log;
 
-pub(crate) use bounds::Bounds;
 pub use datum::{Datum, FramedPose};
 pub use failure::{Failure, Unhandled};
 pub use followers::ObserverId;
-pub use interrupt_handle::InterruptHandle;
-pub use limits::{Limit, Limits};
 pub use plan_event::{PlanEvent, PlanEventKind, TaskBegin, TaskEnd};
 pub use run::Within;
 pub use snapshot::{RestoreError, Snapshot};

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::{
-    Datum, Failure, InterruptHandle, Limit, Limits, Unhandled, from_value, into_value, names,
-};
+use super::{Datum, Failure, Unhandled, from_value, into_value, names};
+use crate::bounds::{InterruptHandle, Limit, Limits};
 use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};

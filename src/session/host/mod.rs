@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::audience::Audience;
-use crate::face::{Bounds, Limits};
+use crate::bounds::{Bounds, Limits};
 use crate::person::Person;
 use crate::simulation::Simulation;
 use cram::TaskId;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// Limits of one evaluation. Without any, it may take for ever.
 ///
-/// What reaches a limit ends as [`Failure::LimitReached`](super::Failure::LimitReached): the plan is
+/// What reaches a limit ends as [`Failure::LimitReached`](crate::Failure::LimitReached): the plan is
 /// unwound, with its cleanup forms. These have the [`grace`](Limits::grace) and ten seconds of
 /// simulated time (2,400 steps); then they are ended, too.
 ///

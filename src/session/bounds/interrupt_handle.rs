@@ -10,7 +10,7 @@ use super::running::Running;
 pub struct InterruptHandle(pub(super) Arc<Running>);
 
 impl InterruptHandle {
-    /// Ends the evaluation under way as [`Failure::Interrupted`](super::Failure::Interrupted): the plan
+    /// Ends the evaluation under way as [`Failure::Interrupted`](crate::Failure::Interrupted): the plan
     /// is unwound, with its cleanup forms. These have the [`grace`](super::Limits::grace) of the
     /// evaluation, or until the next interrupt; then they are ended, too.
     ///
