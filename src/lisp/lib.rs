@@ -6,6 +6,7 @@ pub mod builtins;
 pub mod compile;
 pub mod condition;
 pub mod evaluator;
+pub mod files;
 pub mod guard;
 pub mod image;
 pub mod library;

@@ -19,7 +19,7 @@ impl Session {
         if !self.evaluator.console.is_unused() {
             return Err("an evaluation that has stopped");
         }
-        let audience = Audience::new(self.options.realtime, self.options.view_port);
+        let audience = Audience::new(&self.options);
         let (image, host) = self
             .evaluator
             .image

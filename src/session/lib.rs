@@ -20,6 +20,7 @@ mod live_host;
 mod log_level;
 mod objects;
 mod options;
+pub mod outside;
 mod package_name;
 mod person;
 mod plans;
@@ -110,6 +111,8 @@ impl Session {
         mut image: Image,
     ) -> Result<Session, SessionError> {
         image.seed(options.seed);
+        image.files = Arc::clone(&options.outside.files);
+        image.extend(options.outside.clone());
         cram::install(&mut image);
         cram::pose::install(&mut image);
         cram::designator::install(&mut image);
@@ -119,7 +122,7 @@ impl Session {
         functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed);
         simulation.set_noise(options.noise_levels()?);
-        let audience = Audience::new(options.realtime, options.view_port);
+        let audience = Audience::new(options);
         let host = SimulationHost::new(simulation, audience);
         let mut session = Session {
             options: options.clone(),

@@ -1,6 +1,7 @@
 //! The scheduler's host, with output reported as it is produced.
 
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Duration;
 
 use super::dialogue::Event;
 use super::host::SimulationHost;
@@ -78,16 +79,18 @@ impl Host for LiveHost<'_> {
             let check = &mut SimulationHost::check_bounds;
             return self.host.advance_watched(image, now, until, check);
         }
-        let begin = Instant::now();
-        let mut told = begin;
+        let clock = Arc::clone(&self.host.audience.outside().clock);
+        let begin = clock.now();
+        let mut reported = begin;
         let sink = &mut *self.sink;
         let what = image.output.instead().map(str::to_owned);
         self.host.advance_watched(image, now, until, &mut |host| {
             host.check_bounds();
             // Real time determines what is shown, never what happens.
-            let is_long = begin.elapsed() > FIRST_PROGRESS;
-            if is_long && told.elapsed() > BETWEEN_PROGRESS {
-                told = Instant::now();
+            let now = clock.now();
+            let is_long = now.saturating_sub(begin) > FIRST_PROGRESS;
+            if is_long && now.saturating_sub(reported) > BETWEEN_PROGRESS {
+                reported = now;
                 sink(Event::Progress(host.progress(what.as_deref())));
             }
         })

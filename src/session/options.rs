@@ -4,6 +4,7 @@ use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
+use super::outside::Outside;
 use lisp::guard::heap::HeapLimit;
 use robotics::robot::{KinematicTree, MissingNames, RobotDescription};
 use robotics::sexp::DataError;
@@ -40,6 +41,8 @@ pub struct SessionOptions {
     /// How much memory may be in use before a condition `HEAP-EXHAUSTED-ERROR` is signalled; as
     /// much as there is if `None`, and then the process is aborted.
     pub heap: Option<HeapLimit>,
+    /// Files, and a clock.
+    pub outside: Outside,
 }
 
 impl Default for SessionOptions {
@@ -56,6 +59,7 @@ impl Default for SessionOptions {
             realtime: None,
             view_port: None,
             heap: None,
+            outside: Outside::default(),
         }
     }
 }

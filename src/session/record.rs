@@ -150,7 +150,7 @@ fn save_transcript(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise
         let count = record.0.borrow().len().saturating_sub(1);
         (record.transcript(), count)
     });
-    std::fs::write(&path, text)
-        .map_err(|error| Raise::simple(format!("{path} cannot be written: {error}.")))?;
+    let written = image.files.write(&path, text.as_bytes());
+    written.map_err(|error| Raise::simple(format!("{path} cannot be written: {error}.")))?;
     Ok(Value::from(count))
 }

@@ -2,14 +2,14 @@
 //! names begin in the directory that the program was started in; texts are UTF-8.
 
 use crate::value::string::LispString;
-use std::fs::{self, File, OpenOptions};
-use std::io::{BufWriter, Error, ErrorKind};
+use std::io::{Error, ErrorKind};
 use std::rc::Rc;
-use std::time::UNIX_EPOCH;
+use std::sync::Arc;
 
 use super::shown::shown;
 use super::strings::string;
 use crate::builtin::Builtin;
+use crate::files::{Contents, Files, Opening};
 use crate::image::Image;
 use crate::stream::{Stream, StreamKind};
 use crate::typed::FromValue;
@@ -19,7 +19,7 @@ use crate::value::Value;
 use crate::value::known;
 use crate::value::pathname::Pathname;
 use crate::value::raise::Raise;
-use crate::value::stream::Elements;
+use crate::value::stream::{Elements, Target};
 use closest_name::closest_name;
 
 type Outcome = Result<Value, Box<Raise>>;
@@ -101,7 +101,7 @@ fn open(image: &mut Image, args: &[Value]) -> Outcome {
     let elements = elements(&args[1]);
     let kind = match direction.as_ref() {
         None | Some(Value::Symbol(known::K_INPUT, ..)) => {
-            open_input(&path, elements, if_does_not_exist.as_ref())?
+            open_input(&*image.files, &path, elements, if_does_not_exist.as_ref())?
         }
         Some(Value::Symbol(known::K_OUTPUT, ..)) => {
             open_output(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
@@ -109,7 +109,9 @@ fn open(image: &mut Image, args: &[Value]) -> Outcome {
         Some(Value::Symbol(known::K_IO, ..)) => {
             open_both(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
         }
-        Some(Value::Symbol(known::K_PROBE, ..)) => open_probe(&path, if_does_not_exist.as_ref())?,
+        Some(Value::Symbol(known::K_PROBE, ..)) => {
+            open_probe(&*image.files, &path, if_does_not_exist.as_ref())?
+        }
         Some(other) => {
             return Err(Raise::simple(format!(
                 "{} is no direction to open a file in; :INPUT, :OUTPUT, :IO and :PROBE are.",
@@ -124,16 +126,23 @@ fn open(image: &mut Image, args: &[Value]) -> Outcome {
 
 type Opened = Result<Option<StreamKind>, Box<Raise>>;
 
+fn is_folder(image: &Image, path: &str) -> bool {
+    let known = image.files.facts(path);
+    known.is_ok_and(|known| known.is_folder)
+}
+
 /// Looks whether a file is there.
-fn open_probe(path: &str, if_does_not_exist: Option<&Value>) -> Opened {
-    if fs::metadata(path).is_err() {
+fn open_probe(files: &dyn Files, path: &str, if_does_not_exist: Option<&Value>) -> Opened {
+    if files.facts(path).is_err() {
         match if_does_not_exist {
             Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::NotFound);
                 return Err(file_error("opening", path, &error));
             }
             Some(Value::Symbol(known::K_CREATE, ..)) => {
-                File::create(path).map_err(|error| file_error("creating", path, &error))?;
+                files
+                    .write(path, &[])
+                    .map_err(|error| file_error("creating", path, &error))?;
             }
             _ => return Ok(None),
         }
@@ -141,12 +150,19 @@ fn open_probe(path: &str, if_does_not_exist: Option<&Value>) -> Opened {
     Ok(Some(StreamKind::Closed))
 }
 
-fn open_input(path: &str, elements: Elements, if_does_not_exist: Option<&Value>) -> Opened {
-    let bytes = match fs::read(path) {
+fn open_input(
+    files: &dyn Files,
+    path: &str,
+    elements: Elements,
+    if_does_not_exist: Option<&Value>,
+) -> Opened {
+    let bytes = match files.read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => match if_does_not_exist {
             Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
             Some(Value::Symbol(known::K_CREATE, ..)) => {
-                File::create(path).map_err(|error| file_error("creating", path, &error))?;
+                files
+                    .write(path, &[])
+                    .map_err(|error| file_error("creating", path, &error))?;
                 Vec::new()
             }
             _ => return Err(file_error("opening", path, &error)),
@@ -157,7 +173,7 @@ fn open_input(path: &str, elements: Elements, if_does_not_exist: Option<&Value>)
         return Ok(Some(StreamKind::FileContents {
             bytes,
             position: 0,
-            changed: None,
+            target: None,
         }));
     }
     let text = String::from_utf8(bytes)
@@ -181,7 +197,8 @@ fn open_both(
         return Ok(None);
     };
     drop(kind);
-    let bytes = fs::read(path).map_err(|error| file_error("opening", path, &error))?;
+    let read = image.files.read(path);
+    let bytes = read.map_err(|error| file_error("opening", path, &error))?;
     let position = match if_exists {
         Some(Value::Symbol(known::K_APPEND, ..)) => bytes.len(),
         _ => 0,
@@ -189,7 +206,10 @@ fn open_both(
     Ok(Some(StreamKind::FileContents {
         bytes,
         position,
-        changed: Some(false),
+        target: Some(Target {
+            files: Arc::clone(&image.files),
+            is_changed: false,
+        }),
     }))
 }
 
@@ -199,25 +219,27 @@ fn open_output(
     if_exists: Option<&Value>,
     if_does_not_exist: Option<&Value>,
 ) -> Opened {
-    let exists = fs::metadata(path).is_ok();
-    let mut options = OpenOptions::new();
-    options.write(true);
-    if exists {
-        match if_exists {
+    let known = image.files.facts(path).ok();
+    let mut opening = Opening {
+        creates: false,
+        contents: Contents::Overwrite,
+    };
+    if known.is_some() {
+        opening.contents = match if_exists {
             Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
             None | Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::AlreadyExists);
                 return Err(file_error("opening", path, &error));
             }
-            Some(Value::Symbol(known::K_APPEND, ..)) => options.append(true),
-            Some(Value::Symbol(known::K_OVERWRITE, ..)) => &mut options,
+            Some(Value::Symbol(known::K_APPEND, ..)) => Contents::Append,
+            Some(Value::Symbol(known::K_OVERWRITE, ..)) => Contents::Overwrite,
             Some(Value::Symbol(
                 known::K_SUPERSEDE
                 | known::K_RENAME
                 | known::K_RENAME_AND_DELETE
                 | known::K_NEW_VERSION,
                 ..,
-            )) => options.truncate(true),
+            )) => Contents::Drop,
             Some(other) => {
                 return Err(Raise::simple(format!(
                     "{} is no value of :IF-EXISTS; :SUPERSEDE, :APPEND, :OVERWRITE, :ERROR and NIL are.",
@@ -238,22 +260,24 @@ fn open_output(
                 let error = Error::from(ErrorKind::NotFound);
                 return Err(file_error("opening", path, &error));
             }
-            _ => options.create(true),
+            _ => opening.creates = true,
         };
     }
-    let file = options
-        .open(path)
-        .map_err(|error| file_error("opening", path, &error))?;
-    let position = match (exists, if_exists) {
-        (true, Some(Value::Symbol(known::K_APPEND, ..))) => {
-            fs::metadata(path).map_or(0, |data| data.len())
-        }
-        _ => 0,
+    let opened = image.files.open(path, opening);
+    let file = opened.map_err(|error| file_error("opening", path, &error))?;
+    let length = match opening.contents {
+        Contents::Drop => 0,
+        Contents::Overwrite | Contents::Append => known.map_or(0, |known| known.length),
+    };
+    let position = match opening.contents {
+        Contents::Append => length,
+        Contents::Drop | Contents::Overwrite => 0,
     };
     Ok(Some(StreamKind::FileOutput {
-        file: BufWriter::new(file),
+        file,
         column: 0,
         position,
+        length,
     }))
 }
 
@@ -262,33 +286,32 @@ fn open_output(
 /// `(system::%true-name "no-such-file.txt")` => `NIL`
 // The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
 #[builtin("%TRUE-NAME")]
-fn true_name(name: FilePath) -> Outcome {
+fn true_name(image: &mut Image, name: FilePath) -> Outcome {
     let path = name.0;
     let here = if path.is_empty() { "." } else { path.as_str() };
-    let Some(found) = fs::canonicalize(here)
-        .ok()
-        .and_then(|found| found.into_os_string().into_string().ok())
-    else {
+    let Ok(found) = image.files.true_name(here) else {
         return Ok(Value::NIL);
     };
-    let is_folder = fs::metadata(&found).is_ok_and(|data| data.is_dir());
+    let is_folder = is_folder(image, &found);
     let needs_slash = is_folder && !found.ends_with('/');
     Ok(Value::string(if needs_slash { found + "/" } else { found }))
 }
 
 /// Deletes a file.
 #[builtin("%DELETE-FILE")]
-fn delete_file(name: FilePath) -> Outcome {
+fn delete_file(image: &mut Image, name: FilePath) -> Outcome {
     let path = name.0;
-    fs::remove_file(&path).map_err(|error| file_error("deleting", &path, &error))?;
+    let removed = image.files.remove(&path);
+    removed.map_err(|error| file_error("deleting", &path, &error))?;
     Ok(Value::T)
 }
 
 /// Renames a file.
 #[builtin("%RENAME-FILE")]
-fn rename_file(name: FilePath, new_name: FilePath) -> Outcome {
+fn rename_file(image: &mut Image, name: FilePath, new_name: FilePath) -> Outcome {
     let (old, new) = (name.0, new_name.0);
-    fs::rename(&old, &new).map_err(|error| file_error("renaming", &old, &error))?;
+    let renamed = image.files.rename(&old, &new);
+    renamed.map_err(|error| file_error("renaming", &old, &error))?;
     Ok(Value::T)
 }
 
@@ -297,13 +320,14 @@ const UNIVERSAL_TO_UNIX: u64 = 2_208_988_800;
 
 /// The universal time at which a file was written last.
 #[builtin("%FILE-DATE")]
-fn file_date(name: FilePath) -> Outcome {
+fn file_date(image: &mut Image, name: FilePath) -> Outcome {
     let path = name.0;
-    let written = fs::metadata(&path)
-        .and_then(|data| data.modified())
-        .map_err(|error| file_error("looking at", &path, &error))?;
-    let since = written.duration_since(UNIX_EPOCH).unwrap_or_default();
-    let date = i64::try_from(since.as_secs() + UNIVERSAL_TO_UNIX);
+    let known = image.files.facts(&path);
+    let known = known.map_err(|error| file_error("looking at", &path, &error))?;
+    let date = known
+        .modified
+        .map(|since| since.saturating_add(UNIVERSAL_TO_UNIX));
+    let date = date.and_then(|date| i64::try_from(date).ok());
     Ok(date.map_or(Value::NIL, Value::Int))
 }
 
@@ -312,12 +336,13 @@ fn file_date(name: FilePath) -> Outcome {
 /// `(system::%make-directories "")` => `NIL`
 // Makes a folder and those around it; was it missing?
 #[builtin("%MAKE-DIRECTORIES")]
-fn make_directories(name: FilePath) -> Outcome {
+fn make_directories(image: &mut Image, name: FilePath) -> Outcome {
     let path = name.0;
-    if path.is_empty() || fs::metadata(&path).is_ok_and(|data| data.is_dir()) {
+    if path.is_empty() || is_folder(image, &path) {
         return Ok(Value::NIL);
     }
-    fs::create_dir_all(&path).map_err(|error| file_error("making", &path, &error))?;
+    let made = image.files.create_folders(&path);
+    made.map_err(|error| file_error("making", &path, &error))?;
     Ok(Value::T)
 }
 
@@ -326,20 +351,11 @@ fn make_directories(name: FilePath) -> Outcome {
 ///
 /// `(system:file-names "no-such-folder")` => `NIL`
 #[builtin]
-fn file_names(folder: &Rc<LispString>) -> Outcome {
+fn file_names(image: &mut Image, folder: &Rc<LispString>) -> Outcome {
     let folder = folder.text();
-    let Ok(entries) = fs::read_dir(&folder) else {
+    let Ok(mut names) = image.files.names(&folder) else {
         return Ok(Value::NIL);
     };
-    // Names that are no text cannot be given to OPEN either.
-    let mut names: Vec<String> = entries
-        .flatten()
-        .filter_map(|entry| {
-            let name = entry.file_name().into_string().ok()?;
-            let is_folder = fs::metadata(entry.path()).is_ok_and(|data| data.is_dir());
-            Some(if is_folder { name + "/" } else { name })
-        })
-        .collect();
     names.sort_unstable();
     Ok(Value::list(names.into_iter().map(Value::string)))
 }

@@ -1,9 +1,11 @@
 //! Loading files of forms.
 
+use std::io::{Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
 use crate::builtin::Builtin;
+use crate::image::Image;
 use crate::reader::{Outcome, Reader};
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
@@ -39,10 +41,8 @@ fn load_and_tell(
     }
     let file = Value::foreign(Pathname::parse(name));
     machine.image.set_special(known::V_LOAD_PATHNAME, file);
-    let absolute = std::fs::canonicalize(name).ok();
-    let truename = absolute.map_or(Value::NIL, |path| {
-        Value::foreign(Pathname::parse(&path.to_string_lossy()))
-    });
+    let absolute = machine.image.files.true_name(name).ok();
+    let truename = absolute.map_or(Value::NIL, |path| Value::foreign(Pathname::parse(&path)));
     machine.image.set_special(known::V_LOAD_TRUENAME, truename);
     run(machine, "LOAD", |calls| async move {
         let eval = Value::from(known::EVAL);
@@ -114,7 +114,7 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
-    let text = match read_file(&path) {
+    let text = match read_file(machine.image, &path) {
         Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
         result => result?,
     };
@@ -155,9 +155,13 @@ fn may_be_missing(args: &[Value]) -> bool {
 fn beside(machine: &Machine<'_>, path: &str) -> Option<String> {
     let loader = machine.image.sources.locate(machine.place())?;
     let neighbour = Path::new(&*loader.name).parent()?.join(path);
-    (Path::new(path).is_relative() && neighbour.is_file())
+    let is_file = |path: &Path| {
+        let facts = path.to_str().map(|name| machine.image.files.facts(name));
+        matches!(facts, Some(Ok(known)) if !known.is_folder)
+    };
+    (Path::new(path).is_relative() && is_file(&neighbour))
         .then(|| without_detours(&neighbour))
-        .filter(|plain| plain.is_file())
+        .filter(|plain| is_file(plain))
         .map(|plain| plain.to_string_lossy().into_owned())
 }
 
@@ -176,8 +180,12 @@ fn without_detours(path: &Path) -> PathBuf {
     plain
 }
 
-fn read_file(path: &str) -> Result<String> {
-    std::fs::read_to_string(path).map_err(|error| {
+fn read_file(image: &Image, path: &str) -> Result<String> {
+    let bytes = image.files.read(path);
+    let text = bytes.and_then(|bytes| {
+        String::from_utf8(bytes).map_err(|_| Error::from(ErrorKind::InvalidData))
+    });
+    text.map_err(|error| {
         Raise::new(
             known::FILE_ERROR,
             format!("The file {path:?} cannot be read: {}.", reason(&error)),

@@ -197,11 +197,7 @@ fn file_length(image: &mut Image, stream_value: &Value) -> Outcome {
     let bytes = match &*stream.kind.borrow() {
         StreamKind::StringInput { text, .. } if stream.file.is_some() => text.len(),
         StreamKind::FileContents { bytes, .. } => bytes.len(),
-        StreamKind::FileOutput { file, .. } => {
-            let buffered = file.buffer().len();
-            let written = file.get_ref().metadata().map_or(0, |data| data.len());
-            usize::try_from(written).unwrap_or(usize::MAX) + buffered
-        }
+        StreamKind::FileOutput { length, .. } => usize::try_from(*length).unwrap_or(usize::MAX),
         _ => return Err(Raise::type_error(stream_value, known::FILE_STREAM)),
     };
     Ok((bytes / stream.width()).into())

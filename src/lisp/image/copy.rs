@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 
@@ -47,6 +48,7 @@ impl Image {
                 copier.refuse("output that nobody has been shown");
                 Output::default()
             }),
+            files: Arc::clone(&self.files),
             input: Input::default(),
             random: self.random.clone(),
             setf_expanders: named(&self.setf_expanders, copier),

@@ -28,6 +28,7 @@ pub use self::output::Output;
 use self::setf_expander::SetfExpander;
 use self::signalled::Signalled;
 use super::builtin::{Builtin, Entry, Expander, Operator};
+use super::files::{Disk, Files};
 use super::guard::Limits;
 use super::guard::polls::Polls;
 use super::native::BuiltinCall;
@@ -56,6 +57,8 @@ pub struct Image {
     pub sources: Sources,
     /// Text written to standard output that has not been taken yet.
     pub output: Output,
+    /// The files that programs can use.
+    pub files: Arc<dyn Files>,
     /// Where standard input comes from.
     pub input: Input,
     /// Seed and state of `random`.
@@ -118,6 +121,7 @@ impl Image {
             type_names: IndexMap::new(),
             sources: Sources::default(),
             output: Output::default(),
+            files: Arc::new(Disk),
             input: Input::default(),
             random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),

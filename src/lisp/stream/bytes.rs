@@ -68,9 +68,18 @@ pub(crate) fn write_byte(
         return Err(of_characters(stream, image, "OUTPUT-STREAM-P"));
     }
     let targets = match (&mut *stream.kind.borrow_mut(), stream.elements) {
-        (StreamKind::FileOutput { file, position, .. }, Elements::Integers { bits, signed }) => {
+        (
+            StreamKind::FileOutput {
+                file,
+                position,
+                length,
+                ..
+            },
+            Elements::Integers { bits, signed },
+        ) => {
             let bytes = encoded(byte, bits, signed, stream.width())?;
             *position += bytes.len() as u64;
+            *length = (*length).max(*position);
             return file
                 .write_all(&bytes)
                 .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()));
@@ -79,13 +88,13 @@ pub(crate) fn write_byte(
             StreamKind::FileContents {
                 bytes,
                 position,
-                changed: Some(changed),
+                target: Some(target),
             },
             Elements::Integers { bits, signed },
         ) => {
             let new = encoded(byte, bits, signed, stream.width())?;
             let end = (*position + new.len()).min(bytes.len());
-            *changed = true;
+            target.is_changed = true;
             bytes.splice(*position..end, new.iter().copied());
             *position += new.len();
             return Ok(());

@@ -136,7 +136,7 @@ fn write_to(
         StreamKind::FileContents {
             bytes,
             position,
-            changed: Some(changed),
+            target: Some(target),
         } => {
             // As many characters are replaced as are written.
             let old = String::from_utf8_lossy(bytes.get(*position..).unwrap_or_default());
@@ -146,7 +146,7 @@ fn write_to(
                 .map(char::len_utf8)
                 .sum();
             let end = (*position + replaced).min(bytes.len());
-            *changed = true;
+            target.is_changed = true;
             bytes.splice(*position..end, text.bytes());
             *position += text.len();
             return Ok(());
@@ -155,9 +155,11 @@ fn write_to(
             file,
             column,
             position,
+            length,
         } => {
             *column = column_after(text, *column);
             *position += text.len() as u64;
+            *length = (*length).max(*position);
             return file
                 .write_all(text.as_bytes())
                 .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()));
@@ -507,14 +509,14 @@ pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
             .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string())),
         StreamKind::FileContents {
             bytes,
-            changed: Some(changed @ true),
+            target: Some(target),
             ..
-        } => {
+        } if target.is_changed => {
             if let Some(file) = &stream.file {
-                std::fs::write(&**file, bytes)
-                    .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()))?;
+                let written = target.files.write(file, bytes);
+                written.map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()))?;
             }
-            *changed = false;
+            target.is_changed = false;
             Ok(())
         }
         _ => Ok(()),

@@ -2,15 +2,15 @@
 //! standard output.
 
 use std::cell::{Cell, RefCell};
-use std::fs::File;
-use std::io::BufWriter;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::document::Document;
 use super::known;
 use super::raise::Raise;
 use super::string::LispString;
 use super::symbol::Sym;
+use crate::files::{Files, Output};
 
 /// The deepest nesting of streams that are made of other streams.
 pub(crate) const MAX_NESTING: u32 = 100;
@@ -42,6 +42,14 @@ pub enum Elements {
         /// May they be negative?
         signed: bool,
     },
+}
+
+/// Where the contents of a file are written that are in memory.
+pub struct Target {
+    /// The files that it is one of.
+    pub files: Arc<dyn Files>,
+    /// Is something not in the file yet?
+    pub is_changed: bool,
 }
 
 /// Where a stream's elements come from or go to.
@@ -76,20 +84,21 @@ pub enum StreamKind {
     /// Writes a file.
     FileOutput {
         /// The open file.
-        file: BufWriter<File>,
+        file: Box<dyn Output>,
         /// Number of characters on the current line.
         column: usize,
-        /// Number of bytes written.
+        /// Index of the byte that is written next.
         position: u64,
+        /// Number of bytes in the file.
+        length: u64,
     },
     /// Reads a file that is not text, or reads and writes one. All of it is in memory.
     FileContents {
         bytes: Vec<u8>,
         /// Index of the next byte.
         position: usize,
-        /// Is it written, and what has been written not in the file yet? None for a file that is
-        /// only read.
-        changed: Option<bool>,
+        /// Where it is written; none for a file that is only read.
+        target: Option<Target>,
     },
     /// Writes to several streams.
     Broadcast {
@@ -267,7 +276,7 @@ impl Stream {
                 | StreamKind::StringTarget { .. }
                 | StreamKind::FileOutput { .. }
                 | StreamKind::FileContents {
-                    changed: Some(_),
+                    target: Some(_),
                     ..
                 }
                 | StreamKind::Broadcast { .. }

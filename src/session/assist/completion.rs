@@ -14,7 +14,7 @@ impl Assistant<'_> {
             return Completions::default();
         }
         if context.in_string {
-            return files::completions(context.word, context.word_start);
+            return files::completions(&*self.image.files, context.word, context.word_start);
         }
         // `?name` alone asks for documentation.
         if context.lists.is_empty() && context.word.starts_with('?') {

@@ -11,6 +11,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::dialogue::Swept;
+use crate::options::SessionOptions;
+use crate::outside::Outside;
 use crate::simulation::Simulation;
 use film::Film;
 pub use film::Filming;
@@ -45,18 +47,27 @@ pub struct Audience {
     pictures: Vec<Arc<Image>>,
     /// What came of the latest sweep, for front ends that can show tables.
     pub(super) swept: Option<Swept>,
+    outside: Outside,
 }
 
 impl Audience {
-    /// An audience for which simulated time passes at that multiple of real time, or as fast
-    /// as possible, with the port of its live view, or any.
-    pub(super) fn new(realtime: Option<f64>, view_port: Option<u16>) -> Self {
-        let control = realtime.map(|factor| PaceControl::new(Speed::Times(factor)));
+    /// An audience that has the session's options for its pace, its live view, its files and its clock.
+    pub(super) fn new(options: &SessionOptions) -> Self {
+        let Outside { files, clock } = options.outside.clone();
+        let control = options
+            .realtime
+            .map(|factor| PaceControl::new(Speed::Times(factor)));
         Self {
-            pace: control.map(Pace::new),
-            place: Place::new(view_port),
+            pace: control.map(|control| Pace::new(control, Arc::clone(&clock))),
+            place: Place::new(options.view_port),
+            outside: Outside { files, clock },
             ..Self::default()
         }
+    }
+
+    /// Files, and the clock of those who watch.
+    pub(crate) fn outside(&self) -> &Outside {
+        &self.outside
     }
 
     /// Sets whether simulated time passes as fast as possible, whatever its pace.

@@ -1,10 +1,11 @@
 //! Limiting simulated time to a multiple of real time. This affects when things happen for
 //! the user who watches, never what happens.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::outside::Clock;
 use view::watch::live::{PaceControl, Speed};
 
 /// Longest lag (s) behind real time that is made up for; after longer pauses, such as at the
@@ -17,15 +18,19 @@ const SLICE: Duration = Duration::from_millis(50);
 /// Keeps pace with real time.
 pub(crate) struct Pace {
     control: PaceControl,
-    next: Instant,
+    clock: Arc<dyn Clock>,
+    /// When, by the clock, the next wait begins.
+    next: Duration,
 }
 
 impl Pace {
-    /// Keeps the pace that the control sets.
-    pub(crate) fn new(control: PaceControl) -> Pace {
+    /// Keeps the pace that the control sets, by a clock.
+    pub(crate) fn new(control: PaceControl, clock: Arc<dyn Clock>) -> Pace {
+        let next = clock.now();
         Pace {
             control,
-            next: Instant::now(),
+            clock,
+            next,
         }
     }
 
@@ -52,7 +57,7 @@ impl Pace {
             let Some(speed) = self.control.wait(SLICE) else {
                 continue;
             };
-            let now = Instant::now();
+            let now = self.clock.now();
             let factor = match speed {
                 Speed::Times(factor) => factor,
                 Speed::Unlimited => {
@@ -60,14 +65,14 @@ impl Pace {
                     return;
                 }
             };
-            if now.saturating_duration_since(self.next).as_secs_f64() > MOST_LAG {
+            if now.saturating_sub(self.next).as_secs_f64() > MOST_LAG {
                 self.next = now;
             }
             // A long wait is divided into slices, between which the speed may change.
             let slice = seconds.min(SLICE.as_secs_f64() * factor);
             self.next += Duration::from_secs_f64(slice / factor);
             seconds -= slice;
-            thread::sleep(self.next.saturating_duration_since(now));
+            self.clock.wait(self.next.saturating_sub(now));
             if seconds <= 0.0 {
                 return;
             }

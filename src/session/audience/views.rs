@@ -1,8 +1,8 @@
 //! The live view and recordings.
 
-use std::fs::File;
-use std::io::Write;
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -10,6 +10,7 @@ use super::Audience;
 use super::following::FollowerId;
 use super::pace::Pace;
 use crate::simulation::Simulation;
+use lisp::files::{Contents, Files, Opening, Output};
 use lisp::image::Image;
 use view::watch::live::{
     History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views, run_file,
@@ -28,7 +29,6 @@ pub(crate) struct OpenRecording {
 pub(crate) struct KeptRun {
     follower: FollowerId,
     path: PathBuf,
-    file: File,
     seen: Seen,
 }
 
@@ -97,7 +97,9 @@ impl Audience {
         };
         let server = Server::start(&mut self.place, history.clone(), shown, views);
         let server = server.map_err(WatchError::View)?;
-        self.pace.get_or_insert_with(|| Pace::new(control));
+        let clock = &self.outside.clock;
+        self.pace
+            .get_or_insert_with(|| Pace::new(control, Arc::clone(clock)));
         let address = server.address();
         let follower = Box::new(LiveFollower::new(history, witness));
         let follower = self.add_follower(simulation, image, follower);
@@ -132,7 +134,9 @@ impl Audience {
             path: path.to_owned(),
             error,
         };
-        let (recorder, result) = Recorder::create(path, &simulation.world).map_err(failed)?;
+        let file = open(&*self.outside.files, path, Contents::Drop);
+        let file = file.map_err(|error| failed(error.into()))?;
+        let (recorder, result) = Recorder::new(file, &simulation.world).map_err(failed)?;
         let follower = self.add_follower(simulation, image, Box::new(recorder));
         self.recording = Some(OpenRecording {
             follower,
@@ -166,13 +170,12 @@ impl Audience {
         path: &Path,
     ) -> Result<(), WatchError> {
         // A file that cannot be written is known before the robot moves.
-        let file = opened(path)?;
+        self.try_out(path)?;
         let (seen, follower) = follower_of(simulation);
         let follower = self.add_follower(simulation, image, follower);
         self.kept = Some(KeptRun {
             follower,
             path: path.to_owned(),
-            file,
             seen,
         });
         Ok(())
@@ -185,7 +188,7 @@ impl Audience {
         };
         self.show(simulation, Cause::Rest);
         self.remove_follower(kept.follower);
-        write(kept.file, &kept.path, &kept.seen)
+        self.write_run(&kept.path, &kept.seen)
     }
 
     /// Writes what has been seen since the live view was opened, or since the beginning of a run
@@ -196,16 +199,31 @@ impl Audience {
         image: &Image,
         path: &Path,
     ) -> Result<(), WatchError> {
-        let file = opened(path)?;
+        self.try_out(path)?;
         self.show(simulation, Cause::Rest);
         let kept = self.kept.as_ref().map(|kept| &kept.seen);
         if let Some(seen) = kept.or(self.view.as_ref().map(|view| &view.seen)) {
-            return write(file, path, seen);
+            return self.write_run(path, seen);
         }
         let (seen, follower) = follower_of(simulation);
         let follower = self.add_follower(simulation, image, follower);
         self.remove_follower(follower);
-        write(file, path, &seen)
+        self.write_run(path, &seen)
+    }
+
+    /// Fails if the file cannot be written; it keeps what it contains.
+    fn try_out(&self, path: &Path) -> Result<(), WatchError> {
+        let opened = open(&*self.outside.files, path, Contents::Overwrite);
+        opened
+            .map(drop)
+            .map_err(|error| unsaved(path, error.into()))
+    }
+
+    fn write_run(&self, path: &Path, seen: &Seen) -> Result<(), WatchError> {
+        let text = run_file(&seen.history, &seen.views);
+        let written =
+            name_of(path).and_then(|name| self.outside.files.write(name, text.as_bytes()));
+        written.map_err(|error| unsaved(path, error.into()))
     }
 
     /// The reason why the recording has ended by itself, if it has; told once.
@@ -235,26 +253,19 @@ fn follower_of(simulation: &Simulation) -> (Seen, Box<LiveFollower>) {
     (Seen { history, views }, Box::new(follower))
 }
 
-/// The file, which keeps what it contains until it is written.
-fn opened(path: &Path) -> Result<File, WatchError> {
-    let options = File::options()
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(path);
-    options.map_err(|error| unsaved(path, error.into()))
+/// Opens a file, which is created if it is missing.
+fn open(files: &dyn Files, path: &Path, contents: Contents) -> Result<Box<dyn Output>, Error> {
+    let opening = Opening {
+        creates: true,
+        contents,
+    };
+    files.open(name_of(path)?, opening)
 }
 
-fn write(mut file: File, path: &Path, seen: &Seen) -> Result<(), WatchError> {
-    let text = run_file(&seen.history, &seen.views);
-    // What is no file, such as a device, has no length.
-    let emptied = match file.metadata() {
-        Ok(known) if known.is_file() => file.set_len(0),
-        _ => Ok(()),
-    };
-    emptied
-        .and_then(|()| file.write_all(text.as_bytes()))
-        .map_err(|error| unsaved(path, error.into()))
+/// The name by which files are known.
+fn name_of(path: &Path) -> Result<&str, Error> {
+    let name = path.to_str();
+    name.ok_or_else(|| Error::new(ErrorKind::InvalidInput, "the name is no text"))
 }
 
 fn unsaved(path: &Path, error: RecordingError) -> WatchError {

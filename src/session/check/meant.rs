@@ -1,7 +1,6 @@
 //! What somebody may have meant by a name that means nothing.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::package_name::short_name;
 use closest_name::closest_name;
@@ -60,7 +59,7 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
     };
     match instance.class().name {
         known::SIMPLE_PACKAGE_ERROR => return package_hint(image, &instance.slot(known::PACKAGE)?),
-        known::FILE_ERROR => return file_hint(&instance.slot(known::PATHNAME)?),
+        known::FILE_ERROR => return file_hint(image, &instance.slot(known::PATHNAME)?),
         _ => {}
     }
     let name = instance.slot(known::NAME)?.as_symbol()?;
@@ -124,21 +123,22 @@ fn package_hint(image: &Image, designator: &Value) -> Option<String> {
 
 /// What to say to somebody who has named a file that does not exist: one with a similar name in the
 /// same folder.
-fn file_hint(path: &Value) -> Option<String> {
+fn file_hint(image: &Image, path: &Value) -> Option<String> {
     let path = PathBuf::from(file_name(path)?);
-    if path.exists() {
+    if image.files.facts(path.to_str()?).is_ok() {
         return None;
     }
     let folder = path.parent()?;
     let is_here = folder.as_os_str().is_empty();
-    let entries = fs::read_dir(if is_here { Path::new(".") } else { folder }).ok()?;
-    let names = entries.take(MOST_ENTRIES).flatten();
-    let names = names.filter_map(|entry| entry.file_name().into_string().ok());
-    let mut names: Vec<String> = names.collect();
+    let names = image
+        .files
+        .names(if is_here { "." } else { folder.to_str()? });
+    let mut names = names.ok()?;
     names.sort();
+    names.truncate(MOST_ENTRIES);
     let near = closest_name(
         path.file_name()?.to_str()?,
-        names.iter().map(String::as_str),
+        names.iter().map(|name| name.trim_end_matches('/')),
     )?;
     Some(format!("Did you mean {:?}?", folder.join(near)))
 }

@@ -1,5 +1,6 @@
 //! Evaluating texts, files and calls, with values as data.
 
+use std::io;
 use std::path::Path;
 
 use super::{Datum, Failure, Unhandled, from_value, into_value, names};
@@ -32,11 +33,14 @@ impl Within<'_> {
     /// As [`Session::run_file`].
     pub fn run_file(&mut self, path: impl AsRef<Path>) -> Result<Vec<Datum>, Failure> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|error| Failure::Unreadable {
+        let name = path.to_string_lossy();
+        let bytes = self.session.options.outside.files.read(&name);
+        let text = bytes.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+        let text = text.map_err(|error| Failure::Unreadable {
             path: path.to_owned(),
             reason: error.to_string(),
         })?;
-        self.run(&path.to_string_lossy(), &text)
+        self.run(&name, &text)
     }
 
     /// As [`Session::call`].

@@ -1,8 +1,6 @@
 //! Pictures at the prompt: of the world from anywhere, of what the robot's camera sees, and of
 //! the floor as the base planner sees it.
 
-use std::fs;
-
 use super::picture_request::PictureRequest;
 use crate::audience::Audience;
 use crate::host::SimulationHost;
@@ -63,7 +61,9 @@ fn publish(
     usual: &str,
 ) -> Result<Reply> {
     let file = file.unwrap_or(usual);
-    let written = picture.to_png().and_then(|png| fs::write(file, png));
+    let written = picture
+        .to_png()
+        .and_then(|png| audience.outside().files.write(file, &png));
     written.map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),

@@ -2,12 +2,12 @@
 //! inspecting values.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use super::tour;
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
 use crate::host::parts::{View, in_world};
+use crate::outside::Outside;
 use crate::person::Person;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, type_text};
@@ -82,11 +82,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     &[],
     |machine, args| {
         let plan = Plan::of(machine.image);
-        let (begin, now) = (Instant::now(), plan.now());
+        let outside = machine.image.extension::<Outside>().unwrap_or_default();
+        let clock = Arc::clone(&outside.clock);
+        let (begin, now) = (clock.now(), plan.now());
         run(machine, "TIME", |calls| async move {
             let values = calls.call_for_values(&args[0], Vec::new()).await;
             let simulated = plan.now() - now;
-            let real = begin.elapsed().as_secs_f64();
+            let real = clock.now().saturating_sub(begin).as_secs_f64();
             let text = format!("; {simulated:.3} s simulated, {real:.3} s real");
             calls
                 .with(move |machine| trace(machine.image, &text))

@@ -48,11 +48,11 @@ impl Copier {
             StreamKind::FileContents {
                 bytes,
                 position,
-                changed: None,
+                target: None,
             } => StreamKind::FileContents {
                 bytes: bytes.clone(),
                 position: *position,
-                changed: None,
+                target: None,
             },
             StreamKind::FileOutput { .. } | StreamKind::FileContents { .. } => {
                 self.refuse("a file that is being written");

@@ -62,7 +62,7 @@ impl Follower for LiveFollower {
         let keep = keep || cause == Cause::Edit;
         self.history
             .publish(self.frame_builder.nodes(), frame, keep);
-        self.left = Some(Instant::now());
+        self.left = self.is_live.then(Instant::now);
     }
 
     fn hear(&mut self, time: f64, event: &WatchEvent) {

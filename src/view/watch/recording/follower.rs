@@ -1,8 +1,6 @@
 //! Records what happens in a session.
 
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::Path;
+use std::io::Write;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -57,11 +55,14 @@ enum Item {
 }
 
 impl Recorder {
-    /// Starts a recording in the file, which is overwritten.
-    pub fn create(path: &Path, world: &World) -> Result<(Self, RecordingResult), RecordingError> {
+    /// Starts a recording that goes into a file.
+    pub fn new(
+        file: impl Write + Send + 'static,
+        world: &World,
+    ) -> Result<(Self, RecordingResult), RecordingError> {
         let frame_builder = FrameBuilder::new(world);
         let names = frame_builder.joint_names(world);
-        let writer = RecordingWriter::new(BufWriter::new(File::create(path)?), names)?;
+        let writer = RecordingWriter::new(file, names)?;
         let (to, from) = sync_channel(MOST_WAITING);
         let result = RecordingResult::default();
         let shared_result = result.clone();
@@ -93,8 +94,8 @@ impl Recorder {
     }
 }
 
-fn write(
-    mut writer: RecordingWriter<BufWriter<File>>,
+fn write<W: Write>(
+    mut writer: RecordingWriter<W>,
     from: &Receiver<Item>,
 ) -> Result<(), RecordingError> {
     for item in from {
