@@ -40,6 +40,7 @@ use crate::dialogue::{Evaluate, Event, Finding, Outcome};
 use console::Evaluator;
 use cram::Scheduler;
 use host::SimulationHost;
+use lisp::files::Closed;
 use lisp::image::Image;
 use lisp::library;
 use lisp::value::release::FreesAll;
@@ -137,6 +138,14 @@ impl Session {
         // Nobody takes the world back to before the built-in plans.
         session.evaluator.host.person.snapshots = person::Snapshots::default();
         Ok(session)
+    }
+
+    /// Closes the session: from now on nothing that is evaluated can use a file, open a port or edit the
+    /// world. Plans can move the robot, calculate and print. A recording or a page of the run that has begun
+    /// goes on.
+    pub fn close(&mut self) {
+        self.evaluator.image.files = Arc::new(Closed);
+        self.evaluator.host.is_closed = true;
     }
 
     /// Ends the session together with the process, to which freeing its memory is left.

@@ -2,6 +2,7 @@
 // Figures are told.
 #![allow(clippy::print_stdout)]
 
+mod closed;
 #[cfg(unix)]
 mod interrupts;
 mod pseudo_terminal;

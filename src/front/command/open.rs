@@ -28,7 +28,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
         Ok((path.display().to_string(), text))
     };
-    let options = SessionOptions {
+    let session_options = SessionOptions {
         seed: options.seed,
         robot: options.robot.as_deref().map(read).transpose()?,
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
@@ -49,9 +49,19 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         realtime: options.realtime,
         view_port: options.view_port,
         heap: heap::limit(options.heap),
+        ..SessionOptions::default()
     };
     set_stack_budget(COMPILER_STACK);
-    Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))
+    let mut session = Session::new(&session_options)
+        .map_err(|error| CommandError::Open(error.to_string()))?;
+    for file in &options.setup {
+        let set_up = session.run_file(file);
+        set_up.map_err(|failure| CommandError::Open(format!("{}: {failure}", file.display())))?;
+    }
+    if options.closed {
+        session.close();
+    }
+    Ok(session)
 }
 
 /// The description of the kitchen's furniture: the one that is given, or else the file beside the

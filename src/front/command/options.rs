@@ -42,6 +42,13 @@ pub(crate) struct Options {
         default_missing_value = ""
     )]
     pub(crate) noise: Option<String>,
+    /// Let what is evaluated use no files and open no ports, and refuse edits of the world, such as
+    /// spawn-object: plans can only move the robot, calculate and print
+    #[arg(long, global = true)]
+    pub(crate) closed: bool,
+    /// File to load before the session closes, which may edit the world; may be given several times
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) setup: Vec<PathBuf>,
     /// Least severe log messages to show
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     pub(crate) log_level: LogLevel,

@@ -134,7 +134,7 @@ impl Audience {
             path: path.to_owned(),
             error,
         };
-        let file = open(&*self.outside.files, path, Contents::Drop);
+        let file = open(&*image.files, path, Contents::Drop);
         let file = file.map_err(|error| failed(error.into()))?;
         let (recorder, result) = Recorder::new(file, &simulation.world).map_err(failed)?;
         let follower = self.add_follower(simulation, image, Box::new(recorder));
@@ -170,7 +170,7 @@ impl Audience {
         path: &Path,
     ) -> Result<(), WatchError> {
         // A file that cannot be written is known before the robot moves.
-        self.try_out(path)?;
+        try_out(&*image.files, path)?;
         let (seen, follower) = follower_of(simulation);
         let follower = self.add_follower(simulation, image, follower);
         self.kept = Some(KeptRun {
@@ -188,7 +188,7 @@ impl Audience {
         };
         self.show(simulation, Cause::Rest);
         self.remove_follower(kept.follower);
-        self.write_run(&kept.path, &kept.seen)
+        write_run(&*self.outside.files, &kept.path, &kept.seen)
     }
 
     /// Writes what has been seen since the live view was opened, or since the beginning of a run
@@ -199,31 +199,16 @@ impl Audience {
         image: &Image,
         path: &Path,
     ) -> Result<(), WatchError> {
-        self.try_out(path)?;
+        try_out(&*image.files, path)?;
         self.show(simulation, Cause::Rest);
         let kept = self.kept.as_ref().map(|kept| &kept.seen);
         if let Some(seen) = kept.or(self.view.as_ref().map(|view| &view.seen)) {
-            return self.write_run(path, seen);
+            return write_run(&*image.files, path, seen);
         }
         let (seen, follower) = follower_of(simulation);
         let follower = self.add_follower(simulation, image, follower);
         self.remove_follower(follower);
-        self.write_run(path, &seen)
-    }
-
-    /// Fails if the file cannot be written; it keeps what it contains.
-    fn try_out(&self, path: &Path) -> Result<(), WatchError> {
-        let opened = open(&*self.outside.files, path, Contents::Overwrite);
-        opened
-            .map(drop)
-            .map_err(|error| unsaved(path, error.into()))
-    }
-
-    fn write_run(&self, path: &Path, seen: &Seen) -> Result<(), WatchError> {
-        let text = run_file(&seen.history, &seen.views);
-        let written =
-            name_of(path).and_then(|name| self.outside.files.write(name, text.as_bytes()));
-        written.map_err(|error| unsaved(path, error.into()))
+        write_run(&*image.files, path, &seen)
     }
 
     /// The reason why the recording has ended by itself, if it has; told once.
@@ -251,6 +236,20 @@ fn follower_of(simulation: &Simulation) -> (Seen, Box<LiveFollower>) {
     let views = Views::new(world, |link| frames.node_named(link));
     let follower = LiveFollower::without_viewers(history.clone(), frames);
     (Seen { history, views }, Box::new(follower))
+}
+
+/// Fails if the file cannot be written; it keeps what it contains.
+fn try_out(files: &dyn Files, path: &Path) -> Result<(), WatchError> {
+    let opened = open(files, path, Contents::Overwrite);
+    opened
+        .map(drop)
+        .map_err(|error| unsaved(path, error.into()))
+}
+
+fn write_run(files: &dyn Files, path: &Path, seen: &Seen) -> Result<(), WatchError> {
+    let text = run_file(&seen.history, &seen.views);
+    let written = name_of(path).and_then(|name| files.write(name, text.as_bytes()));
+    written.map_err(|error| unsaved(path, error.into()))
 }
 
 /// Opens a file, which is created if it is missing.

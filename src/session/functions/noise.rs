@@ -1,6 +1,6 @@
 //! The errors of the robot's sensors and motors.
 
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit};
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
 use cram::Reply;
@@ -23,7 +23,7 @@ pub(super) static TABLE: &[Builtin] = &[control(
         "(progn (pw:set-noise :position 0.125 :misses 0.25) (pw:set-noise)) => (:POSITION 0.125d0 :MISSES 0.25d0)",
         "(pw:set-noise) => NIL",
     ],
-    host!(set_noise),
+    edit!(set_noise),
 )];
 
 fn set_noise(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

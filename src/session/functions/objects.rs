@@ -1,6 +1,6 @@
 //! Builtins for objects: spawning, moving, removing.
 
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_text_of};
@@ -37,28 +37,28 @@ pub(super) static TABLE: &[Builtin] = &[
         &[
             "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr-utils:object-exists 'cup-1)) => T",
         ],
-        host!(spawn_keyword),
+        edit!(spawn_keyword),
     ),
     control(
         "KILL-OBJECT",
         "name",
         "Removes an object.",
         &[],
-        host!(kill_object),
+        edit!(kill_object),
     ),
     control(
         "KILL-ALL-OBJECTS",
         "",
         "Removes all objects.",
         &["(btr-utils:kill-all-objects) => NIL"],
-        host!(kill_all_objects),
+        edit!(kill_all_objects),
     ),
     control(
         "MOVE-OBJECT",
         "name &optional pose",
         "Puts an object somewhere else.",
         &[],
-        host!(move_object),
+        edit!(move_object),
     ),
     control(
         "OBJECT-POSE",
@@ -79,7 +79,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "&optional pose",
         "Puts the robot somewhere else at once.",
         &[],
-        host!(move_robot),
+        edit!(move_robot),
     ),
 ];
 

@@ -9,6 +9,7 @@ use crate::simulation::properties::property;
 use cram::Reply;
 use cram::designator::value::current;
 use lisp::builtin::{Builtin, control};
+use lisp::files::Files;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
@@ -55,6 +56,7 @@ pub(super) static TABLE: &[Builtin] = &[
 
 /// Writes the picture and queues it for display; the reply is the file's name.
 fn publish(
+    files: &dyn Files,
     audience: &mut Audience,
     picture: picture::Image,
     file: Option<&str>,
@@ -63,7 +65,7 @@ fn publish(
     let file = file.unwrap_or(usual);
     let written = picture
         .to_png()
-        .and_then(|png| audience.outside().files.write(file, &png));
+        .and_then(|png| files.write(file, &png));
     written.map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),
@@ -98,6 +100,7 @@ fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
         image.output.write(&warning);
     }
     publish(
+        &*image.files,
         &mut host.audience,
         picture,
         request.file.as_deref(),
@@ -122,6 +125,7 @@ fn camera_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
         image.output.write(&format!("{visibility}.\n"));
     }
     publish(
+        &*image.files,
         &mut host.audience,
         shown.image,
         request.file.as_deref(),
@@ -148,6 +152,7 @@ fn map_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
     let mut picture = render(&scene, &camera);
     add_legend(&mut picture);
     publish(
+        &*image.files,
         &mut host.audience,
         picture,
         request.file.as_deref(),

@@ -1,6 +1,6 @@
 //! Serving the session to an editor.
 
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit};
 use crate::person::Person;
 use cram::Reply;
 use lisp::builtin::{Builtin, control};
@@ -15,7 +15,7 @@ pub(super) static TABLE: &[Builtin] = &[control(
     "&key (port 4005) dont-close style",
     "At the prompt: serves the session to Emacs, which connects by M-x slime-connect, until Ctrl-C; the prompt waits meanwhile. With port 0, any that is free. Returns the port that was asked for.",
     &[],
-    host!(create_server),
+    edit!(create_server),
 )];
 
 /// The port by which SLIME connects unless told otherwise.

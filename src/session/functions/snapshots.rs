@@ -1,7 +1,7 @@
 //! Restoring earlier states of the world: `rewind`, `snapshot`, `restore`.
 
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::printing::on_one_line;
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
@@ -22,7 +22,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "&optional count",
         "Restores the world to before the last COUNT forms at the prompt that changed it (default: 1). Objects, the robot and what it holds are restored; Lisp variables and simulated time are not.",
         &[],
-        host!(rewind),
+        edit!(rewind),
     ),
     control(
         "SNAPSHOT",
@@ -36,7 +36,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "name",
         "Restores the world that SNAPSHOT saved under the name. Lisp variables and simulated time stay.",
         &["(progn (pw:snapshot 'now) (pw:restore 'now)) => NOW"],
-        host!(restore),
+        edit!(restore),
     ),
     control(
         "WORLD-HASH",

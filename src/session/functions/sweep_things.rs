@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::simulation::obstacle::{OBSTACLE, obstacle};
@@ -55,21 +55,21 @@ pub(super) static TABLE: &[Builtin] = &[
         &[
             "(progn (pw::%sweep-begin 0 0) (pw::%place-on-surface 'cup-1 :cup :table-area-main -1.6 -0.9 0 0)) => NIL",
         ],
-        host!(place_on_surface),
+        edit!(place_on_surface),
     ),
     control(
         "%PLACE-ON-FLOOR",
         "name x y yaw size height",
         "Puts a box with a square base (m) onto the floor. NIL, or a text that says why it cannot.",
         &[],
-        host!(place_on_floor),
+        edit!(place_on_floor),
     ),
     control(
         "%SETTLE-WORLD",
         "",
         "Lets everything come to rest. A list of the name of an object that does not stay where it was put, and what became of it; or NIL.",
         &["(progn (pw::%sweep-begin 0 0) (pw::%settle-world)) => NIL"],
-        host!(settle_world),
+        edit!(settle_world),
     ),
     control(
         "%OBJECTS-OF-WORLD",
@@ -83,7 +83,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "object",
         "The angle (rad) between the axis of an object and the vertical.",
         &[],
-        host!(tilt),
+        edit!(tilt),
     ),
     control(
         "%TYPE-OF-OBJECT",

@@ -3,7 +3,7 @@
 
 use crate::dialogue::Swept;
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::simulation::injection::{Fault, FaultKind};
 use crate::simulation::names::name_text;
 use crate::sweeping::{Known, Sweeping};
@@ -48,14 +48,14 @@ pub(super) static TABLE: &[Builtin] = &[
         "kind probability after duration of at position yaw",
         "A fault may strike motions from now on.",
         &[],
-        host!(inject),
+        edit!(inject),
     ),
     control(
         "%INJECT-SCHEDULE",
         "faults",
         "Faults that have struck in a world strike again, in the same meetings with the same objects.",
         &[],
-        host!(inject_schedule),
+        edit!(inject_schedule),
     ),
     control(
         "%INJECTED-FAULTS",
@@ -69,14 +69,14 @@ pub(super) static TABLE: &[Builtin] = &[
         "",
         "No fault strikes any more.",
         &["(pw::%end-faults) => NIL"],
-        host!(end_faults),
+        edit!(end_faults),
     ),
     control(
         "%BEGIN-FAULTS",
         "seed",
         "Faults are drawn anew, as the seed says.",
         &[],
-        host!(begin_faults),
+        edit!(begin_faults),
     ),
     control(
         "%SWEEP-RECORD",

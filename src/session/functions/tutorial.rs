@@ -1,7 +1,7 @@
 //! The functions of the tutorial's package that query or change the world.
 
 use super::objects::Spawning;
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::simulation::motions::side;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
@@ -34,7 +34,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "",
         "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.",
         &["(pp-tut:init-projection) => T"],
-        host!(init_projection),
+        edit!(init_projection),
     ),
     control(
         "SPAWN-OBJECT",
@@ -43,7 +43,7 @@ pub(super) static TABLE: &[Builtin] = &[
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr-utils:object-exists 'bottle-1)) => T",
         ],
-        host!(spawn_object),
+        edit!(spawn_object),
     ),
     control(
         "LIST-AVAILABLE-OBJECTS",
@@ -83,7 +83,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "&key joint-name joint-angle kitchen-name",
         "Opens or closes a drawer or a door.",
         &["(pp-tut:move-kitchen-joint) => NIL"],
-        host!(move_kitchen_joint),
+        edit!(move_kitchen_joint),
     ),
     control(
         "GET-ROBOT-TRANSFORMATION",

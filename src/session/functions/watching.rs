@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use cram::Reply;
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
@@ -19,7 +19,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "&optional (on t)",
         "Opens the live view in the browser and returns its address; with NIL, closes it. While it is open, simulated time passes as fast as real time.",
         &["(pw:view nil) => NIL"],
-        host!(view),
+        edit!(view),
     ),
     control(
         "RECORD",

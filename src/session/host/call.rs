@@ -18,6 +18,8 @@ pub(crate) struct HostCall {
     pub call: HostFn,
     /// Its arguments.
     pub args: Vec<Value>,
+    /// Does it change the world otherwise than the robot could, or open a door to the outside?
+    pub is_edit: bool,
 }
 
 /// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
@@ -54,6 +56,9 @@ impl Owner for Audience {
 /// [`Owner`] that it acts on.
 macro_rules! host {
     ($function:path) => {
+        $crate::host::call::host!($function, false)
+    };
+    ($function:path, $is_edit:expr) => {
         |_, args| {
             Ok(lisp::vm::step::Step::request(
                 $crate::host::call::HostCall {
@@ -61,12 +66,22 @@ macro_rules! host {
                         $function($crate::host::call::Owner::of(host), image, args)
                     },
                     args,
+                    is_edit: $is_edit,
                 },
             ))
         }
     };
 }
 pub(crate) use host;
+
+/// The same for a function that a closed session refuses: it changes the world otherwise than the robot
+/// could, or opens a door to the outside.
+macro_rules! edit {
+    ($function:path) => {
+        $crate::host::call::host!($function, true)
+    };
+}
+pub(crate) use edit;
 
 /// The reply of a completed call.
 pub(crate) fn done(value: impl Into<Value>) -> Result<Reply, Box<Raise>> {

@@ -31,6 +31,8 @@ pub(crate) struct SimulationHost {
     pub audience: Audience,
     /// The limits of the evaluation under way.
     pub(crate) bounds: Bounds,
+    /// Are edits of the world refused?
+    pub(crate) is_closed: bool,
     /// The task whose request is being carried out.
     asking: TaskId,
 }
@@ -43,6 +45,7 @@ impl SimulationHost {
             person: Person::default(),
             audience,
             bounds: Bounds::default(),
+            is_closed: false,
             asking: TaskId(0),
         }
     }
@@ -71,6 +74,7 @@ impl SimulationHost {
             person: self.person.copied(copier),
             audience,
             bounds: Bounds::default(),
+            is_closed: self.is_closed,
             asking: self.asking,
         }
     }

@@ -18,6 +18,9 @@ impl Host for SimulationHost {
 
     fn call(&mut self, image: &mut Image, task: TaskId, call: HostCall) -> Reply {
         self.reply(image, task, |host, image| {
+            if call.is_edit && host.is_closed {
+                return Err(closed());
+            }
             let reply = (call.call)(host, image, &call.args);
             host.audience.show(&host.simulation, Cause::Edit);
             reply
@@ -95,6 +98,11 @@ impl Host for SimulationHost {
     fn wake(&mut self, _: &mut Image, ticket: Ticket) {
         self.simulation.jobs.set_paused(ticket, false);
     }
+}
+
+/// Why a closed session refuses an edit.
+fn closed() -> Box<Raise> {
+    Raise::simple("This session is closed: plans move the robot, but nothing edits the world, and no file is used.")
 }
 
 impl SimulationHost {

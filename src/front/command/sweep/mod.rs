@@ -36,6 +36,11 @@ use worlds::Worlds;
 
 /// Runs the sweep, one of its worlds or one of its shards, or tells how far it has got.
 pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, CommandError> {
+    if options.closed {
+        return Err(CommandError::Sweep(
+            "a sweep draws its worlds, which --closed would refuse".to_owned(),
+        ));
+    }
     let threads = wanted.threads.map_or_else(worker::threads, usize::from);
     if let Some(folder) = &wanted.status {
         return status(&Job::open(folder)?);
