@@ -1,6 +1,7 @@
 //! A session as a person talks to it.
 
 mod after_interrupt;
+mod flattened;
 mod recovery;
 mod reference;
 mod resume;

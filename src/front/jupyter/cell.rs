@@ -119,13 +119,20 @@ impl Cell<'_> {
     pub(crate) fn evaluate(&self, session: &mut impl Illustrate, text: &str) -> Ended {
         let hash = session.world_hash();
         let mut shown = Shown::default();
-        let Inputs { inputs, left_out } = Inputs::of(text);
-        if !left_out.is_empty() {
-            let text = format!(
-                "; Not evaluated, since it looks like output: {} lines\n",
-                left_out.len()
-            );
-            self.write(&mut shown, &text);
+        let Inputs {
+            inputs,
+            left_out,
+            unfinished,
+        } = Inputs::of(text);
+        for (reason, lines) in [
+            ("it is not finished", unfinished),
+            ("it looks like output", left_out),
+        ] {
+            if !lines.is_empty() {
+                let count = lines.len();
+                let text = format!("; Not evaluated, since {reason}: {count} lines\n");
+                self.write(&mut shown, &text);
+            }
         }
         session.set_source(self.can_ask.then(|| self.source()));
         let mut outcome = Outcome::Finished;

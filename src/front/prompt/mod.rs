@@ -214,7 +214,15 @@ impl Repl {
             }
             return Ok(None);
         }
-        let Inputs { inputs, left_out } = Inputs::of(text);
+        let Inputs {
+            inputs,
+            left_out,
+            unfinished,
+        } = Inputs::of(text);
+        if inputs.len() > 1 || !unfinished.is_empty() || !left_out.is_empty() {
+            self.left_out = None;
+        }
+        self.leave_out("it is not finished", unfinished)?;
         self.leave_out("it looks like output", left_out)?;
         // An interrupt also discards the rest of the pasted inputs.
         self.interrupt.store(false, Ordering::Relaxed);
@@ -263,7 +271,8 @@ impl Repl {
         if lines.len() > SHOWN_LINES {
             writeln!(out, ";   …")?;
         }
-        self.left_out = Some(lines.join("\n"));
+        let before = self.left_out.take().into_iter();
+        self.left_out = Some(before.chain(lines).collect::<Vec<_>>().join("\n"));
         Ok(())
     }
 

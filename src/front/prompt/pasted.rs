@@ -5,54 +5,86 @@ use std::borrow::Cow;
 
 use crate::transcript::Transcript;
 use lisp::reader::{Lexer, TokenKind};
-use session::dialogue::is_whole;
 use session::dialogue::prompt_line::prompt_line;
+use session::dialogue::{ends_in_quotes, is_whole};
 
 /// The inputs found in text typed or pasted at the prompt.
-#[derive(PartialEq, Eq, Debug)]
+#[derive(PartialEq, Eq, Debug, Default)]
 pub(crate) struct Inputs<'a> {
     /// To be evaluated one after the other.
     pub(crate) inputs: Vec<Cow<'a, str>>,
-    /// Lines that look like output, and answers to a debugger.
+    /// What looks like output, and answers to a debugger.
     pub(crate) left_out: Vec<String>,
+    /// Forms that were not finished when the next prompt began.
+    pub(crate) unfinished: Vec<String>,
 }
 
 impl<'a> Inputs<'a> {
     /// Splits a text at its prompts; without prompts it is one input.
     pub(crate) fn of(text: &'a str) -> Self {
+        let mut found = Inputs::default();
         let Some(at) = first_prompt(text) else {
-            let inputs = if text.trim().is_empty() {
-                Vec::new()
-            } else {
-                vec![Cow::Borrowed(text)]
-            };
-            return Inputs {
-                inputs,
-                left_out: Vec::new(),
-            };
+            found.take_without_prompt(text);
+            return found;
         };
         let (before, session) = text.split_at(at);
-        let mut found = Inputs::of(before);
-        for entry in Transcript::parse("", session).entries {
-            let mut inputs = split_at_prompts(&entry.input);
+        if is_whole(before) {
+            found.take_without_prompt(before);
+        } else {
+            found.unfinished.extend(before.lines().map(str::to_owned));
+        }
+        for entry in Transcript::parse("", session.trim_start()).entries {
             let (forms, output) = forms_among(&entry.expected);
             if entry.is_stopped {
                 // An answer to the debugger: without a condition it means nothing.
-                found
-                    .left_out
-                    .extend(entry.input.lines().map(str::to_owned));
-                inputs.clear();
+                let answer = entry.input.lines().map(str::to_owned);
+                found.left_out.extend(answer);
+                found.take(forms.join("\n"));
+            } else {
+                let mut pieces = split_at_prompts(&entry.input);
+                let last = pieces.pop().unwrap_or_default();
+                for piece in pieces {
+                    let form = found.without_output(piece);
+                    found.take(form);
+                }
+                let form = found.without_output(last);
+                let last = (!form.trim().is_empty()).then_some(form);
+                found.take(last.into_iter().chain(forms).collect::<Vec<_>>().join("\n"));
             }
-            let last = inputs
-                .pop()
-                .into_iter()
-                .filter(|input| !input.trim().is_empty());
-            inputs.push(last.chain(forms).collect::<Vec<_>>().join("\n"));
             found.left_out.extend(output);
-            let inputs = inputs.into_iter().filter(|input| !input.trim().is_empty());
-            found.inputs.extend(inputs.map(Cow::Owned));
         }
         found
+    }
+
+    /// Takes what stands before the first prompt that begins a line.
+    fn take_without_prompt(&mut self, text: &'a str) {
+        let pieces = split_at_prompts(text);
+        if pieces.len() > 1 {
+            for piece in pieces {
+                let form = self.without_output(piece);
+                self.take(form);
+            }
+        } else if !text.trim().is_empty() {
+            self.inputs.push(Cow::Borrowed(text));
+        }
+    }
+
+    fn take(&mut self, input: String) {
+        if !input.trim().is_empty() {
+            self.inputs.push(Cow::Owned(input));
+        }
+    }
+
+    /// What follows a prompt without the output behind it, which is left out.
+    fn without_output(&mut self, piece: String) -> String {
+        let at = end_of_forms(&piece);
+        let (forms, output) = piece.split_at_checked(at).unwrap_or((&piece, ""));
+        if output.trim().is_empty() {
+            return piece;
+        }
+        self.left_out
+            .extend(output.trim().lines().map(str::to_owned));
+        forms.trim_end().to_owned()
     }
 
     /// Whether the inputs are complete.
@@ -61,14 +93,25 @@ impl<'a> Inputs<'a> {
     }
 }
 
-/// Offset of the first line with a prompt outside a form.
+/// Offset of the first line with a prompt outside a form. An unfinished form does not go on with a
+/// line that has a prompt and a form.
 fn first_prompt(text: &str) -> Option<usize> {
     let mut start = 0;
     for line in text.split_inclusive('\n') {
-        let prompt = prompt_line(line.trim_end_matches(['\r', '\n']));
-        if prompt.is_some_and(|prompt| prompt.state.is_empty()) {
-            let before = text.get(..start)?;
-            return is_whole(before).then_some(start);
+        let before = text.get(..start)?;
+        let content = line.trim_end_matches(['\r', '\n']);
+        let is_prompt = |line| {
+            let prompt = prompt_line(line).filter(|prompt| prompt.state.is_empty());
+            prompt.map(|prompt| prompt.input.trim_start().starts_with('('))
+        };
+        if let Some(has_form) = is_prompt(content.trim_start()) {
+            let is_indented = content.starts_with([' ', '\t']);
+            if is_whole(before) && (has_form || !is_indented) {
+                return Some(start);
+            }
+            if has_form && !ends_in_quotes(before) {
+                return Some(start);
+            }
         }
         start += line.len();
     }
@@ -76,7 +119,7 @@ fn first_prompt(text: &str) -> Option<usize> {
 }
 
 /// The inputs of an entry: text whose line breaks were lost has prompts in the middle of lines,
-/// after complete forms.
+/// after complete forms and their output.
 fn split_at_prompts(input: &str) -> Vec<String> {
     let mut inputs = Vec::new();
     let mut rest = input;
@@ -92,8 +135,7 @@ fn split_at_prompts(input: &str) -> Vec<String> {
         let next = prompt_line(line).filter(|prompt| prompt.state.is_empty());
         // A name such as `A>` at the very beginning may be meant.
         if let Some(next) = next
-            && before.trim_end().ends_with(')')
-            && is_whole(before)
+            && is_list(before)
         {
             inputs.push(before.to_owned());
             rest = after
@@ -110,6 +152,52 @@ fn split_at_prompts(input: &str) -> Vec<String> {
     inputs.push(rest.to_owned());
     inputs
 }
+
+/// Whether a text begins with a whole list, perhaps quoted.
+fn is_list(text: &str) -> bool {
+    let text = text.trim_start();
+    text.trim_start_matches(['\'', '`', '#']).starts_with('(')
+        && (end_of_forms(text) < text.len() || is_whole(text))
+}
+
+/// Where the output begins in what follows a prompt: behind the first list and the lists after it
+/// that somebody has written. At the end if there is none, or if there is no list.
+fn end_of_forms(text: &str) -> usize {
+    if text.trim_start().starts_with(LOG_LINE) {
+        return 0;
+    }
+    let (mut depth, mut start, mut end) = (0usize, 0, 0);
+    for token in Lexer::new(text) {
+        match token.kind {
+            TokenKind::Open => {
+                if depth == 0 {
+                    start = token.start;
+                }
+                depth += 1;
+            }
+            TokenKind::Close => {
+                depth = depth.saturating_sub(1);
+                let list = text.get(start..token.end).unwrap_or_default();
+                if depth == 0 && end > 0 && !is_written(list) {
+                    return end;
+                }
+                if depth == 0 {
+                    end = token.end;
+                }
+            }
+            TokenKind::Dispatch { letter: '(', .. } => depth += 1,
+            TokenKind::LineComment | TokenKind::BlockComment if depth == 0 => end = token.end,
+            TokenKind::Quote | TokenKind::Backquote | TokenKind::Dispatch { .. } if end == 0 => {}
+            _ if depth > 0 => {}
+            _ if end == 0 => return text.len(),
+            _ => return end,
+        }
+    }
+    if depth > 0 { text.len() } else { end.max(1) }
+}
+
+/// How a line of a log begins, as in `[(PICK-UP) INFO] 1.5: Reaching`.
+const LOG_LINE: &str = "[(";
 
 /// Tells the forms that somebody has written from lines of output; comments are neither.
 fn forms_among(lines: &[String]) -> (Vec<String>, Vec<String>) {
@@ -250,6 +338,49 @@ mod tests {
         );
         assert_eq!(inputs("A> (f X> 1)"), of(&["(f X> 1)"], 0));
         assert_eq!(inputs("A> x B> 1"), of(&["x B> 1"], 0));
+    }
+
+    #[test]
+    fn what_stands_between_a_form_and_the_next_prompt_is_output() {
+        assert_eq!(
+            inputs("A> (first '(1 2)) 1 A> (rest '(1 2)) (2)"),
+            of(&["(first '(1 2))", "(rest '(1 2))"], 2)
+        );
+        assert_eq!(
+            inputs("(first '(1 2)) 1 A> (b) The variable B is unbound."),
+            of(&["(first '(1 2))", "(b)"], 2)
+        );
+        assert_eq!(inputs("A> (f) (g 1) NIL"), of(&["(f) (g 1)"], 1));
+        assert_eq!(inputs("A> (f) ; a comment"), of(&["(f) ; a comment"], 0));
+        assert_eq!(inputs("A> '(f) (F)"), of(&["'(f)"], 1));
+    }
+
+    #[test]
+    fn log_lines_are_output() {
+        assert_eq!(
+            inputs("A> (go 1) [(PICK UP) INFO] 15.3: #<POSE (1 2)> Reaching [(B) WARN] x"),
+            of(&["(go 1)"], 1)
+        );
+        assert_eq!(inputs("A> [(P) WARN] 12.6: #<AN OBJECT>. ; no"), of(&[], 1));
+        assert!(Inputs::of("A> (go 1) [(P) INFO] (x").are_whole());
+    }
+
+    #[test]
+    fn a_prompt_ends_an_unfinished_form() {
+        let found = Inputs::of("(a (b)\n  A> (c)\nA> (d)");
+        assert_eq!(found.inputs, ["(c)", "(d)"]);
+        assert_eq!(found.unfinished, ["(a (b)"]);
+        assert_eq!(inputs("(print \"a\nA> (b)\")").0.len(), 1);
+    }
+
+    #[test]
+    fn a_comment_that_has_swallowed_code_does_not_keep_the_input_open() {
+        assert_eq!(
+            inputs("A> (a ;; One. (b) ;; Two. (c))\nA> (d)"),
+            of(&["(a ;; One. (b) ;; Two. (c))", "(d)"], 0)
+        );
+        assert!(Inputs::of("(a ;; One. (b))").are_whole());
+        assert!(!Inputs::of("(a ;; One. (b)").are_whole());
     }
 
     #[test]

@@ -9,10 +9,12 @@ use crate::value::raise::Raise;
 
 /// Why a text cannot be read, and where.
 #[derive(Clone, PartialEq, Debug, Error)]
-#[error("{kind}")]
+#[error("{kind}{}", swallowed(comment.as_deref()))]
 pub struct ReadError {
     /// What is wrong.
     pub kind: ReadErrorKind,
+    /// If a comment may have swallowed parentheses: where, and what.
+    pub comment: Option<String>,
     /// First byte of the wrong text.
     pub start: usize,
     /// Byte after the wrong text.
@@ -202,6 +204,13 @@ pub enum ReadErrorKind {
 fn inside(what: &Option<&'static str>, line: usize) -> String {
     match what {
         Some(what) => format!(" in {what} that starts on line {line}"),
+        None => String::new(),
+    }
+}
+
+fn swallowed(comment: Option<&str>) -> String {
+    match comment {
+        Some(comment) => format!(". {comment}"),
         None => String::new(),
     }
 }

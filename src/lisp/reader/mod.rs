@@ -10,6 +10,7 @@ pub(crate) mod char_name;
 mod completeness;
 mod error;
 mod feature;
+pub mod flattened;
 mod label;
 pub(crate) mod lexer;
 mod literal;

@@ -7,6 +7,7 @@ mod token;
 use std::rc::Rc;
 
 use super::error::{ReadError, ReadErrorKind};
+use super::flattened::{last_swallowing_comment, swallowing_comment};
 use super::label::Labels;
 use super::lexer::{Lexer, is_blank};
 use super::readtable::Readtable;
@@ -257,16 +258,32 @@ impl Reader {
         start: usize,
         end: usize,
     ) -> ReadError {
+        let comment = self.swallowing_comment(&kind, start);
         self.frames.clear();
         self.values.clear();
         self.labels = Labels::default();
         (self.backquotes, self.skips, self.features) = (0, 0, 0);
         ReadError {
             kind,
+            comment,
             start,
             end,
             place: self.place(image, start, end),
         }
+    }
+
+    /// In words, the comment that has swallowed the parentheses which the text lacks.
+    fn swallowing_comment(&self, kind: &ReadErrorKind, start: usize) -> Option<String> {
+        self.source?;
+        let comment = match kind {
+            ReadErrorKind::EndOfFile { .. } => {
+                let form = self.frames.first().map_or(start, |frame| frame.start);
+                swallowing_comment(&self.text, form)
+            }
+            ReadErrorKind::UnmatchedClose => last_swallowing_comment(self.text.get(..start)?),
+            _ => None,
+        }?;
+        Some(comment.described(&self.text))
     }
 
     fn end_of_file(&self, what: &'static str, opened_at: usize) -> ReadErrorKind {

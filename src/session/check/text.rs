@@ -15,7 +15,8 @@ use lisp::evaluator::nested;
 use lisp::image::Image;
 use lisp::image::notes::{Note, NoteKind};
 use lisp::reader::Reader;
-use lisp::source::Place;
+use lisp::reader::flattened::hidden_forms;
+use lisp::source::{Place, SourceId};
 use lisp::value::Value;
 use lisp::value::known as names;
 use lisp::value::raise::Raise;
@@ -73,9 +74,30 @@ impl Check<'_> {
             let finding = self.warning(&note);
             findings.extend(finding.filter(|finding| !findings.contains(finding)));
         }
+        findings.extend(self.hidden_forms(source, text));
         self.known.is_open = was_open;
         findings.sort_by_key(|f| f.place.as_ref().map(|place| (place.line, place.column)));
         findings
+    }
+
+    /// Forms in comments that have lost their ends.
+    fn hidden_forms(&mut self, source: SourceId, text: &str) -> Vec<Finding> {
+        let hidden = hidden_forms(text).into_iter();
+        hidden
+            .map(|comment| {
+                let sources = &mut self.image.sources;
+                let place = sources.place(source, comment.comment.start, comment.comment.end);
+                Finding {
+                    message: format!(
+                        "The comment has swallowed \"{}\"; break the line before that if it is no \
+                         comment.",
+                        comment.code_in(text)
+                    ),
+                    place: sources.locate(place),
+                    severity: Severity::Warning,
+                }
+            })
+            .collect()
     }
 
     /// Checks one form at top level.

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::halt;
+use super::line_breaks;
 use super::stopped::Console;
 use crate::bounds::Limits;
 use crate::defect;
@@ -123,6 +124,8 @@ impl Evaluator {
         if let Some(outcome) = self.inspector_input(text, sink) {
             return outcome;
         }
+        let mended = line_breaks::restored(source_name, text, sink);
+        let text = mended.as_deref().unwrap_or(text);
         if self.console.level() > 0 {
             return self.console_input(source_name, text, sink);
         }

@@ -1,11 +1,12 @@
 //! Detecting the end of an input.
 
+use lisp::reader::flattened::unflattened;
 use lisp::reader::{Completeness, is_complete};
 
 /// Whether the text is a complete input. One with too many closing parentheses is complete,
-/// but wrong.
+/// but wrong; one whose comments have swallowed what it lacks is complete, too.
 pub fn is_whole(text: &str) -> bool {
-    !matches!(is_complete(text), Completeness::Incomplete { .. })
+    !matches!(is_complete(text), Completeness::Incomplete { .. }) || unflattened(text).is_some()
 }
 
 /// Whether the text ends inside a string, a block comment or a symbol in bars, so that whatever
