@@ -3,9 +3,14 @@
 
 #![cfg(target_os = "linux")]
 
+use std::alloc::System;
 use std::sync::Mutex;
 
-use planwright::{Evaluate, Outcome, Session, SessionOptions};
+use cap::Cap;
+use planwright::{Evaluate, HeapLimit, Outcome, Session, SessionOptions};
+
+#[global_allocator]
+static HEAP: Cap<System> = Cap::new(System, usize::MAX);
 
 /// One test at a time: they measure the memory of the process.
 static MEMORY: Mutex<()> = Mutex::new(());
@@ -74,6 +79,147 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
             "{before} kB after 100,000 times {circle}, {after} kB after a million"
         );
     }
+}
+
+/// Options with a limit, so that the collector knows how much memory is in use.
+fn limited(bytes: usize) -> SessionOptions {
+    SessionOptions {
+        heap: Some(HeapLimit {
+            bytes,
+            in_use: || HEAP.allocated(),
+        }),
+        ..SessionOptions::default()
+    }
+}
+
+#[test]
+fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
+    let _alone = MEMORY.lock();
+    let mut session = Session::new(&limited(1 << 30)).unwrap();
+    let mut run = |text: &str| {
+        let outcome = session.evaluate("test", text, &mut |_| {});
+        assert_eq!(outcome, Outcome::Finished, "{text}");
+        HEAP.allocated()
+    };
+    run(
+        "(defstruct node next) (defclass thing () ((part :accessor part)))
+         (defun long (x) (append (make-list 30) (list x)))",
+    );
+    for (count, circle) in [
+        (20_000, "(let ((l (make-list 8))) (setf (cdr (last l)) l))"),
+        (10, "(let ((l (make-list 100000))) (setf (cdr (last l)) l))"),
+        (
+            5000,
+            "(let ((v (make-array 9))) (setf (aref v 3) (long v)))",
+        ),
+        (
+            5000,
+            "(let ((a (make-array '(3 3)))) (setf (aref a 1 1) (long a)))",
+        ),
+        (
+            5000,
+            "(let ((n (make-node))) (setf (node-next n) (long n)))",
+        ),
+        (
+            5000,
+            "(let ((x (make-instance 'thing))) (setf (part x) (long x)))",
+        ),
+        (
+            5000,
+            "(let ((f nil)) (setf f (let ((l (long 1))) (lambda () (cons f l)))))",
+        ),
+        (
+            5000,
+            "(let ((h (make-hash-table))) (dotimes (i 9) (setf (gethash (list i) h) (long h))))",
+        ),
+        (
+            5000,
+            "(let ((f (cpl:make-fluent :value 0))) (setf (cpl:value f) (long f)))",
+        ),
+        (
+            5000,
+            "(let ((f (cpl:make-fluent :value 0))) (setf (cpl:value f) (cpl:fl-funcall (lambda (x) x) f)))",
+        ),
+        (5000, "(let ((g (gensym))) (setf (get g 'self) (long g)))"),
+        (
+            5000,
+            "(let ((g (gensym))) (setf (symbol-value g) (long g)))",
+        ),
+        (
+            5000,
+            "(let ((g (gensym))) (setf (symbol-function g) (lambda () g)))",
+        ),
+        (
+            5000,
+            "(let ((g (gensym)) (h (gensym))) (setf (symbol-value g) h (symbol-value h) g))",
+        ),
+        (20_000, "(setf (symbol-value (gensym)) 1)"),
+        (
+            2000,
+            "(let ((x (list nil))) (cpl:top-level (cpl:with-tags (:tag a (setf (car x) a) (long x)))))",
+        ),
+        (
+            5000,
+            "(let ((g (gensym))) (set g (make-broadcast-stream (make-synonym-stream g))))",
+        ),
+        (
+            5000,
+            "(let ((l (list 1 2 3)))
+                  (setf (third l) (prolog:prolog `(prolog:member ?x ,l))))",
+        ),
+        (
+            5000,
+            "(let ((l (list 1 2 3))) (setf (third l) (cut:lazy-list ((i 0)) (cut:cont l (1+ i)))))",
+        ),
+    ] {
+        let before = run(&format!("(dotimes (i {count}) {circle}) (tg:gc :full t)"));
+        let after = run(&format!(
+            "(dotimes (i {}) {circle}) (tg:gc :full t)",
+            3 * count
+        ));
+        assert!(
+            after < before + (256 << 10),
+            "{before} B after {count} times {circle}, {after} B after {}",
+            4 * count
+        );
+    }
+}
+
+#[test]
+fn memory_that_circles_hold_is_freed_before_it_is_said_to_be_exhausted() {
+    let _alone = MEMORY.lock();
+    let limit = HEAP.allocated() + (48 << 20);
+    let mut session = Session::new(&limited(limit)).unwrap();
+    let mut most = 0;
+    for round in [
+        "(make-list 200000)",
+        "(make-list 3)",
+        "(vector (make-string 300000))",
+    ] {
+        let circles = format!(
+            "(dotimes (i 60) (let ((x (list {round}))) (setf (cdr x) x)))
+             (dotimes (i 100) (let ((x (list (make-list 10000)))) (setf (cdr x) x)))"
+        );
+        let outcome = session.evaluate("test", &circles, &mut |_| {});
+        assert_eq!(outcome, Outcome::Finished, "{circles}");
+        most = most.max(HEAP.max_allocated());
+    }
+    assert!(
+        most < limit + limit / 10,
+        "{most} B of {limit} B were in use"
+    );
+    // What is in use for good is not.
+    let full = "(handler-case (let ((all '())) (loop (push (make-list 1000) all)))
+                  (storage-condition () 'full))";
+    assert_eq!(
+        session.evaluate("test", full, &mut |_| {}),
+        Outcome::Finished
+    );
+    let most = HEAP.max_allocated();
+    assert!(
+        most < limit + limit / 10,
+        "{most} B of {limit} B were in use"
+    );
 }
 
 #[test]

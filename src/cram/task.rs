@@ -12,6 +12,7 @@ use super::names::Names;
 use super::state::Plan;
 use super::tree::TreeNode;
 use lisp::value::Value;
+use lisp::value::cycles;
 use lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use lisp::value::symbol::Sym;
 
@@ -146,6 +147,32 @@ impl Foreign for Task {
         self.type_symbol
     }
 
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        match self.result.try_borrow().as_deref() {
+            // What holds them is no object whose references are followed.
+            Ok(Value::Multiple(values)) if Rc::strong_count(values) == 1 => {
+                values.iter().for_each(&mut *visit);
+            }
+            Ok(Value::Multiple(_)) | Err(_) => {}
+            Ok(value) => visit(value),
+        }
+        if let Ok(constraints) = self.constraints.try_borrow() {
+            constraints.iter().for_each(&mut *visit);
+        }
+        if let Some(fluent) = self.status_fluent.get() {
+            visit(&fluent.value());
+        }
+    }
+
+    fn let_go(&self) {
+        self.result.take();
+        self.constraints.take();
+    }
+
     fn print(&self, context: &dyn PrintContext, _: bool) -> String {
         let identity = match self.object.borrow().upgrade() {
             Some(object) => context.identity(&Value::Foreign(object)),
@@ -208,6 +235,11 @@ impl TaskRef {
             }
             _ => None,
         }
+    }
+
+    /// Notes that the task has been changed to hold a value, which may hold it.
+    pub(super) fn note(&self) {
+        cycles::note_foreign(&self.0);
     }
 
     /// The task as a value.

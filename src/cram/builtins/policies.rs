@@ -33,6 +33,16 @@ impl Foreign for Policy {
         }))
     }
 
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        for part in [&self.name, &self.parameters, &self.doc, &self.parts] {
+            visit(part);
+        }
+    }
+
     fn type_symbol(&self) -> Sym {
         self.type_symbol
     }

@@ -339,6 +339,7 @@ fn make_effective(image: &mut Image, args: &[Value]) -> Result<Value> {
     let made = like(image, parent, properties);
     if let Some(new) = value::as_designator(&made) {
         *new.data.borrow_mut() = data;
+        value::note_changed(&made);
         new.is_effective.set(true);
     }
     value::equate(&args[0], &made);

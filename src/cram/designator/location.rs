@@ -135,6 +135,7 @@ fn known_pose(image: &mut Image, designator: &Value) -> Result<Option<Value>> {
     let pose = given_pose(image, target);
     if let Some(pose) = &pose {
         *target.data.borrow_mut() = Some(pose.clone());
+        value::note_changed(designator);
         *target.solutions.borrow_mut() = Some(Value::NIL);
     }
     Ok(pose)
@@ -316,6 +317,7 @@ impl Search {
             return earlier.clone();
         }
         *data = Some(sample.clone());
+        value::note_changed(&self.owner);
         *target.solutions.borrow_mut() = Some(rest);
         sample
     }
@@ -367,6 +369,7 @@ pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<V
         Found::Nothing(_) => {
             // What was rejected is not judged again.
             *target.solutions.borrow_mut() = Some(search.rest());
+            value::note_changed(designator);
             Value::NIL
         }
     })

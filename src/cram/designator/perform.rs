@@ -202,6 +202,7 @@ async fn resolve_action(calls: &Calls, designator: &Value) -> Result<PlanCall> {
     let action = designator.clone();
     if let Value::Cons(found) = &found {
         if let Some(target) = value::as_designator(&action) {
+            value::note_changed(&action);
             *target.data.borrow_mut() = Some(found.car());
             *target.solutions.borrow_mut() = Some(found.cdr());
         }

@@ -155,6 +155,7 @@ fn query(
 fn resolved(image: &mut Image, designator: &Value, found: &Value) -> Result<Value> {
     let target = value::designator(image, designator)?;
     if let Value::Cons(cons) = found {
+        value::note_changed(designator);
         *target.data.borrow_mut() = Some(cons.car());
         *target.solutions.borrow_mut() = Some(cons.cdr());
         return Ok(cons.car());
@@ -219,6 +220,7 @@ fn next_grounding(image: &mut Image, designator: &Value) -> Result<Value> {
     let other = same_description(image, target);
     value::equate(designator, &other);
     if let Some(new) = value::as_designator(&other) {
+        value::note_changed(&other);
         *new.data.borrow_mut() = Some(rest.car());
         *new.solutions.borrow_mut() = Some(rest.cdr());
     }

@@ -225,11 +225,16 @@ pub fn equate(parent: &Value, successor: &Value) -> bool {
     if let (Some(before), Some(after)) = (as_designator(&newest), as_designator(&oldest)) {
         *before.successor.borrow_mut() = Some(oldest.clone());
         *after.parent.borrow_mut() = Some(newest.clone());
-        if let Value::Foreign(newest) = &newest {
-            cycles::note_foreign(newest);
-        }
+        note_changed(&newest);
     }
     true
+}
+
+/// Notes that a designator has been changed to hold something, which may hold it.
+pub fn note_changed(designator: &Value) {
+    if let Value::Foreign(object) = designator {
+        cycles::note_foreign(object);
+    }
 }
 
 /// A new designator as a value, from keyword names and values.
@@ -367,9 +372,14 @@ impl Foreign for Designator {
     }
 
     fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
-        visit(&self.description.borrow());
+        // What is being changed appears to hold nothing.
+        if let Ok(description) = self.description.try_borrow() {
+            visit(&description);
+        }
         for link in self.links() {
-            link.borrow().iter().for_each(&mut *visit);
+            if let Ok(link) = link.try_borrow() {
+                link.iter().for_each(&mut *visit);
+            }
         }
     }
 

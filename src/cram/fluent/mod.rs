@@ -287,18 +287,46 @@ impl Foreign for Fluent {
     }
 
     fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
-        match &self.kind {
-            Kind::Value { value, .. } => value.with(|value| visit(value)),
-            Kind::Net { args, cache, .. } => {
-                args.borrow().iter().for_each(&mut *visit);
-                cache.with(|value| visit(value));
-            }
-            Kind::Change { old, .. } => old.with(|value| visit(value)),
-            Kind::Pulses { .. } => {}
-        }
-        for (name, function) in self.callbacks.borrow().iter() {
+        if let FluentName::Given(name) = &self.name {
             visit(name);
-            visit(function);
+        }
+        match &self.kind {
+            Kind::Value { value, test } => {
+                value.with(|value| visit(value));
+                visit(test);
+            }
+            Kind::Net {
+                args,
+                cache,
+                operation,
+                ..
+            } => {
+                if let Ok(args) = args.try_borrow() {
+                    args.iter().for_each(&mut *visit);
+                }
+                cache.with(|value| visit(value));
+                if let Operation::Call(function) | Operation::Apply(function) = operation {
+                    visit(function);
+                }
+            }
+            Kind::Change {
+                source,
+                old,
+                test,
+                key,
+            } => {
+                visit(&source.value());
+                old.with(|value| visit(value));
+                visit(test);
+                visit(key);
+            }
+            Kind::Pulses { source, .. } => visit(&source.value()),
+        }
+        if let Ok(callbacks) = self.callbacks.try_borrow() {
+            for (name, function) in callbacks.iter() {
+                visit(name);
+                visit(function);
+            }
         }
     }
 

@@ -10,6 +10,7 @@ pub mod builtins;
 mod choice_point;
 pub mod engine;
 mod engine_copy;
+mod engine_references;
 pub mod facts;
 pub mod functor;
 pub mod functors;

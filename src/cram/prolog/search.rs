@@ -7,6 +7,7 @@ use super::facts;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::copy::Copier;
+use lisp::value::cycles;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -48,6 +49,27 @@ impl Foreign for Search {
         "#<PROOFS>".to_owned()
     }
 
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        if let Ok(engine) = self.engine.try_borrow() {
+            engine.for_each_reference(visit);
+        }
+        if let Ok(call) = self.call.try_borrow()
+            && let Some((function, args)) = &*call
+        {
+            visit(function);
+            args.iter().for_each(visit);
+        }
+    }
+
+    fn let_go(&self) {
+        self.engine.borrow_mut().let_go();
+        self.call.take();
+    }
+
     fn copied(&self, copier: &mut Copier) -> ForeignCopy {
         let call = self.call.borrow();
         let call = call.as_ref().map(|(function, args)| {
@@ -74,6 +96,9 @@ pub(crate) struct NextProofs {
 impl NextProofs {
     /// Of a search.
     pub(crate) fn of(search: Value) -> NextProofs {
+        if let Value::Foreign(search) = &search {
+            cycles::note_foreign(search);
+        }
         NextProofs {
             search,
             found: Vec::new(),

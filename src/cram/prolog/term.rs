@@ -73,6 +73,11 @@ impl Copied for Bindings {
 }
 
 impl Bindings {
+    /// Visits what variables are bound to.
+    pub(super) fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        self.values.iter().flatten().for_each(visit);
+    }
+
     /// The present state.
     pub fn mark(&self) -> Mark {
         Mark {

@@ -207,6 +207,9 @@ impl<C: 'static> Scheduler<C> {
                     time: plan.now(),
                 }));
             }
+            if !result.is_plain() {
+                task.note();
+            }
             *task.get().result.borrow_mut() = result;
             task.get().slot.set(None);
             let parent = live.parent.and_then(|slot| self.live(slot));

@@ -1,6 +1,5 @@
 //! Adjustment of arrays: another shape, other elements, or those of another array.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::array_make;
@@ -11,7 +10,7 @@ use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::Array;
 use crate::value::element_type::ElementType;
-use crate::value::elements::{Displacement, Elements};
+use crate::value::elements::Displacement;
 use crate::value::raise::Raise;
 use crate::value::sequence::{checked_element, text_of};
 
@@ -84,10 +83,8 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
             Ok(args[0].clone())
         }
         Value::Array(a) => Ok(Value::Array(Rc::new(Array {
-            dimensions: RefCell::new(shape),
             adjustable: options.adjustable,
-            items: Elements::new(items),
-            element_type: a.element_type,
+            ..Array::new(a.element_type, shape, items)
         }))),
         _ => {
             let pointer = options.fill_pointer(items.len())?;

@@ -1,7 +1,7 @@
 //! Making arrays.
 
 use crate::value::element_type::ElementType;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::rc::Rc;
 
 use super::arrays::{element_type, total_size};
@@ -14,7 +14,7 @@ use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::array::{Array, Vector};
-use crate::value::elements::{Displacement, Elements};
+use crate::value::elements::Displacement;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Sequence, checked_element, index, list_items, text_of};
@@ -215,10 +215,9 @@ pub(crate) fn vector(
         return Ok(Value::Str(Rc::new(string)));
     }
     Ok(Value::Vector(Rc::new(Vector {
-        items: Elements::new(items),
         fill_pointer: Cell::new(fill_pointer),
         adjustable,
-        element_type,
+        ..Vector::of_type(element_type, items)
     })))
 }
 
@@ -249,10 +248,9 @@ pub(super) fn displaced(
         return Ok(Value::Str(Rc::new(string)));
     }
     let vector = Vector {
-        items: Elements::new(Vec::new()),
         fill_pointer: Cell::new(pointer),
         adjustable: options.adjustable,
-        element_type,
+        ..Vector::of_type(element_type, Vec::new())
     };
     vector.items.displace(displacement);
     Ok(Value::Vector(Rc::new(vector)))
@@ -303,10 +301,8 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     }
     no_fill_pointer(&options)?;
     Ok(Value::Array(Rc::new(Array {
-        dimensions: RefCell::new(shape),
         adjustable: options.adjustable,
-        items: Elements::new(items),
-        element_type: of_type,
+        ..Array::new(of_type, shape, items)
     })))
 }
 

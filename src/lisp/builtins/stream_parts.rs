@@ -1,7 +1,6 @@
 //! Making streams, combining them, and what they are made of.
 
 use crate::value::string::LispString;
-use crate::value::symbol::Sym;
 use std::rc::Rc;
 
 use super::streams::stream_of;
@@ -161,7 +160,11 @@ fn make_echo_stream(image: &mut Image, args: &[Value]) -> Outcome {
 ///
 /// `(streamp (make-synonym-stream '*standard-output*))` => `T`
 #[builtin]
-fn make_synonym_stream(symbol: Sym) -> Outcome {
+fn make_synonym_stream(symbol: &Value) -> Outcome {
+    if symbol.as_symbol().is_none() {
+        return Err(Raise::type_error(symbol, known::SYMBOL));
+    }
+    let symbol = symbol.clone();
     Ok(made(Stream::new(StreamKind::Synonym { symbol })))
 }
 
@@ -177,7 +180,7 @@ fn components(value: &Value) -> Outcome {
         StreamKind::TwoWay { input, output, .. } => {
             Ok(stream_list(&[input.clone(), output.clone()]))
         }
-        StreamKind::Synonym { symbol } => Ok(Value::list([Value::symbol(*symbol)])),
+        StreamKind::Synonym { symbol } => Ok(Value::list([symbol.clone()])),
         _ => Err(Raise::type_error(value, known::STREAM)),
     }
 }

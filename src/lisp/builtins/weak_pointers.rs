@@ -1,12 +1,15 @@
 //! Weak pointers: objects that refer to others without keeping them.
 
 use crate::builtin::Builtin;
+use crate::image::Image;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::copy::Copier;
+use crate::value::cycles;
 use crate::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::value::known;
 use crate::value::raise::Raise;
+use crate::value::release;
 use crate::value::symbol::Sym;
 use crate::value::weak::Reference;
 
@@ -60,6 +63,21 @@ fn weak_pointer_value(weak_pointer: &Value) -> Result<Value, Box<Raise>> {
     }
 }
 
+/// Frees objects that hold each other and that nothing else refers to.
+///
+/// `(system::%free-circles)` => `NIL`
+#[builtin("%FREE-CIRCLES")]
+fn free_circles(image: &mut Image) -> Result<(), Box<Raise>> {
+    release::all();
+    cycles::collect_all(Some(&mut image.symbols));
+    release::all();
+    Ok(())
+}
+
 /// Builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] =
-    builtins![make_weak_pointer, weak_pointer_p, weak_pointer_value,];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    make_weak_pointer,
+    weak_pointer_p,
+    weak_pointer_value,
+    free_circles,
+];

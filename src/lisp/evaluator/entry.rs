@@ -264,10 +264,11 @@ impl Machine<'_> {
     /// Looks whether there is a reason not to go on, once in a while.
     pub(super) fn pause(&mut self) -> Option<Next> {
         release::some();
-        cycles::collect_if_due();
+        let in_use = self.image.limits.heap.in_use();
+        cycles::collect_if_due(&mut self.image.symbols, in_use);
         match self.image.limits.reason() {
             Some(Stopped::Interrupted) => Some(Next::Stop(Event::Interrupted)),
-            Some(Stopped::HeapExhausted) if !frees_more() => {
+            Some(Stopped::HeapExhausted) if !self.frees_enough() => {
                 Some(self.raise(Stopped::HeapExhausted.into()))
             }
             Some(Stopped::HeapExhausted | Stopped::TooLong) | None => {
@@ -277,6 +278,14 @@ impl Machine<'_> {
                 is_due.then_some(Next::Stop(Event::Output))
             }
         }
+    }
+
+    /// Frees what has been put off, and circles of symbols, too, which only the machine can free; is
+    /// there room enough for some time then?
+    fn frees_enough(&mut self) -> bool {
+        cycles::collect_all(Some(&mut self.image.symbols));
+        release::all();
+        self.image.limits.heap.has_room()
     }
 
     pub(super) fn save_pc(&mut self, new: usize) {
@@ -307,11 +316,4 @@ impl Machine<'_> {
             })
             .unwrap_or(Place::NONE)
     }
-}
-
-/// Frees what has been put off, and all circles; was anything waiting to be freed?
-fn frees_more() -> bool {
-    let had_put_off = release::all();
-    cycles::collect_all();
-    release::all() || had_put_off
 }

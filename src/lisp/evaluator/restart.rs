@@ -51,6 +51,23 @@ impl Foreign for Restart {
         }
     }
 
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        for part in [&self.function, &self.report, &self.interactive, &self.test] {
+            visit(part);
+        }
+        if let Ok(conditions) = self.conditions.try_borrow() {
+            conditions.iter().for_each(visit);
+        }
+    }
+
+    fn let_go(&self) {
+        self.conditions.take();
+    }
+
     fn writer(&self) -> Option<Value> {
         let is_function = !matches!(self.report, Value::Str(_)) && self.report.is_true();
         is_function.then(|| self.report.clone())

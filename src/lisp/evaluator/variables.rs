@@ -9,7 +9,7 @@ use crate::value::cycles;
 use crate::value::function::Function;
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::slot::Slot;
+use crate::value::shared_slot::SharedSlot;
 use crate::value::symbol::{FunctionCell, Sym};
 use crate::vm::stack::Window;
 
@@ -65,7 +65,7 @@ impl Window<'_> {
     pub(super) fn make_box(&mut self, i: usize) {
         let place = &mut self.slots[i];
         let value = std::mem::take(place);
-        place.fill(Value::Cell(Rc::new(Slot::new(value))));
+        place.fill(Value::Cell(Rc::new(SharedSlot::new(value))));
     }
 
     /// Was a parameter supplied?

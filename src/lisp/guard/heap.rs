@@ -3,13 +3,14 @@
 use std::cell::Cell;
 
 use super::{CURRENT, Stopped, leave, look};
+use crate::value::{cycles, release};
 
 /// A limit to the memory in use.
 #[derive(Default)]
 pub struct Heap {
     limit: Cell<Option<HeapLimit>>,
-    /// How often the limit has been put up since more than the limit is in use.
-    extensions: Cell<usize>,
+    /// Has the limit been put up since it was reached?
+    is_extended: Cell<bool>,
 }
 
 /// A limit to the memory in use, and how to learn how much is.
@@ -21,15 +22,18 @@ pub struct HeapLimit {
     pub in_use: fn() -> usize,
 }
 
+/// What part of the limit has to be free after a collection.
+const LEAST_ROOM: usize = 32;
+
 /// By what part of the limit it is put up once it has been reached: for handlers, and for people
-/// who look around and let go of what they do not need.
+/// who look around and let go of what they do not need. It is put up only once.
 const EXTENSION: usize = 16;
 
 impl Heap {
     /// Sets the limit.
     pub fn set_limit(&self, limit: Option<HeapLimit>) {
         self.limit.set(limit);
-        self.extensions.set(0);
+        self.is_extended.set(false);
     }
 
     /// The limit.
@@ -37,7 +41,7 @@ impl Heap {
         self.limit.get()
     }
 
-    /// Is more in use than may be? Says so once, and again when a sixteenth more is in use.
+    /// Is more in use than may be? Says so once, and every time when a sixteenth more is in use.
     pub(super) fn is_exhausted(&self) -> bool {
         self.would_exhaust(0)
     }
@@ -50,25 +54,47 @@ impl Heap {
         limit.is_some_and(|limit| (limit.in_use)().saturating_add(more) >= limit.bytes)
     }
 
-    /// Would so many bytes more be too many?
+    /// The bytes in use, if that is known.
+    pub(crate) fn in_use(&self) -> Option<usize> {
+        self.limit.get().map(|limit| (limit.in_use)())
+    }
+
+    /// Is so much free that it is worth going on? A collection for each few bytes would take most of the
+    /// time.
+    pub(crate) fn has_room(&self) -> bool {
+        let least = self.limit.get().map_or(0, |limit| limit.bytes / LEAST_ROOM);
+        !self.lacks_room_for(least)
+    }
+
+    /// Would so many bytes more be too many, even if everything is freed that can be?
     pub(crate) fn would_exhaust(&self, more: usize) -> bool {
         let Some(limit) = self.limit.get() else {
             return false;
         };
-        let in_use = (limit.in_use)();
-        if in_use < limit.bytes {
-            self.extensions.set(0);
-        }
-        let extensions = self.extensions.get();
-        let extended = limit.bytes + limit.bytes / EXTENSION * extensions;
-        if in_use.saturating_add(more) < extended {
+        if !self.exceeds(&limit, more) {
             return false;
         }
-        if in_use >= limit.bytes {
-            self.extensions
-                .set((in_use - limit.bytes) / (limit.bytes / EXTENSION).max(1) + 1);
+        cycles::collect_all(None);
+        release::all();
+        if self.has_room() && !self.exceeds(&limit, more) {
+            return false;
+        }
+        if (limit.in_use)() >= limit.bytes {
+            self.is_extended.set(true);
         }
         true
+    }
+
+    fn exceeds(&self, limit: &HeapLimit, more: usize) -> bool {
+        let in_use = (limit.in_use)();
+        if in_use < limit.bytes {
+            self.is_extended.set(false);
+        }
+        let extension = match self.is_extended.get() {
+            true => limit.bytes / EXTENSION,
+            false => 0,
+        };
+        in_use.saturating_add(more) >= limit.bytes.saturating_add(extension)
     }
 }
 

@@ -15,10 +15,13 @@ mod stack;
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
+use std::sync::atomic::Ordering;
 
 pub use heap::{Heap, MOST_ELEMENTS};
 pub(crate) use heap::{permit_length, reserve};
 use polls::Polls;
+
+use crate::value::cycles;
 pub(crate) use stack::descend;
 pub use stack::{TooDeep, set_stack_budget};
 
@@ -82,8 +85,23 @@ impl Drop for Watch {
 /// Why what runs on this thread is to stop, if it is.
 pub fn reason() -> Option<Stopped> {
     // At the end of the thread, when values may still be dropped, nothing is in force.
-    let reason = CURRENT.try_with(|limits| limits.borrow().as_ref()?.reason());
-    reason.ok().flatten()
+    let limits = CURRENT.try_with(|limits| limits.borrow().clone());
+    let limits = limits.ok().flatten()?;
+    cycles::collect_if_overdue(limits.heap.in_use());
+    limits.reason()
+}
+
+/// Does somebody want to interrupt what runs on this thread? This is no poll of the flag that counts.
+pub(crate) fn is_interrupted() -> bool {
+    let is_set = |limits: &Limits| limits.polls.flag().load(Ordering::Relaxed);
+    let is_set = CURRENT.try_with(|limits| limits.borrow().as_deref().is_some_and(is_set));
+    is_set.unwrap_or(false)
+}
+
+/// The bytes in use, if that is known.
+pub(crate) fn memory_in_use() -> Option<usize> {
+    let in_use = CURRENT.try_with(|limits| limits.borrow().as_ref()?.heap.in_use());
+    in_use.ok().flatten()
 }
 
 /// Leaves the calling function by unwinding if there is a reason to stop.

@@ -1,13 +1,20 @@
 ;;;; What programs ask of a garbage collector, under the names of trivial-garbage. Memory is freed as
-;;;; soon as nothing refers to an object, and that of circles sometime later.
+;;;; soon as nothing refers to an object, and that of circles when much has come together.
 
 (in-package :trivial-garbage)
 
 (defun gc (&key full verbose)
-  "Does nothing: memory is freed without being asked for.
+  "Frees objects that hold each other and that nothing else refers to. Others are freed at once.
   Examples:
-  (tg:gc :full t) => NIL"
+  (tg:gc :full t) => NIL
+  (let ((circle (list 1)))
+    (setf (cdr circle) circle)
+    (let ((pointer (tg:make-weak-pointer circle)))
+      (setf circle nil)
+      (tg:gc :full t)
+      (tg:weak-pointer-value pointer))) => NIL"
   (declare (ignore full verbose))
+  (system::%free-circles)
   nil)
 
 (defun make-weak-pointer (object)

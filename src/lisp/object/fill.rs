@@ -1,5 +1,6 @@
 //! Giving slots their values: initargs first, then initforms.
 
+use std::ops::Deref;
 use std::rc::Rc;
 
 use crate::value::Value;
@@ -71,16 +72,28 @@ pub fn fill(
                 .is_some_and(|k| slot.initargs.contains(&k))
         });
         if let Some(pair) = given {
-            store(instance, index, slot.shared.as_deref(), pair[1].clone());
+            store(
+                instance,
+                index,
+                slot.shared.as_deref().map(Deref::deref),
+                pair[1].clone(),
+            );
             continue;
         }
-        if !which.includes(slot.name) || !is_unbound(instance, index, slot.shared.as_deref()) {
+        if !which.includes(slot.name)
+            || !is_unbound(instance, index, slot.shared.as_deref().map(Deref::deref))
+        {
             continue;
         }
         match &slot.initform {
             None => {}
             Some(Initform::Value(value)) => {
-                store(instance, index, slot.shared.as_deref(), value.clone());
+                store(
+                    instance,
+                    index,
+                    slot.shared.as_deref().map(Deref::deref),
+                    value.clone(),
+                );
             }
             Some(Initform::Function(function)) => pending.push((slot.name, function.clone())),
         }

@@ -173,9 +173,8 @@ fn traced_generic(image: &Image, name: &Value) -> Option<Rc<Function>> {
 }
 
 fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
-    Rc::new(Function {
-        body: Body::Generic(Box::new(GenericFunction::new(name.clone(), parameters))),
-    })
+    let generic = GenericFunction::new(name.clone(), parameters);
+    Rc::new(Body::Generic(Box::new(generic)).into())
 }
 
 /// A generic function whose default method is a plain function.
@@ -202,9 +201,7 @@ fn extended(
     };
     let generic = GenericFunction::new(name.clone(), parameters);
     generic.methods.borrow_mut().push(Rc::new(method));
-    Rc::new(Function {
-        body: Body::Generic(Box::new(generic)),
-    })
+    Rc::new(Body::Generic(Box::new(generic)).into())
 }
 
 /// A method without specializers that calls a plain function.

@@ -8,7 +8,7 @@ use crate::value::class::{Initform, SlotDefinition};
 use crate::value::form::{constant_value, form, quote};
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::slot::Slot;
+use crate::value::shared_slot::SharedSlot;
 use crate::value::symbol::Sym;
 
 /// A parsed slot description.
@@ -96,7 +96,7 @@ pub(crate) fn evaluated_slot(value: &Value) -> Option<DefinedSlot> {
     slot.initform = evaluated_init(init);
     slot.slot_type = slot_type.clone();
     slot.doc = doc.as_text().map(Into::into);
-    slot.shared = is_shared.is_true().then(|| Rc::new(Slot::default()));
+    slot.shared = is_shared.is_true().then(|| Rc::new(SharedSlot::default()));
     Some(DefinedSlot {
         slot,
         readers: readers.iter_list().collect(),

@@ -142,11 +142,9 @@ pub(crate) fn change_class(
     ];
     check_initargs(machine.image, &changed, &protocol, &initargs)?;
     let old_class = instance.class();
-    let previous = Rc::new(Instance {
-        class: old_class.clone().into(),
-        slots: instance.slots.clone(),
-        generation: instance.generation.clone(),
-    });
+    let previous = Instance::with_slots(old_class.clone(), instance.slots.borrow().clone());
+    previous.generation.set(instance.generation.get());
+    let previous = Rc::new(previous);
     let old_names = old_layout(&old_class, instance.generation.get());
     let change = lay_out(instance, &old_names, class);
     *instance.class.borrow_mut() = class.clone();

@@ -69,7 +69,9 @@ fn designated(image: &Image, designator: &Value, default: Sym) -> Result<Rc<Stre
             return Err(Raise::type_error(value, known::STREAM));
         };
         match &*stream.kind.borrow() {
-            StreamKind::Synonym { symbol } => value = image.special(*symbol),
+            StreamKind::Synonym {
+                symbol: Value::Symbol(symbol, _),
+            } => value = image.special(*symbol),
             _ => return Ok(stream.clone()),
         }
     }

@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 
 use super::Value;
+use super::cycles::Mark;
 use super::element_type::ElementType;
 use super::elements::Elements;
 
@@ -16,6 +17,7 @@ pub struct Vector {
     pub adjustable: bool,
     /// The type of the elements.
     pub(crate) element_type: ElementType,
+    pub(crate) mark: Mark,
 }
 
 impl Vector {
@@ -31,6 +33,7 @@ impl Vector {
             fill_pointer: Cell::new(None),
             adjustable: false,
             element_type,
+            mark: Mark::default(),
         }
     }
 
@@ -94,6 +97,7 @@ pub struct Array {
     pub items: Elements,
     /// The type of the elements.
     pub(crate) element_type: ElementType,
+    pub(crate) mark: Mark,
 }
 
 impl Array {
@@ -104,6 +108,7 @@ impl Array {
             adjustable: false,
             items: Elements::new(items),
             element_type,
+            mark: Mark::default(),
         }
     }
 

@@ -4,10 +4,11 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::Value;
+use super::cycles::Mark;
 use super::function::Function;
 use super::generic::Method;
 use super::release::release_values;
-use super::slot::Slot;
+use super::shared_slot::SharedSlot;
 use super::symbol::Sym;
 
 /// What instances of a class are.
@@ -42,7 +43,7 @@ pub struct SlotDefinition {
     /// Its initial value, if any.
     pub initform: Option<Initform>,
     /// The shared place, for a slot with `:allocation :class`.
-    pub shared: Option<Rc<Slot>>,
+    pub shared: Option<Rc<SharedSlot>>,
     /// The declared type, `T` if none.
     pub(crate) slot_type: Value,
     /// The documentation.
@@ -199,6 +200,7 @@ pub struct Instance {
     pub slots: RefCell<Vec<Value>>,
     /// The class's generation when the slots were laid out.
     pub(crate) generation: Cell<u32>,
+    pub(super) mark: Mark,
 }
 
 impl Instance {
@@ -209,6 +211,7 @@ impl Instance {
             generation: Cell::new(class.generation.get()),
             slots: RefCell::new(vec![Value::Unbound; count]),
             class: RefCell::new(class),
+            mark: Mark::default(),
         }
     }
 
@@ -218,6 +221,7 @@ impl Instance {
             generation: Cell::new(class.generation.get()),
             slots: RefCell::new(slots),
             class: RefCell::new(class),
+            mark: Mark::default(),
         }
     }
 

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::Value;
+use super::cycles::Mark;
 use super::release;
 use super::slot::Slot;
 use super::spare;
@@ -14,6 +15,7 @@ pub struct Cons {
     car: Slot,
     cdr: Slot,
     place: Cell<Place>,
+    mark: Mark,
 }
 
 impl Cons {
@@ -24,6 +26,7 @@ impl Cons {
             car: Slot::new(car),
             cdr: Slot::new(cdr),
             place: Cell::new(Place::NONE),
+            mark: Mark::default(),
         }
     }
 
@@ -112,10 +115,21 @@ impl Cons {
         self.cdr.set(value);
     }
 
-    /// Looks at both halves. `visit` must not touch this pair.
+    /// Looks at both halves, the second one first. `visit` must not touch this pair.
     pub(super) fn for_each(&self, visit: &mut dyn FnMut(&Value)) {
-        self.car.with(&mut *visit);
-        self.cdr.with(visit);
+        self.cdr.with(&mut *visit);
+        self.car.with(visit);
+    }
+
+    /// What the collector has written on the pair.
+    pub(super) fn mark(&self) -> &Mark {
+        &self.mark
+    }
+
+    /// The pair is another one from now on.
+    pub(super) fn renew(&mut self) {
+        self.set_place(Place::NONE);
+        self.mark = Mark::default();
     }
 
     /// Takes out both halves.

@@ -6,7 +6,7 @@ use super::Value;
 use super::class::Class;
 use super::generic::{Combination, Method, Specializer};
 use super::known;
-use super::slot::Slot;
+use super::shared_slot::SharedSlot;
 use super::symbol::Sym;
 
 /// The methods of a call in the order in which they run.
@@ -48,7 +48,7 @@ pub enum SlotPlace {
     /// At this position of the instance.
     Local(usize),
     /// In the class.
-    Shared(Rc<Slot>),
+    Shared(Rc<SharedSlot>),
 }
 
 /// Calls whose key has more parts than this are not cached.

@@ -227,9 +227,10 @@ impl Elements {
 
     /// What the array holds: its own elements, or the array that has them.
     pub fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
-        match &*self.0.borrow() {
-            Place::Own(items) => items.iter().for_each(visit),
-            Place::Displaced(displacement) => visit(&displacement.target),
+        match self.0.try_borrow().as_deref() {
+            Ok(Place::Own(items)) => items.iter().for_each(visit),
+            Ok(Place::Displaced(displacement)) => visit(&displacement.target),
+            Err(_) => {}
         }
     }
 

@@ -5,6 +5,7 @@ use std::cell::Cell;
 
 use super::Value;
 use super::copy::Copier;
+use super::cycles::Mark;
 use super::release::{Dead, release};
 use super::symbol::Sym;
 
@@ -103,6 +104,7 @@ pub struct ForeignBox {
     object: Box<dyn Foreign>,
     /// Is it among those that may be in a circle?
     pub(super) is_suspect: Cell<bool>,
+    mark: Mark,
 }
 
 impl ForeignBox {
@@ -116,6 +118,7 @@ impl ForeignBox {
         ForeignBox {
             object,
             is_suspect: Cell::new(false),
+            mark: Mark::default(),
         }
     }
 
@@ -123,6 +126,11 @@ impl ForeignBox {
     pub fn downcast_ref<T: 'static>(&self) -> Option<&T> {
         let any: &dyn Any = self.object.as_ref();
         any.downcast_ref::<T>()
+    }
+
+    /// What the collector has written on it.
+    pub(super) fn mark(&self) -> &Mark {
+        &self.mark
     }
 
     /// The object's behaviour.

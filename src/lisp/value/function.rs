@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::Value;
 use super::code::Code;
 use super::copy::Copier;
+use super::cycles::Mark;
 use super::generic::GenericFunction;
 use super::release::release_values;
 use super::symbol::Sym;
@@ -14,6 +15,16 @@ use super::symbol::Sym;
 pub struct Function {
     /// What the function does.
     pub body: Body,
+    pub(super) mark: Mark,
+}
+
+impl From<Body> for Function {
+    fn from(body: Body) -> Function {
+        Function {
+            body,
+            mark: Mark::default(),
+        }
+    }
 }
 
 /// What a function does when it is called.
@@ -83,28 +94,23 @@ impl Native {
 impl Function {
     /// A closure over `captured`.
     pub fn closure(code: Rc<Code>, captured: Vec<Value>) -> Function {
-        Function {
-            body: Body::Closure { code, captured },
-        }
+        Body::Closure { code, captured }.into()
     }
 
     /// A function written in Rust.
     pub fn native(name: Sym, arity: (u16, Option<u16>), body: NativeBody) -> Function {
-        Function {
-            body: Body::Native(Native {
-                name,
-                min: arity.0,
-                max: arity.1,
-                body,
-            }),
-        }
+        let native = Native {
+            name,
+            min: arity.0,
+            max: arity.1,
+            body,
+        };
+        Body::Native(native).into()
     }
 
     /// A function that is compiled when it is first called.
     pub fn deferred(deferred: Deferred) -> Function {
-        Function {
-            body: Body::Deferred(deferred),
-        }
+        Body::Deferred(deferred).into()
     }
 
     /// The definition in the library, if this is a function or macro of it.

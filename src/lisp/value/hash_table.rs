@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use super::Value;
+use super::cycles::Mark;
 use super::equality;
 use super::key_hasher::KeyHasher;
 use super::release::release_values;
@@ -62,6 +63,7 @@ pub struct HashTable {
     entries: RefCell<Entries>,
     /// The size that the table was made for.
     pub size: Cell<usize>,
+    pub(super) mark: Mark,
 }
 
 impl HashTable {
@@ -72,6 +74,7 @@ impl HashTable {
             index: RefCell::default(),
             entries: RefCell::default(),
             size: Cell::new(14),
+            mark: Mark::default(),
         }
     }
 
@@ -139,7 +142,11 @@ impl HashTable {
 
     /// Calls a function for every reference to a key or a value: the table holds keys twice.
     pub(super) fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
-        for (key, value) in self.entries.borrow().iter().flatten() {
+        // Both are changed together.
+        let (Ok(_), Ok(entries)) = (self.index.try_borrow(), self.entries.try_borrow()) else {
+            return;
+        };
+        for (key, value) in entries.iter().flatten() {
             visit(key);
             visit(key);
             visit(value);

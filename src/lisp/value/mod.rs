@@ -31,6 +31,7 @@ mod present_symbols;
 pub mod raise;
 pub mod release;
 pub mod sequence;
+pub mod shared_slot;
 pub mod slot;
 mod spare;
 pub mod stream;
@@ -50,7 +51,7 @@ use self::function::Function;
 use self::hash_table::HashTable;
 use self::number::Ratio;
 use self::package::PackageId;
-use self::slot::Slot;
+use self::shared_slot::SharedSlot;
 use self::stream::Stream;
 use self::string::LispString;
 use self::symbol::{Hold, Sym};
@@ -101,7 +102,7 @@ pub enum Value {
     /// A value of a layer above the language (task, fluent, designator, pose, …).
     Foreign(Rc<ForeignBox>),
     /// Internal: the box of a variable that a closure shares. Never reaches user code.
-    Cell(Rc<Slot>),
+    Cell(Rc<SharedSlot>),
     /// Internal: zero, or more than one, values returned by a call. Never stored in a variable.
     Multiple(Rc<Vec<Value>>),
 }

@@ -141,7 +141,7 @@ impl Drop for FreesAll {
         all();
         // What circles have held may have held others.
         loop {
-            cycles::collect_all();
+            cycles::collect_last();
             if !all() {
                 break;
             }
@@ -157,7 +157,7 @@ mod tests {
     use crate::Image;
     use crate::value::function::Function;
     use crate::value::hash_table::{HashTable, HashTest};
-    use crate::value::slot::Slot;
+    use crate::value::shared_slot::SharedSlot;
 
     #[test]
     fn structures_of_any_depth_are_freed_without_recursion() {
@@ -168,7 +168,7 @@ mod tests {
             chain = match i % 5 {
                 0 => Value::vector(vec![chain]),
                 1 => Value::list([chain]),
-                2 => Value::Cell(Rc::new(Slot::new(chain))),
+                2 => Value::Cell(Rc::new(SharedSlot::new(chain))),
                 3 => Value::Function(Rc::new(Function::closure(code.clone(), vec![chain]))),
                 _ => {
                     let table = HashTable::new(HashTest::Eql);

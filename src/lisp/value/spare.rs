@@ -8,7 +8,6 @@ use std::rc::Rc;
 
 use super::Value;
 use super::cons::Cons;
-use crate::source::Place;
 
 /// Pairs that are kept at most: about half a megabyte.
 const MOST: usize = 8192;
@@ -30,10 +29,10 @@ pub(super) fn take() -> Rc<Cons> {
 #[inline(always)]
 pub(super) fn keep(mut cons: Rc<Cons>) {
     // A pair that has been noted as a suspect has a weak reference, so it is not kept.
-    if Rc::get_mut(&mut cons).is_none() {
+    let Some(pair) = Rc::get_mut(&mut cons) else {
         return;
-    }
-    cons.set_place(Place::NONE);
+    };
+    pair.renew();
     SPARE.with_borrow_mut(|spare| {
         if spare.len() < MOST {
             spare.push(cons);

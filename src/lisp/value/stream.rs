@@ -5,6 +5,8 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::Value;
+use super::cycles::Mark;
 use super::document::Document;
 use super::known;
 use super::raise::Raise;
@@ -28,6 +30,7 @@ pub struct Stream {
     pub nesting: u32,
     /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
     pub(crate) backquotes: Cell<usize>,
+    pub(crate) mark: Mark,
 }
 
 /// What the elements of a stream are.
@@ -126,7 +129,7 @@ pub enum StreamKind {
     /// Stands for the stream that is the value of a variable.
     Synonym {
         /// The variable.
-        symbol: Sym,
+        symbol: Value,
     },
     /// Closed.
     Closed,
@@ -163,6 +166,7 @@ impl Stream {
             elements: Elements::Characters,
             nesting: 0,
             backquotes: Cell::new(0),
+            mark: Mark::default(),
         }
     }
 

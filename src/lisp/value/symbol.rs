@@ -5,17 +5,18 @@
 //!
 //! The symbols that a running program makes without interning them, by `gensym` for example, are
 //! passing: the values of such a symbol share a [`Hold`], and when the last of them is gone, so is
-//! what the table knows of the symbol. A passing symbol that has been given a meaning, or that
-//! compiled code refers to, stays.
+//! what the table knows of the symbol, its value, function and properties included. A passing symbol
+//! that compiled code refers to, or that has been declared to mean something, stays.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::rc::Rc;
+use std::rc::{Rc, Weak};
 
 use serde::{Deserialize, Serialize};
 
 use super::Value;
 use super::copy::{Copied, Copier};
+use super::cycles::{self, Mark, Suspect};
 use super::function::Function;
 use super::package::PackageId;
 
@@ -116,18 +117,17 @@ impl SymbolData {
         }
     }
 
-    /// Has the symbol a meaning that somebody could ask for, who has only its index?
+    /// Has the symbol a meaning that somebody could ask for, who has only its index? Nobody else can ask
+    /// for its value, its function and its properties.
     fn stays(&self) -> bool {
         self.is_kept.get()
             || self.package.is_some()
-            || !matches!(self.value, Value::Unbound)
             || self.kind != VariableKind::Lexical
-            || !matches!(self.function, FunctionCell::Unbound)
-            || self.setf_function.is_some()
-            || !self.plist.is_nil()
+            || matches!(
+                self.function,
+                FunctionCell::Macro(_) | FunctionCell::Builtin
+            )
             || self.symbol_macro.is_some()
-            || self.variable_doc.is_some()
-            || self.function_doc.is_some()
     }
 }
 
@@ -143,6 +143,32 @@ impl Hold {
     pub fn is_none(&self) -> bool {
         self.0.is_none()
     }
+
+    /// What the collector has written on the symbol.
+    pub(super) fn mark(&self) -> Option<&Mark> {
+        self.0.as_ref().map(|held| &held.mark)
+    }
+
+    /// The values of the symbol.
+    pub(super) fn strong_count(&self) -> usize {
+        self.0.as_ref().map_or(usize::MAX, Rc::strong_count)
+    }
+}
+
+/// A reference to a passing symbol that does not hold it.
+pub struct WeakHold(Weak<Held>);
+
+impl WeakHold {
+    /// The symbol, if it is still there.
+    pub(super) fn value(&self) -> Option<Value> {
+        let held = self.0.upgrade()?;
+        Some(Value::Symbol(held.sym, Hold(Some(held))))
+    }
+
+    /// Is the symbol still there?
+    pub(super) fn is_alive(&self) -> bool {
+        self.0.strong_count() > 0
+    }
 }
 
 /// What holds the passing symbols of a table that is being copied.
@@ -154,15 +180,13 @@ pub struct Holds {
 impl Holds {
     /// A value of a passing symbol.
     pub(super) fn value(&mut self, sym: Sym) -> Value {
+        Value::Symbol(sym, Hold(Some(self.held(sym).clone())))
+    }
+
+    fn held(&mut self, sym: Sym) -> &Rc<Held> {
         let gone = &self.gone;
-        let hold = || {
-            Rc::new(Held {
-                sym,
-                gone: gone.clone(),
-            })
-        };
-        let held = self.held.entry(sym.0).or_insert_with(hold);
-        Value::Symbol(sym, Hold(Some(held.clone())))
+        let hold = || Held::new(sym, gone);
+        self.held.entry(sym.0).or_insert_with(hold)
     }
 }
 
@@ -170,6 +194,26 @@ impl Holds {
 struct Held {
     sym: Sym,
     gone: Rc<RefCell<Vec<Sym>>>,
+    mark: Mark,
+}
+
+impl Held {
+    fn new(sym: Sym, gone: &Rc<RefCell<Vec<Sym>>>) -> Rc<Held> {
+        Rc::new(Held {
+            sym,
+            gone: gone.clone(),
+            mark: Mark::default(),
+        })
+    }
+}
+
+/// What a table knows of a passing symbol.
+struct Passing {
+    data: SymbolData,
+    /// What holds it.
+    held: Weak<Held>,
+    /// Is it among those that may be in a circle?
+    is_suspect: bool,
 }
 
 impl Drop for Held {
@@ -184,7 +228,7 @@ const PASSING: u32 = 1 << 31;
 /// All symbols of an image.
 pub struct SymbolTable {
     entries: Vec<SymbolData>,
-    passing: BTreeMap<u32, SymbolData>,
+    passing: BTreeMap<u32, Passing>,
     next_passing: u32,
     /// Passing symbols that no value refers to any more.
     gone: Rc<RefCell<Vec<Sym>>>,
@@ -219,10 +263,15 @@ impl SymbolTable {
             self.count_on();
         }
         let sym = Sym(self.next_passing);
-        self.passing.insert(sym.0, SymbolData::named(name));
+        let held = Held::new(sym, &self.gone);
+        let passing = Passing {
+            data: SymbolData::named(name),
+            held: Rc::downgrade(&held),
+            is_suspect: false,
+        };
+        self.passing.insert(sym.0, passing);
         self.count_on();
-        let gone = self.gone.clone();
-        Value::Symbol(sym, Hold(Some(Rc::new(Held { sym, gone }))))
+        Value::Symbol(sym, Hold(Some(held)))
     }
 
     /// What will hold the passing symbols of a copy.
@@ -238,7 +287,18 @@ impl SymbolTable {
         let entries = self.entries.iter().map(|data| data.copied(copier));
         let entries = entries.collect();
         let passing = self.passing.iter();
-        let passing = passing.map(|(sym, data)| (*sym, data.copied(copier)));
+        let passing = passing.map(|(sym, passing)| {
+            let held = Rc::downgrade(copier.holds().held(Sym(*sym)));
+            if passing.is_suspect {
+                cycles::note_symbol(Suspect::Symbol(WeakHold(held.clone())));
+            }
+            let copy = Passing {
+                data: passing.data.copied(copier),
+                held,
+                is_suspect: passing.is_suspect,
+            };
+            (*sym, copy)
+        });
         SymbolTable {
             entries,
             passing: passing.collect(),
@@ -254,16 +314,49 @@ impl SymbolTable {
 
     /// Forgets the passing symbols that no value refers to any more.
     fn free_gone(&mut self) {
-        for sym in self.gone.take() {
-            if self.passing.get(&sym.0).is_some_and(|data| !data.stays()) {
-                self.passing.remove(&sym.0);
+        loop {
+            let gone = self.gone.take();
+            if gone.is_empty() {
+                return;
+            }
+            // What such a symbol held may have held others.
+            for sym in gone {
+                let passing = self.passing.get(&sym.0);
+                if passing.is_some_and(|p| p.held.strong_count() == 0 && !p.data.stays()) {
+                    drop(self.passing.remove(&sym.0));
+                }
             }
         }
     }
 
+    /// Forgets the passing symbols that no longer stay since nothing declares them to mean something.
+    pub(super) fn free_forsaken(&mut self) {
+        self.free_gone();
+        self.passing
+            .retain(|_, passing| passing.held.strong_count() > 0 || passing.data.stays());
+    }
+
+    /// Does the hold belong to a symbol of this table that does not stay for other reasons?
+    pub(super) fn is_own(&self, hold: &Hold) -> bool {
+        hold.0.as_ref().is_some_and(|held| {
+            Rc::ptr_eq(&held.gone, &self.gone)
+                && self.passing(held.sym).is_some_and(|data| !data.stays())
+        })
+    }
+
+    /// What is known of a passing symbol.
+    pub(super) fn passing(&self, sym: Sym) -> Option<&SymbolData> {
+        self.passing.get(&sym.0).map(|passing| &passing.data)
+    }
+
+    /// Forgets a passing symbol that no value refers to but those in circles.
+    pub(super) fn forget(&mut self, sym: Sym) -> Option<SymbolData> {
+        self.passing.remove(&sym.0).map(|passing| passing.data)
+    }
+
     /// Keeps a symbol for good, since something refers to it that is no value.
     pub fn keep(&self, sym: Sym) {
-        if let Some(data) = self.passing.get(&sym.0) {
+        if let Some(data) = self.passing(sym) {
             data.is_kept.set(true);
         }
     }
@@ -272,7 +365,7 @@ impl SymbolTable {
     #[inline]
     pub fn get(&self, sym: Sym) -> &SymbolData {
         if sym.0 >= PASSING {
-            return self.passing.get(&sym.0).unwrap_or(&self.forgotten);
+            return self.passing(sym).unwrap_or(&self.forgotten);
         }
         &self.entries[sym.0 as usize]
     }
@@ -281,11 +374,24 @@ impl SymbolTable {
     #[inline]
     pub fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
         if sym.0 >= PASSING {
-            let name = &self.forgotten.name;
-            let again = || SymbolData::named(name.clone());
-            return self.passing.entry(sym.0).or_insert_with(again);
+            return self.passing_mut(sym);
         }
         &mut self.entries[sym.0 as usize]
+    }
+
+    fn passing_mut(&mut self, sym: Sym) -> &mut SymbolData {
+        let name = &self.forgotten.name;
+        let again = || Passing {
+            data: SymbolData::named(name.clone()),
+            held: Weak::new(),
+            is_suspect: false,
+        };
+        let passing = self.passing.entry(sym.0).or_insert_with(again);
+        if !passing.is_suspect {
+            passing.is_suspect = true;
+            cycles::note_symbol(Suspect::Symbol(WeakHold(passing.held.clone())));
+        }
+        &mut passing.data
     }
 
     /// Number of symbols.
@@ -328,14 +434,26 @@ mod tests {
     }
 
     #[test]
-    fn a_passing_symbol_with_a_meaning_stays() {
+    fn a_passing_symbol_stays_if_something_refers_to_it_that_is_no_value() {
         let mut symbols = SymbolTable::new();
-        let [valued, kept] = ["V", "K"].map(|name| symbols.make_passing(name.into()));
+        let names = ["V", "S", "K"];
+        let [valued, special, kept] = names.map(|name| symbols.make_passing(name.into()));
         symbols.get_mut(valued.as_symbol().unwrap()).value = Value::Int(1);
+        symbols.get_mut(special.as_symbol().unwrap()).kind = VariableKind::Special;
         symbols.keep(kept.as_symbol().unwrap());
-        drop((valued, kept));
+        drop((valued, special, kept));
         symbols.free_gone();
         assert_eq!(symbols.len(), 2);
+    }
+
+    #[test]
+    fn passing_symbols_that_hold_each_other_go_one_after_the_other() {
+        let mut symbols = SymbolTable::new();
+        let [outer, inner] = ["O", "I"].map(|name| symbols.make_passing(name.into()));
+        symbols.get_mut(outer.as_symbol().unwrap()).value = inner;
+        drop(outer);
+        symbols.free_gone();
+        assert_eq!(symbols.len(), 0);
     }
 
     #[test]

@@ -26,7 +26,7 @@ impl Copier {
         let body = self.body(&function.body);
         self.depth -= 1;
         let copy = match body {
-            Some(body) => Rc::new(Function { body }),
+            Some(body) => Rc::new(Function::from(body)),
             None => function.clone(),
         };
         if is_shared {

@@ -30,7 +30,7 @@ use crate::value::foreign::{ForeignBox, ForeignCopy};
 use crate::value::function::{Body, Function};
 use crate::value::generic::Method;
 use crate::value::hash_table::{Entries, HashTable};
-use crate::value::slot::Slot;
+use crate::value::shared_slot::SharedSlot;
 use crate::value::string::LispString;
 use crate::value::symbol::{Holds, SymbolTable};
 
@@ -162,18 +162,16 @@ impl Copier {
             Value::Str(string) => Value::Str(self.string(string)),
             Value::Vector(vector) => self.object(value, vector, |_, vector| {
                 Value::Vector(Rc::new(Vector {
-                    items: Elements::new(Vec::new()),
                     fill_pointer: vector.fill_pointer.clone(),
                     adjustable: vector.adjustable,
-                    element_type: vector.element_type,
+                    ..Vector::of_type(vector.element_type, Vec::new())
                 }))
             }),
             Value::Array(array) => self.object(value, array, |_, array| {
+                let dimensions = array.dimensions.borrow().clone();
                 Value::Array(Rc::new(Array {
-                    dimensions: array.dimensions.clone(),
                     adjustable: array.adjustable,
-                    items: Elements::new(Vec::new()),
-                    element_type: array.element_type,
+                    ..Array::new(array.element_type, dimensions, Vec::new())
                 }))
             }),
             Value::Function(function) => Value::Function(self.function(function)),
@@ -183,11 +181,10 @@ impl Copier {
                 Value::Hash(Rc::new(copy))
             }),
             Value::Instance(instance) => self.object(value, instance, |copier, instance| {
-                Value::Instance(Rc::new(Instance {
-                    class: RefCell::new(copier.class(&instance.class.borrow())),
-                    slots: RefCell::default(),
-                    generation: instance.generation.clone(),
-                }))
+                let class = copier.class(&instance.class.borrow());
+                let copy = Instance::with_slots(class, Vec::new());
+                copy.generation.set(instance.generation.get());
+                Value::Instance(Rc::new(copy))
             }),
             Value::Class(class) => Value::Class(self.class(class)),
             Value::Stream(stream) => Value::Stream(self.stream(stream)),
@@ -239,7 +236,7 @@ impl Copier {
         copy
     }
 
-    fn slot(&mut self, slot: &Rc<Slot>) -> Rc<Slot> {
+    fn slot(&mut self, slot: &Rc<SharedSlot>) -> Rc<SharedSlot> {
         let copy = self.object(&Value::Cell(slot.clone()), slot, |_, _| {
             Value::Cell(Rc::default())
         });

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::Copier;
 use crate::value::Value;
+use crate::value::cycles::Mark;
 use crate::value::stream::{Stream, StreamKind};
 
 impl Copier {
@@ -17,6 +18,7 @@ impl Copier {
                 elements: stream.elements,
                 nesting: stream.nesting,
                 backquotes: stream.backquotes.clone(),
+                mark: Mark::default(),
             }))
         });
         match copy {
@@ -76,7 +78,9 @@ impl Copier {
                 echo: *echo,
                 unread: *unread,
             },
-            StreamKind::Synonym { symbol } => StreamKind::Synonym { symbol: *symbol },
+            StreamKind::Synonym { symbol } => StreamKind::Synonym {
+                symbol: self.value(symbol),
+            },
             StreamKind::Closed => StreamKind::Closed,
         }
     }

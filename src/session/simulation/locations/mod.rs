@@ -12,10 +12,11 @@ use std::sync::Arc;
 
 use super::Simulation;
 use crate::log_level::LogLevel;
-use cram::designator::value::{Class, Designator, as_class, current, first};
+use cram::designator::value::{Class, Designator, as_class, current, first, note_changed};
 use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
+use lisp::value::cycles;
 use lisp::value::foreign::{Foreign, PrintContext};
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
@@ -29,6 +30,9 @@ use robotics::world::{BodyName, WorldError};
 use view::picture::LocationMap;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// About how many bytes a search has prepared: maps, and copies of parts of the world.
+const BYTES_OF_A_SEARCH: usize = 64 << 10;
 
 /// The poses of a location, as its designator keeps them.
 pub(crate) struct LocationStream {
@@ -121,6 +125,8 @@ impl Simulation {
             class_symbol,
         });
         *designator.memory.borrow_mut() = Some(memory.clone());
+        note_changed(&oldest);
+        cycles::press(BYTES_OF_A_SEARCH);
         Ok(Some(memory))
     }
 
