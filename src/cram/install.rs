@@ -10,7 +10,7 @@ use lisp::value::Value;
 use lisp::value::class::ClassKind;
 use lisp::value::function::Function;
 use lisp::value::known;
-use lisp::value::package::PackageTable;
+use lisp::value::package::{PackageId, PackageTable};
 use lisp::value::symbol::Sym;
 
 /// Makes the packages of the plan language and everything in them, in an image that has the
@@ -40,8 +40,17 @@ pub fn install(image: &mut Image) {
     // The tables are consistent: every superclass is defined first.
     let _ = failure_table::define(image, packages);
     lisp::library::install(image, &library::LANGUAGE);
+    keep_internal(image, packages.implementation, "DESCRIPTION");
     reexport(image, packages.cpl, "CRAM-LANGUAGE-IMPLEMENTATION");
     reexport(image, packages.cpl, "COMMON-LISP");
+}
+
+/// Takes a name from the exported ones: CRAM's package does not export it, and it would conflict
+/// with that of another package of CRAM.
+fn keep_internal(image: &mut Image, package: PackageId, name: &str) {
+    if let Some((sym, _)) = image.packages.find_symbol(package, name) {
+        image.packages.unexport(&image.symbols, package, sym);
+    }
 }
 
 fn define_variables(image: &mut Image, names: &Names) {

@@ -135,7 +135,7 @@ pub static PACKAGES: &[PackageRow] = &[
          MATCHING-PROCESS-MODULE AVAILABLE-PROCESS-MODULE PROJECTION-RUNNING",
     ),
     row("CRAM-PROJECTION", &["PROJ"], ""),
-    row("SWANK", &[], ""),
+    row("SWANK", &[], "*READTABLE-ALIST*"),
     row(
         "CRAM-LOCATION-COSTMAP",
         &["COSTMAP", "LOCATION-COSTMAP"],
@@ -147,11 +147,12 @@ pub static PACKAGES: &[PackageRow] = &[
     row("ASDF", &[], "*CENTRAL-REGISTRY*"),
     // What the symbols in descriptions of systems belong to.
     row("ASDF-USER", &[], ""),
+    row("UIOP", &["UIOP/DRIVER"], ""),
+    row("BORDEAUX-THREADS", &["BT"], ""),
     row("NET.DIDIERVERNA.ASDF-FLV", &["ASDF-FLV"], ""),
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], ""),
-    row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
-    row("CRAM-BEGINNER-TUTORIAL", &[], ""),
+    row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
     row(
         "PLANWRIGHT",
         &["PW"],
@@ -163,6 +164,7 @@ pub static PACKAGES: &[PackageRow] = &[
 
 /// Packages that inherit from packages other than `COMMON-LISP`.
 const USES: &[(&str, &[&str])] = &[
+    ("ASDF-USER", &["ASDF", "UIOP"]),
     (
         "CRAM-PICK-PLACE-TUTORIAL",
         &["CRAM-PROLOG", "CRAM-COMMON-FAILURES", "PLANWRIGHT"],
@@ -170,7 +172,10 @@ const USES: &[(&str, &[&str])] = &[
     ("COMMON-LISP-USER", &["PLANWRIGHT"]),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
     ("CRAM-PR2-FETCH-DELIVER-PLANS", &["CRAM-COMMON-FAILURES"]),
-    ("CRAM-OCCASIONS-EVENTS", &["CRAM-PROLOG"]),
+    ("CRAM-OCCASIONS-EVENTS", &["CRAM-UTILITIES", "CRAM-PROLOG"]),
+    ("CRAM-PROLOG", &["CRAM-UTILITIES"]),
+    ("CRAM-DESIGNATORS", &["CRAM-UTILITIES", "CRAM-PROLOG"]),
+    ("CRAM-PROCESS-MODULES", &["ALEXANDRIA", "CRAM-DESIGNATORS"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];
 

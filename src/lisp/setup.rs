@@ -119,6 +119,9 @@ fn define_variables(image: &mut Image) {
         (known::V_BREAK_ON_SIGNALS, Value::NIL),
         (known::V_LOAD_PATHNAME, Value::NIL),
         (known::V_LOAD_TRUENAME, Value::NIL),
+        (known::V_LOCKS_IGNORED, Value::NIL),
+        (known::V_STANDARD_FIRST, Value::NIL),
+        (known::V_AS_COMPILED, Value::NIL),
     ] {
         image.define_special(variable, value);
     }

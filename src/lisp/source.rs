@@ -158,6 +158,14 @@ impl Sources {
         source.is_some_and(|source| !source.is_library)
     }
 
+    /// Are these different places of one text?
+    pub(crate) fn are_apart(&self, one: Place, other: Place) -> bool {
+        match (self.span(one), self.span(other)) {
+            (Some(a), Some(b)) => a.source == b.source && a.start != b.start,
+            _ => false,
+        }
+    }
+
     /// The text that a place covers.
     pub fn text(&self, place: Place) -> Option<&str> {
         let span = self.span(place)?;

@@ -135,6 +135,7 @@ impl Session {
         session.evaluator.image.limits.heap.set_limit(options.heap);
         session.evaluator.image.output.set_shown(true);
         plans::load(&mut session.evaluator)?;
+        session.evaluator.image.lock_packages(plans::OPEN_PACKAGES);
         // Nobody takes the world back to before the built-in plans.
         session.evaluator.host.person.snapshots = person::Snapshots::default();
         Ok(session)

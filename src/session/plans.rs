@@ -30,6 +30,17 @@ pub(crate) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
     ("cram_projection_demos", &[DEMOS[0].0, DEMOS[1].0]),
 ];
 
+/// Packages that are there for programs to work in: what the built-in plans define there may be
+/// redefined.
+pub(crate) const OPEN_PACKAGES: &[&str] = &[
+    "COMMON-LISP-USER",
+    "CRAM-PICK-PLACE-TUTORIAL",
+    "CRAM-BULLET-WORLD-TUTORIAL",
+    "CRAM-BEGINNER-TUTORIAL",
+    "CRAM-PR2-PICK-PLACE-DEMO",
+    "CRAM-PROJECTION-DEMOS",
+];
+
 /// The text of one of the demos' files.
 pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
     let (_, text) = DEMOS.iter().find(|(file, _)| *file == name)?;

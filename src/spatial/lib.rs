@@ -4,9 +4,11 @@
 //! Lengths are in metres, angles in radians; quaternions are x y z w. Nothing here knows of
 //! robots, worlds or the plan language.
 
+pub mod number;
 pub mod pose;
 pub mod shape;
 pub mod trig;
 
+pub use number::Shortest;
 pub use pose::Pose;
 pub use shape::{PlacedShape, Shape};

@@ -5,6 +5,7 @@
 //! called, and nested designator forms make designators.
 
 use super::literal;
+use super::schema::{self, Kind};
 use super::value::{Class, Quantifier};
 use crate::packages;
 use lisp::builtin::Operator;
@@ -105,7 +106,7 @@ fn designator_form(
     }
     let mut code = vec![Value::from(known::LIST)];
     for property in properties {
-        code.push(property_code(image, property, depth)?);
+        code.push(property_code(image, &name, property, depth)?);
     }
     let maker = packages::symbol(image, "CRAM-DESIGNATORS", "DESIGNATOR-OF-FORM");
     let quantifier = image.keyword(quantifier.name());
@@ -119,7 +120,7 @@ fn designator_form(
 }
 
 /// Code for a property list, or for `NIL` if a condition omits the property.
-fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Value> {
+fn property_code(image: &mut Image, class: &str, property: &Value, depth: usize) -> Result<Value> {
     let items = property.list_to_vec().filter(|items| !items.is_empty());
     let Some(items) = items else {
         return Err(Raise::program(format!(
@@ -135,7 +136,7 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
                 "(when condition (key value)) takes exactly one property.",
             ));
         };
-        let inner = property_code(image, inner, depth)?;
+        let inner = property_code(image, class, inner, depth)?;
         return Ok(list([
             known::IF.into(),
             condition.clone(),
@@ -148,6 +149,7 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
         other => other.clone(),
     };
     let is_goal = key.as_symbol().is_some_and(|s| image.name(s) == "GOAL");
+    check_number_of_values(image, class, &key, &items)?;
     let mut code = vec![Value::from(known::LIST), quote(key)];
     for value in &items[1..] {
         code.push(match is_goal {
@@ -156,6 +158,63 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
         });
     }
     Ok(list(code))
+}
+
+/// Signals an error for a property without a value, or with several where only the first one would
+/// count.
+fn check_number_of_values(
+    image: &Image,
+    class: &str,
+    key: &Value,
+    property: &[Value],
+) -> Result<()> {
+    let Some(key) = key.as_symbol().map(|key| image.name(key)) else {
+        return Ok(());
+    };
+    let shown = |items: &[Value]| print::to_string(image, &Value::list(items.to_vec()), true);
+    let few = key.to_lowercase();
+    match property {
+        [_] => Err(Raise::program(format!(
+            "{} has no value: ({few} value) was expected.",
+            shown(property)
+        ))),
+        [_, _, others @ ..] if !others.is_empty() && takes_one_value(image, class, key) => {
+            Err(Raise::program(format!(
+                "{} has {} values, and a designator has one {few}: ({few} value) was expected.",
+                shown(property),
+                property.len() - 1
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Does a key of a class of designators take one value, which is no list?
+fn takes_one_value(image: &Image, class: &str, key: &str) -> bool {
+    let Some(class) = Class::named(&class.to_uppercase()) else {
+        return false;
+    };
+    let is_one = |kind: &Kind| {
+        !matches!(
+            kind,
+            Kind::Objects | Kind::Keywords | Kind::List | Kind::Poses | Kind::Anything
+        )
+    };
+    match class {
+        _ if key == "TYPE" => true,
+        Class::Object => schema::OBJECT_KEYS
+            .iter()
+            .any(|known| known.name == key && is_one(&known.kind)),
+        Class::Location => schema::LOCATION_KEYS
+            .iter()
+            .any(|known| known.name == key && is_one(&known.kind)),
+        Class::Human => false,
+        Class::Action | Class::Motion => {
+            let rows = schema::all(image, class);
+            let mut kinds = rows.iter().filter_map(|row| row.key(key)).peekable();
+            kinds.peek().is_some() && kinds.all(|known| is_one(&known.kind))
+        }
+    }
 }
 
 /// Code for a goal `(occasion argument…)`: the name of the occasion stays a symbol of its package.

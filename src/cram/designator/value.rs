@@ -360,8 +360,9 @@ impl Foreign for Designator {
         let mut text = format!("#<{} {}", self.quantifier.name(), self.class.name());
         for (key, values) in self.properties() {
             let key = bare(context, &key, escape);
-            let value = bare(context, &values.car_or_nil(), escape);
-            text.push_str(&format!("\n    ({key} {value})"));
+            let lead = format!("    ({key} ");
+            let value = indented_value(context, &values.car_or_nil(), escape, width(&lead));
+            text.push_str(&format!("\n{lead}{value})"));
         }
         text.push('>');
         text
@@ -400,6 +401,54 @@ impl Foreign for Designator {
         }
         lines.join("\n")
     }
+}
+
+/// The text of a value that begins at a column: its further lines are indented so far. Pairs of keys
+/// and values have a line each; transforms that a pose beside them says, too, are left out.
+fn indented_value(
+    context: &dyn PrintContext,
+    value: &Value,
+    escape: bool,
+    column: usize,
+) -> String {
+    let Some(pairs) = pairs_of(context, value) else {
+        return indented(&bare(context, value, escape), column);
+    };
+    let has = |name: &str| pairs.iter().any(|(key, _)| *key == name);
+    let shown = pairs.iter().filter(|(key, _)| match key.as_str() {
+        "TRANSFORM" => !has("POSE"),
+        "TRANSFORM-IN-MAP" => !has("POSE-IN-MAP"),
+        _ => true,
+    });
+    let lines: Vec<String> = shown
+        .map(|(key, value)| {
+            let lead = format!("(:{key} ");
+            let text = context.text(value, true);
+            format!("{lead}{})", indented(&text, width(&lead)))
+        })
+        .collect();
+    format!("({})", indented(&lines.join("\n"), column + 1))
+}
+
+/// The keys and values of a list of lists `(keyword value)`.
+fn pairs_of(context: &dyn PrintContext, value: &Value) -> Option<Vec<(String, Value)>> {
+    let items = value.list_to_vec().filter(|items| !items.is_empty())?;
+    let pair = |item: &Value| match item.list_to_vec()?.as_slice() {
+        [Value::Symbol(key, ..), value] if context.is_keyword(*key) => {
+            Some((context.name(*key).to_owned(), value.clone()))
+        }
+        _ => None,
+    };
+    items.iter().map(pair).collect()
+}
+
+/// A text whose lines after the first one are indented.
+fn indented(text: &str, column: usize) -> String {
+    text.replace('\n', &format!("\n{}", " ".repeat(column)))
+}
+
+fn width(text: &str) -> usize {
+    text.chars().count()
 }
 
 /// Keywords without their colon, everything else as printed.

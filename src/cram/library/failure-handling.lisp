@@ -7,7 +7,7 @@
   "Signals an error unless a clause of WITH-FAILURE-HANDLING is well-formed."
   (unless (and (consp clause) (listp (rest clause)) (listp (second clause)))
     (%malformed
-     "~s is not a clause of WITH-FAILURE-HANDLING: (type (variable) form…) was expected."
+     "~s is not a clause of WITH-FAILURE-HANDLING: (type (variable) form…) was expected, and a list of such clauses."
      clause)))
 
 (defun %unwrapping-handler (handlers)
@@ -75,34 +75,68 @@ in an envelope, so that they have names."
               (tagbody ,again (macrolet ((retry () ',jump)) ,attempt)))))))
 
 ;;; Retry counters: a counter is a list of its name, the variable with the remaining number of
-;;; retries, and the variable with the initial number.
+;;; retries, and the form of the initial number, which RESET-COUNTER evaluates again.
 
-(defun %expand-do-retry (counters name body)
-  "The expansion of DO-RETRY."
-  (let ((left (second (assoc name counters))))
+(defmacro %retry-counters ()
+  "The counters in whose scope this stands, innermost first: a list, not a form. WITH-RETRY-COUNTERS
+redefines it locally."
+  '())
+
+(defun %counter (name operator environment)
+  "The counter of a name in whose scope a form stands."
+  (let ((counters (macroexpand-1 '(%retry-counters) environment)))
+    (or (assoc name counters)
+        (if counters
+            (%malformed "~a: there is no retry counter ~s here. Known ~:[are~;is~] ~{~s~^, ~}."
+                        operator name (null (rest counters)) (mapcar #'first counters))
+            (%malformed "~a: there is no retry counter ~s here; WITH-RETRY-COUNTERS around it makes some."
+                        operator name)))))
+
+(defun %check-retry-counters (counters)
+  "Signals an error unless these are counters as WITH-RETRY-COUNTERS takes them."
+  (unless (and (listp counters)
+               (every (lambda (counter)
+                        (and (consp counter)
+                             (symbolp (first counter))
+                             (consp (rest counter))
+                             (null (cddr counter))))
+                      counters))
+    (%malformed "~s in WITH-RETRY-COUNTERS: a list of counters, ((name count)…), was expected."
+                counters)))
+
+(defmacro do-retry (counter &body body &environment environment)
+  "Counts a counter of WITH-RETRY-COUNTERS down and evaluates the body, unless no retry is left.
+  Examples:
+  (cpl:with-retry-counters ((c 1)) (list (cpl:do-retry c :again) (cpl:do-retry c :again))) => (:AGAIN NIL)
+  (cpl:with-retry-counters ((outer 1)) (cpl:with-retry-counters ((inner 1)) (cpl:do-retry outer :again))) => :AGAIN"
+  (let ((left (second (%counter counter 'do-retry environment))))
     `(when (> ,left 0)
        (setq ,left (1- ,left))
        ,@body)))
 
-(defun %expand-reset-counter (counters name)
-  "The expansion of RESET-COUNTER."
-  (destructuring-bind (&optional left start) (rest (assoc name counters))
-    (unless left
-      (%malformed "There is no retry counter ~s here." name))
-    `(setq ,left ,start)))
+(defmacro get-counter (counter &environment environment)
+  "The number of retries that a counter of WITH-RETRY-COUNTERS has left.
+  Examples:
+  (cpl:with-retry-counters ((c 2)) (cpl:do-retry c) (cpl:get-counter c)) => 1"
+  (second (%counter counter 'get-counter environment)))
 
-(defmacro with-retry-counters (counters &body body)
+(defmacro reset-counter (counter &environment environment)
+  "Gives a counter of WITH-RETRY-COUNTERS all its retries back: their number is computed again.
+  Examples:
+  (cpl:with-retry-counters ((c 2)) (cpl:do-retry c) (cpl:reset-counter c)) => 2"
+  (destructuring-bind (left count) (rest (%counter counter 'reset-counter environment))
+    `(setq ,left ,count)))
+
+(defmacro with-retry-counters (counters &body body &environment environment)
   "Binds counters, a list of (name count), for DO-RETRY, GET-COUNTER and RESET-COUNTER.
   Examples:
   (cpl:with-retry-counters ((c 1)) (list (cpl:do-retry c :again) (cpl:do-retry c :again))) => (:AGAIN NIL)"
+  (%check-retry-counters counters)
   (let ((bound (mapcar (lambda (counter)
-                         (list (first counter) (gensym "COUNTER") (gensym "START")))
+                         (list (first counter) (gensym "COUNTER") (second counter)))
                        counters)))
-    `(let* ,(mapcan (lambda (counter variables)
-                      `((,(third variables) ,(second counter))
-                        (,(second variables) ,(third variables))))
-                    counters bound)
-       (macrolet ((do-retry (name &body body) (%expand-do-retry ',bound name body))
-                  (get-counter (name) (second (assoc name ',bound)))
-                  (reset-counter (name) (%expand-reset-counter ',bound name)))
+    `(let* ,(mapcar #'rest bound)
+       (macrolet ((%retry-counters ()
+                    ',(append bound (macroexpand-1 '(%retry-counters) environment))))
          ,@body))))
+

@@ -27,6 +27,9 @@ static UTILITY_FILES: &[File] = &[
     library_file!("src/cram/library", "systems.lisp"),
     library_file!("src/cram/library", "system-files.lisp"),
     library_file!("src/cram/library", "system-tests.lisp"),
+    library_file!("src/cram/library", "system-definitions.lisp"),
+    library_file!("src/cram/library", "uiop.lisp"),
+    library_file!("src/cram/library", "threads.lisp"),
 ];
 
 /// Files that need designators; installed after those.

@@ -1,4 +1,5 @@
-;;;; Files that describe systems, NAME.asd, are read as data: nothing in them is evaluated.
+;;;; Files that describe systems, NAME.asd, are read as data, of which nothing is evaluated. Where that is
+;;;; not enough, system-definitions.lisp evaluates them.
 
 (in-package :asdf)
 
@@ -6,12 +7,23 @@
 
 (defun %system-options (name file)
   "The options of a system, as a property list, from the file that describes it."
-  (or (loop for form in (%read-description file)
-            for definition = (%definition form)
-            when (and definition
-                      (equal (ignore-errors (%system-name (first definition))) name))
-              return (%checked-options (rest definition) name file))
-      (error "~a: there is no system ~s in it." file name)))
+  (let ((options (loop for form in (%read-description file)
+                       for definition = (%definition form)
+                       when (and definition
+                                 (equal (ignore-errors (%system-name (first definition))) name))
+                         return (rest definition))))
+    (%checked-options (if (and options (not (%is-computed options)))
+                          options
+                          (or (%evaluated-options name file)
+                              (error "~a: there is no system ~s in it." file name)))
+                      name file)))
+
+(defun %is-computed (options)
+  "Has something that loading a system depends on to be computed?"
+  (and (alexandria:proper-list-p options)
+       (evenp (length options))
+       (some (lambda (option) (%contains-p (getf options option) :computed))
+             '(:components :depends-on :defsystem-depends-on :pathname :serial :class :version))))
 
 (defun %describes-p (file name)
   "Does a file describe a system of that name?"
@@ -62,10 +74,6 @@ PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluat
   "The options of a system, if they can be carried out."
   (unless (and (alexandria:proper-list-p options) (evenp (length options)))
     (error "~a: the options of the system ~s are not a list of keywords with values." file name))
-  (dolist (option '(:components :depends-on :defsystem-depends-on :pathname :serial :class))
-    (when (%contains-p (getf options option) :computed)
-      (error "~a: the option ~s of the system ~s has to be computed; nothing in such a file is evaluated."
-             file option name)))
   (let ((class (getf options :class)))
     (when (and (symbolp class) (string= class "PACKAGE-INFERRED-SYSTEM"))
       (error "~a: the system ~s is a package-inferred one; only those with components can be loaded."

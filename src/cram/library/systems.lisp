@@ -13,6 +13,13 @@ names.")
 (defvar system::%*loading-systems* '()
   "The names of the systems that are being loaded, the innermost first.")
 
+(defvar swank:*readtable-alist* '()
+  "Pairs of the name of a package and the readtable for it, as libraries of readtables keep them for
+SLIME.")
+
+(defvar system::%*known-system-files* :unknown
+  "The files that describe systems, while they are known; else :UNKNOWN.")
+
 (defvar system::%*loaded-built-in-files* '()
   "The names of the files of built-in systems that have been loaded.")
 
@@ -25,11 +32,26 @@ names.")
   Examples:
   (asdf:load-system :cram-language) => T"
   (declare (ignore verbose version force-not))
+  (let ((%*known-system-files* (%system-files)))
+    (%load-any-system system force))
+  t)
+
+(defun %load-any-system (system force)
+  "Loads a system, built in or not."
   (cond ((system:built-in-files system)
          (%load-built-in-files system force))
+        ((%own-files-of system)
+         (%load-system (%own-files-of system) force nil))
         ((system:load-built-in-system system))
-        (t (%load-system (%system-name system) force nil)))
-  t)
+        (t (%load-system (%system-name system) force nil))))
+
+(defun %own-files-of (system)
+  "The name under which the registry has a system of which only the package is built in; else NIL."
+  (when (system:without-files-p system)
+    (find-if #'%system-file
+             (list (%system-name system)
+                   (substitute #\- #\_ (%system-name system))
+                   (substitute #\_ #\- (%system-name system))))))
 
 (defun quicklisp-client:quickload (systems &key verbose silent prompt explain)
   "Loads a system or a list of them, as `asdf:load-system` does; nothing is downloaded. Returns a list
@@ -130,20 +152,27 @@ names.")
 
 (defun %system-files ()
   "The files that describe systems: those of a folder before those of the folders inside it."
-  (labels ((files (folder depth)
-             (let ((names (system:file-names folder)))
-               (append
-                (loop for name in names
-                      when (equal (pathname-type name) "asd")
-                        collect (concatenate 'string folder name))
-                ;; Sources of a library are not deep, and links might lead in a circle.
-                (when (plusp depth)
-                  (loop for name in names
-                        when (and (alexandria:ends-with #\/ name)
-                                  (not (alexandria:starts-with #\. name)))
-                          append (files (concatenate 'string folder name) (1- depth))))))))
-    (loop for folder in (%registry-folders)
-          append (files folder 3))))
+  (if (listp %*known-system-files*)
+      %*known-system-files*
+      (let ((seen (make-hash-table :test 'equal)))
+        (loop for folder in (%registry-folders)
+              append (%system-files-in folder seen)))))
+
+(defun %system-files-in (folder seen)
+  "The files that describe systems in a folder and in those inside, as far as these have not been
+  seen: links may lead in a circle."
+  (let ((place (ignore-errors (namestring (truename folder)))))
+    (unless (or (null place) (gethash place seen))
+      (setf (gethash place seen) t)
+      (let ((names (system:file-names folder)))
+        (append
+         (loop for name in names
+               when (equal (pathname-type name) "asd")
+                 collect (concatenate 'string folder name))
+         (loop for name in names
+               when (and (alexandria:ends-with #\/ name)
+                         (not (alexandria:starts-with #\. name)))
+                 append (%system-files-in (concatenate 'string folder name) seen)))))))
 
 (defun %system-file (name)
   "The file that describes a system, or NIL."
@@ -153,7 +182,7 @@ names.")
         (find-if (lambda (file)
                    (and (alexandria:starts-with-subseq (pathname-name file) name)
                         (%describes-p file name)))
-                 (sort files #'> :key #'length)))))
+                 (sort (copy-list files) #'> :key #'length)))))
 
 (defun %no-system (name dependent)
   "Signals that there is no such system, which another one may depend on."
@@ -182,14 +211,12 @@ names.")
     (cond ((or (is "cffi" "osicat" "iolib" "cl+ssl" "static-vectors")
                (alexandria:starts-with-subseq "cffi-" name))
            "calls foreign functions, which there are not")
-          ((is "bordeaux-threads" "lparallel" "chanl" "bt-semaphore" "eager-future2")
+          ((is "lparallel" "chanl" "bt-semaphore" "eager-future2")
            "needs threads of the machine, which there are not; CPL:PAR and CPL:PURSUE do several things at once")
           ((is "usocket" "hunchentoot" "drakma" "dexador")
            "needs sockets, which there are not")
           ((alexandria:starts-with-subseq "sb-" name)
-           "is a part of SBCL")
-          ((is "uiop" "asdf")
-           "is a part of ASDF's own program, which is not there"))))
+           "is a part of SBCL"))))
 
 ;;; Loading
 
@@ -227,4 +254,6 @@ names.")
   "Loads a file of a system. It has its own package and readtable."
   (let ((variables %*file-local-variables*))
     (progv variables (mapcar #'symbol-value variables)
-      (load file))))
+      ;; A system's files are compiled, then loaded.
+      (let ((%*as-compiled* :next))
+        (load file)))))

@@ -13,6 +13,15 @@ use session::dialogue::Finding;
 /// Lines and columns up to which a text is shifted to where it stands in its buffer.
 const MOST_SHIFT: usize = 1_000_000;
 
+/// A form that loads a file as if it were compiled first: what it evaluates only then is
+/// evaluated, too.
+fn compile_form(file: &str) -> String {
+    format!(
+        "(cl:let ((system::%*as-compiled* :next)) {})",
+        load_form(file)
+    )
+}
+
 /// A form that loads a file.
 fn load_form(file: &str) -> String {
     format!("(cl:load {})", Sexp::from(file))
@@ -44,7 +53,7 @@ impl Engine<'_> {
         self.evaluate(
             request,
             &source,
-            &load_form(&file),
+            &compile_form(&file),
             Answer::Compiled(compiled),
         );
     }

@@ -82,7 +82,7 @@ pub(super) fn apropos(names: &Names, request: &Request) -> Option<Sexp> {
     let text = request.text(0)?;
     let given = |index: usize| request.argument(index).filter(|given| !given.is_nil());
     let (only_external, exact_case) = (given(1).is_some(), given(2).is_some());
-    let package = given(3).and_then(Sexp::as_name);
+    let package = given(3).and_then(|given| given.as_str().or_else(|| given.as_name()));
     let package = package.map(|package| package_of(names, Some(package)));
     let wanted = if exact_case {
         text.to_owned()

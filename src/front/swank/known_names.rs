@@ -26,6 +26,7 @@ pub(super) fn is_quick(operation: &str) -> bool {
             | "describe-function"
             | "documentation-symbol"
             | "apropos-list-for-emacs"
+            | "list-all-package-names"
             | "find-definitions-for-emacs"
             | "buffer-first-change"
             | "swank-require"
@@ -47,12 +48,24 @@ pub(super) fn answer(names: &Names, version: &Version, request: &Request) -> Opt
         "describe-symbol" | "describe-function" => documentation::describe(names, request),
         "documentation-symbol" => documentation::documentation(names, request),
         "apropos-list-for-emacs" => documentation::apropos(names, request),
+        "list-all-package-names" => Some(package_names(names, request)),
         "find-definitions-for-emacs" => definitions::find(names, request),
         "swank-require" => Some(required(request)),
         "list-threads" => Some(threads()),
         "connection-info" => Some(connection_info(version)),
         _ => None,
     }
+}
+
+/// The names of all packages, in order; with nicknames if wanted.
+fn package_names(names: &Names, request: &Request) -> Sexp {
+    let with_nicknames = request.argument(0).is_some_and(|wanted| !wanted.is_nil());
+    let known = names.package_names.iter();
+    let known = known.filter(|(name, at)| {
+        let package = names.packages.get(**at);
+        with_nicknames || package.is_some_and(|package| package.name == **name)
+    });
+    Sexp::list(known.map(|(name, _)| name.as_str().into()))
 }
 
 /// The names of the modules that the client wants, which it is told are there.

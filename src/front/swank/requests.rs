@@ -3,8 +3,18 @@
 use super::answer::Answer;
 use super::engine::Engine;
 use super::hub::{Ended, Request};
+use super::package_text::package_name;
 use super::sexp::Sexp;
 use super::version::Version;
+
+/// A form that prints what a function makes of a symbol and a package, given as texts.
+fn in_package(function: &str, texts: &[&str]) -> Option<String> {
+    let [symbol, package, ..] = texts else {
+        return None;
+    };
+    let package = Sexp::from(package_name(package));
+    Some(format!("(cl:prin1 ({function} '{symbol}\n {package}))"))
+}
 
 impl Engine<'_> {
     /// Answers a request, or leaves it pending if what it evaluates stops.
@@ -29,6 +39,32 @@ impl Engine<'_> {
             }
             "swank-macroexpand-all" => self.expand(request, "system::%macroexpand-all"),
             "swank-toggle-trace" | "dialog-toggle-trace" => self.toggle_trace(request),
+            "undefine-function" => {
+                self.with_texts(request, |texts| match texts {
+                    [name, ..] => Some(format!("(cl:prin1 (cl:fmakunbound '{name}\n))")),
+                    _ => None,
+                });
+            }
+            "export-symbol-for-emacs" => self.with_texts(request, |t| in_package("cl:export", t)),
+            "unexport-symbol-for-emacs" => {
+                self.with_texts(request, |t| in_package("cl:unexport", t));
+            }
+            "unintern-symbol" => self.with_texts(request, |t| in_package("cl:unintern", t)),
+            "value-for-editing" => {
+                self.with_texts(request, |texts| match texts {
+                    [form, ..] => Some(format!(
+                        "(cl:let ((cl:*print-pretty* t) (cl:*print-length* nil) (cl:*print-level* nil))\n\
+                         (cl:prin1 {form}\n))"
+                    )),
+                    _ => None,
+                });
+            }
+            "commit-edited-value" => {
+                self.with_texts(request, |texts| match texts {
+                    [form, value, ..] => Some(format!("(cl:prin1 (cl:setf {form}\n `{value}\n))")),
+                    _ => None,
+                });
+            }
             "untrace-all" | "dialog-untrace-all" => {
                 let source = self.next_input();
                 self.evaluate(request, &source, "(cl:untrace)", Answer::Nothing);
@@ -84,6 +120,18 @@ impl Engine<'_> {
                 self.evaluate(request, &source, &text, answer);
             }
             None => request.abort("a text is needed"),
+        }
+    }
+
+    /// Evaluates a form that is made of the texts that a request has; the answer is what it prints.
+    fn with_texts(&mut self, request: &Request, form: impl Fn(&[&str]) -> Option<String>) {
+        let texts: Vec<&str> = (0..2).map_while(|index| request.text(index)).collect();
+        match form(&texts) {
+            Some(form) => {
+                let source = self.next_input();
+                self.evaluate(request, &source, &form, Answer::Printed);
+            }
+            None => request.abort("texts are needed"),
         }
     }
 

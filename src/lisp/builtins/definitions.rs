@@ -5,7 +5,9 @@ use std::rc::Rc;
 use crate::builtin::Builtin;
 use crate::compile::{keep_place, setf};
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::image::setf_expander::SetfExpander;
+use crate::source::Place;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::Function;
@@ -46,11 +48,14 @@ fn define_function(image: &mut Image, name_value: &Value, new: Rc<Function>) -> 
                     image.name(name)
                 )));
             }
+            image.check_lock(name, Meaning::Function)?;
+            image.note_redefined(name);
             image.set_function(name, new);
             image.symbols.get_mut(name).function_doc = None;
         }
         None => {
             let name = symbol(&name_value.cdr_or_nil().car_or_nil())?;
+            image.check_lock(name, Meaning::Setter)?;
             image.symbols.get_mut(name).setf_function = Some(new);
         }
     }
@@ -67,6 +72,8 @@ fn define_macro(
     _documentation: &Value,
 ) -> Result<Value> {
     let name = symbol(name_value)?;
+    image.check_lock(name, Meaning::Function)?;
+    image.note_redefined(name);
     let expander = function;
     let data = image.symbols.get_mut(name);
     data.function = FunctionCell::Macro(expander);
@@ -86,6 +93,7 @@ fn define_parameter(
 ) -> Result<Value> {
     let name = symbol(name_value)?;
     check_not_constant(image, name)?;
+    image.check_lock(name, Meaning::Variable)?;
     image.define_special(name, value);
     image.symbols.get_mut(name).variable_doc = documentation.as_text().map(Into::into);
     Ok(name_value.clone())
@@ -112,6 +120,7 @@ fn define_variable(
 ) -> Result<Value> {
     let name = symbol(name_value)?;
     check_not_constant(image, name)?;
+    image.check_lock(name, Meaning::Variable)?;
     let data = image.symbols.get_mut(name);
     data.kind = VariableKind::Special;
     if let Some(doc) = documentation.and_then(Value::as_text) {
@@ -125,13 +134,37 @@ fn define_variable(
 /// `(system:define-constant '+c+ 1)` => `+C+`
 #[builtin]
 fn define_constant(image: &mut Image, name: &Value, value: Value) -> Result<Value> {
-    image.define_constant(symbol(name)?, value);
+    let sym = symbol(name)?;
+    image.check_lock(sym, Meaning::Variable)?;
+    image.define_constant(sym, value);
     Ok(name.clone())
+}
+
+/// What there is to tell of the definition of a function: where the same text defines it before and
+/// where it does now, or NIL for both, and whether it redefines what is built in.
+#[builtin("%NOTE-DEFINITION")]
+fn note_definition(image: &mut Image, name: Sym, place: usize) -> Value {
+    let here = Place(u32::try_from(place).unwrap_or_default());
+    let is_open = image.is_open(name);
+    let before = match image.sources.is_of_program(here) {
+        true => image.note_defined(name, here),
+        false => None,
+    };
+    let shown = |place: Option<Place>| {
+        let location = place.and_then(|place| image.sources.locate(place));
+        location.map_or(Value::NIL, |location| Value::string(location.to_string()))
+    };
+    Value::list([
+        shown(before),
+        shown(before.map(|_| here)),
+        Value::bool(is_open),
+    ])
 }
 
 /// Lets a symbol stand for a form.
 #[builtin]
 fn set_symbol_macro(image: &mut Image, name: &Value, expansion: Value) -> Result<Value> {
+    image.check_lock(symbol(name)?, Meaning::Variable)?;
     image.symbols.get_mut(symbol(name)?).symbol_macro = Some(expansion);
     Ok(name.clone())
 }
@@ -140,6 +173,7 @@ fn set_symbol_macro(image: &mut Image, name: &Value, expansion: Value) -> Result
 #[builtin]
 fn define_setf_update(image: &mut Image, name: &Value, update: Sym) -> Result<Value> {
     let expander = SetfExpander::Update(update);
+    image.check_lock(symbol(name)?, Meaning::Setter)?;
     image.setf_expanders.insert(symbol(name)?, expander);
     Ok(name.clone())
 }
@@ -157,6 +191,7 @@ fn define_setf_long(
         _ => 0,
     };
     let expander = SetfExpander::Long(function, count);
+    image.check_lock(symbol(name)?, Meaning::Setter)?;
     image.setf_expanders.insert(symbol(name)?, expander);
     Ok(name.clone())
 }
@@ -165,6 +200,7 @@ fn define_setf_long(
 #[builtin]
 fn set_setf_expander(image: &mut Image, name: &Value, function: Value) -> Result<Value> {
     let expander = SetfExpander::Expander(function);
+    image.check_lock(symbol(name)?, Meaning::Setter)?;
     image.setf_expanders.insert(symbol(name)?, expander);
     Ok(name.clone())
 }
@@ -231,6 +267,7 @@ fn proclaim(image: &mut Image, specifier: &Value) -> Result<Value> {
         for name in specifier.cdr_or_nil().iter_list() {
             let name = symbol(&name)?;
             check_not_constant(image, name)?;
+            image.check_lock(name, Meaning::Variable)?;
             image.symbols.get_mut(name).kind = VariableKind::Special;
         }
     }
@@ -245,6 +282,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
     define_parameter,
     define_variable,
     define_constant,
+    note_definition,
     set_symbol_macro,
     define_setf_update,
     define_setf_long,

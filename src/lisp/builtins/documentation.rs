@@ -26,7 +26,10 @@ fn documentation(image: &mut Image, object: &Value, doc_type: &Value) -> Result<
             image.symbol(*name).variable_doc.clone()
         }
         (Value::Symbol(name, ..), Some(known::TYPE | known::STRUCTURE)) => {
-            image.class(*name).and_then(|c| c.doc.borrow().clone())
+            match image.types.get(name) {
+                Some(expander) => of_function(image, expander),
+                None => image.class(*name).and_then(|c| c.doc.borrow().clone()),
+            }
         }
         (Value::Symbol(name, ..), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
         (Value::Cons(_), Some(known::FUNCTION)) => image

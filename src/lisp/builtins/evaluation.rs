@@ -4,8 +4,10 @@ use std::rc::Rc;
 
 use crate::builtin::Builtin;
 use crate::compile::{self, is_executed};
-use crate::guard::descend;
+use crate::guard::{descend, look};
 use crate::image::Image;
+use crate::image::locks::Meaning;
+use crate::source::Place;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
@@ -91,16 +93,36 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
     })
 }
 
+/// A form at top level as it is evaluated: no macro call, and no definition that has to ask or to tell
+/// first.
+fn expanded(image: &mut Image, form: &Value) -> Result<Value> {
+    let mut form = form.clone();
+    loop {
+        look();
+        let place = match &form {
+            Value::Cons(cons) => cons.place(),
+            _ => Place::NONE,
+        };
+        if let Some(guarded) = compile::guarded_definition(image, &form, place) {
+            return Ok(guarded);
+        }
+        match compile::macroexpand_1(image, &form)? {
+            Some(expansion) => form = expansion,
+            None => return Ok(form),
+        }
+    }
+}
+
 /// Evaluates a form at top level.
 pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
     descend()?;
-    let (form, _) = compile::macroexpand(machine.image, form)?;
+    let form = expanded(machine.image, form)?;
     if let Value::Cons(cons) = &form {
         match cons.car().as_symbol() {
             Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr()),
             Some(known::EVAL_WHEN) => {
                 let inner = Value::cons(known::PROGN.into(), cons.cdr().cdr_or_nil());
-                if is_executed(&cons.cdr().car_or_nil()) {
+                if is_executed(machine.image, &cons.cdr().car_or_nil()) {
                     return evaluate(machine, &inner);
                 }
             }
@@ -242,6 +264,7 @@ fn compile_function(
             if let Some(name) = name_value.as_symbol().filter(|_| name_value.is_true())
                 && let Value::Function(f) = &function
             {
+                image.check_lock(name, Meaning::Function)?;
                 image.set_function(name, f.clone());
                 return Ok(Value::values(vec![
                     name_value.clone(),

@@ -360,6 +360,16 @@ fn file_names(image: &mut Image, folder: &Rc<LispString>) -> Outcome {
     Ok(Value::list(names.into_iter().map(Value::string)))
 }
 
+/// The value of an environment variable, or `NIL`.
+///
+/// `(system:environment-variable "NO_SUCH_VARIABLE_HERE")` => `NIL`
+#[builtin]
+fn environment_variable(name: String) -> Value {
+    let is_name = !name.is_empty() && !name.contains(['=', '\0']);
+    let value = is_name.then(|| std::env::var(&name).ok()).flatten();
+    value.map_or(Value::NIL, Value::string)
+}
+
 /// The name that was probably meant, or `NIL`.
 ///
 /// `(system:closest-name "iterat" '("fiveam" "iterate"))` => `"iterate"`
@@ -376,6 +386,7 @@ fn closest(name_argument: &Rc<LispString>, names: &Value) -> Outcome {
 
 /// What the library needs to find files, in package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    environment_variable,
     file_names,
     closest,
     open,

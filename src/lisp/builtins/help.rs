@@ -52,6 +52,12 @@ pub struct Topic {
     pub text: String,
 }
 
+/// Has a keyword of this name a meaning of a kind to the layers above?
+pub fn is_topic(image: &Image, name: &str, kind: &str) -> bool {
+    let keyword = image.packages.find_symbol(PackageTable::KEYWORD, name);
+    keyword.is_some_and(|(sym, _)| topics(image, sym).iter().any(|topic| topic.kind == kind))
+}
+
 /// What a symbol means to the layers above.
 fn topics(image: &Image, sym: Sym) -> Vec<Topic> {
     let known = image.extension::<Topics>();
@@ -440,8 +446,9 @@ fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-/// Writes the symbols whose names contain the text, and what they mean; those of all packages, or
-/// those accessible in one.
+/// Writes the symbols whose names contain the text, and what they mean: actions, motions and types of
+/// objects first. Those accessible in a package if one is named. Without, what the built-in
+/// packages keep to themselves and names without a meaning are left out; `:all` shows these, too.
 ///
 /// ```lisp
 /// (with-output-to-string (*standard-output*) (apropos "rotatef")) => "ROTATEF (macro)
@@ -449,22 +456,66 @@ fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
 /// ```
 #[builtin(_, "text &optional package")]
 fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
-    let mut text = String::new();
-    for sym in found(image, args)? {
-        text.push_str(&shown(image, &sym.into()));
-        let meanings = meanings(image, sym);
-        if !meanings.is_empty() {
-            text.push_str(&format!(" ({})", meanings.join(", ")));
+    let is_all = |package: &Value| match package {
+        Value::Symbol(sym, ..) => image.is_keyword(*sym) && image.name(*sym) == "ALL",
+        _ => false,
+    };
+    let (symbols, shows_all) = match args {
+        [text, package] if is_all(package) => (found(image, std::slice::from_ref(text))?, true),
+        [_, package] if package.is_true() => (found(image, args)?, true),
+        _ => (found(image, args)?, !image.has_locks()),
+    };
+    let mut lines: Vec<(bool, String)> = Vec::new();
+    let mut left_out = 0;
+    for sym in symbols {
+        let told = topics(image, sym);
+        let own = own_meanings(image, sym);
+        // Actions and the like are those of a name in any package: the keyword stands for all.
+        let is_told_elsewhere = told.is_empty() || !image.is_keyword(sym);
+        let hides = own.is_empty() && is_told_elsewhere || is_internal(image, sym);
+        if hides && !shows_all {
+            left_out += 1;
+            continue;
         }
+        let kinds = told.iter().map(|topic| topic.kind);
+        let meanings: Vec<&str> = own.into_iter().chain(kinds).collect();
+        let mut line = shown(image, &sym.into());
+        if !meanings.is_empty() {
+            line.push_str(&format!(" ({})", meanings.join(", ")));
+        }
+        lines.push((told.is_empty(), line));
+    }
+    if !shows_all {
+        lines.sort_by_key(|(is_other, _)| *is_other);
+    }
+    let mut text = String::new();
+    for (_, line) in lines {
+        text.push_str(&line);
         text.push('\n');
+    }
+    if left_out > 0 {
+        let wanted = print::to_string(image, &args[0], true);
+        text.push_str(&format!(
+            "; {left_out} more that are internal or mean nothing: (apropos {wanted} :all)\n"
+        ));
     }
     stream::fresh_line(image, &Value::NIL)?;
     stream::write(image, &Value::NIL, &text)?;
     Ok(Value::values(Vec::new()))
 }
 
-/// What a symbol means, a word or two for each meaning.
-fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
+/// Does a built-in package keep a symbol to itself?
+fn is_internal(image: &Image, sym: Sym) -> bool {
+    let Some(package) = image.symbol(sym).package else {
+        return false;
+    };
+    image.is_built_in(package)
+        && image.home_access(sym) != Some(Access::External)
+        && !image.is_accessible(sym)
+}
+
+/// What a symbol means in the language, a word or two for each meaning.
+fn own_meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
     let data = image.symbol(sym);
     let function = match &data.function {
         FunctionCell::Unbound => None,
@@ -481,12 +532,7 @@ fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
         VariableKind::Lexical => Some("variable"),
     };
     let class = image.class(sym).map(|class| kind_of_class(class));
-    let topics = topics(image, sym).into_iter().map(|topic| topic.kind);
-    [function, variable, class]
-        .into_iter()
-        .flatten()
-        .chain(topics)
-        .collect()
+    [function, variable, class].into_iter().flatten().collect()
 }
 
 /// The builtins.

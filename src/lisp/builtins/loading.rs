@@ -39,6 +39,14 @@ fn load_and_tell(
         let outside = machine.image.special(variable).clone();
         machine.fiber.dynamic.push(Dynamic::Bind(variable, outside));
     }
+    // Files that this one loads are loaded as they are, unless that is said again.
+    let is_next = |value: &Value| {
+        value
+            .as_symbol()
+            .is_some_and(|sym| machine.image.name(sym) == "NEXT")
+    };
+    let as_compiled = Value::bool(is_next(machine.image.special(known::V_AS_COMPILED)));
+    machine.image.set_special(known::V_AS_COMPILED, as_compiled);
     let file = Value::foreign(Pathname::parse(name));
     machine.image.set_special(known::V_LOAD_PATHNAME, file);
     let absolute = machine.image.files.true_name(name).ok();
@@ -79,7 +87,8 @@ fn load_and_tell(
 }
 
 /// The variables that loading a file binds.
-const BOUND: [Sym; 4] = [
+const BOUND: [Sym; 5] = [
+    known::V_AS_COMPILED,
     known::V_PACKAGE,
     known::V_READTABLE,
     known::V_LOAD_PATHNAME,

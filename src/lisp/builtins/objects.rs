@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::object::define::{self, no_class};
 use crate::object::{access, class_of, defclass, instance, update};
 use crate::typed::{self, builtin, builtins};
@@ -297,6 +298,7 @@ fn set_find_class(
     let Some(name) = symbol.as_symbol() else {
         return Err(Raise::type_error(symbol, Value::symbol(known::SYMBOL)));
     };
+    image.check_lock(name, Meaning::Type)?;
     match class_value {
         Value::Class(class) => {
             image.classes.insert(name, class.clone());

@@ -338,7 +338,7 @@ impl Reading {
     }
 }
 
-fn reading_of_stream(image: &Image, then: After) -> Result<Reading, Box<Raise>> {
+fn reading_of_stream(image: &mut Image, then: After) -> Result<Reading, Box<Raise>> {
     let stream = match &then {
         After::Stream(from) => &from.stream,
         After::List { stream, .. } => stream,
@@ -349,8 +349,14 @@ fn reading_of_stream(image: &Image, then: After) -> Result<Reading, Box<Raise>> 
         Value::Stream(stream) => stream.backquotes.get(),
         _ => 0,
     };
+    let mut reader = Reader::of_text(text).at(start).within(backquotes);
+    if image.special(known::V_STANDARD_FIRST).is_true() {
+        // What is read inside is read with the readtable.
+        image.set_special(known::V_STANDARD_FIRST, Value::NIL);
+        reader = reader.beginning_as_standard();
+    }
     Ok(Reading {
-        reader: Reader::of_text(text).at(start).within(backquotes),
+        reader,
         start,
         then,
     })

@@ -122,7 +122,11 @@ fn make_concatenated_stream(image: &mut Image, streams: &[Value]) -> Outcome {
         inputs: inputs.clone(),
         unread: None,
     };
-    Stream::compound(kind, &inputs).map(made)
+    let stream = Stream::compound(kind, &inputs)?;
+    // A function of a macro character may read through it.
+    let enclosing = inputs.iter().map(|input| input.backquotes.get()).max();
+    stream.backquotes.set(enclosing.unwrap_or_default());
+    Ok(made(stream))
 }
 
 fn two_way(image: &Image, args: &[Value], echo: bool) -> Outcome {

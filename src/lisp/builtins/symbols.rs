@@ -4,6 +4,7 @@ use super::property_lists::symbol;
 use super::strings::string;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::function::{Body, Function};
@@ -280,8 +281,15 @@ fn set_fdefinition(image: &mut Image, value: &Value, symbol: &Value) -> Outcome 
         return Err(Raise::type_error(value, known::FUNCTION));
     };
     match function_name(symbol)? {
-        FunctionName::Plain(sym) => image.set_function(sym, function),
-        FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = Some(function),
+        FunctionName::Plain(sym) => {
+            image.check_lock(sym, Meaning::Function)?;
+            image.note_redefined(sym);
+            image.set_function(sym, function);
+        }
+        FunctionName::Setf(sym) => {
+            image.check_lock(sym, Meaning::Setter)?;
+            image.symbols.get_mut(sym).setf_function = Some(function);
+        }
     }
     Ok(value.clone())
 }
@@ -292,8 +300,15 @@ fn set_fdefinition(image: &mut Image, value: &Value, symbol: &Value) -> Outcome 
 #[builtin]
 fn fmakunbound(image: &mut Image, name: &Value) -> Outcome {
     match function_name(name)? {
-        FunctionName::Plain(sym) => image.symbols.get_mut(sym).function = FunctionCell::Unbound,
-        FunctionName::Setf(sym) => image.symbols.get_mut(sym).setf_function = None,
+        FunctionName::Plain(sym) => {
+            image.check_lock(sym, Meaning::Function)?;
+            image.forget_defined(sym);
+            image.symbols.get_mut(sym).function = FunctionCell::Unbound;
+        }
+        FunctionName::Setf(sym) => {
+            image.check_lock(sym, Meaning::Setter)?;
+            image.symbols.get_mut(sym).setf_function = None;
+        }
     }
     Ok(name.clone())
 }

@@ -3,6 +3,7 @@
 use super::settled_types::element_type;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::typed::{self, builtin, builtins};
 use crate::types::asking;
 use crate::types::coerce::coerce;
@@ -150,6 +151,7 @@ fn define_type(
 ) -> Result<Value, Box<Raise>> {
     match (name_value, expander_value) {
         (Value::Symbol(name, ..), Value::Function(expander)) => {
+            image.check_lock(*name, Meaning::Type)?;
             if image.class(*name).is_some() {
                 return Err(Raise::simple(format!(
                     "DEFTYPE cannot redefine the class {}.",

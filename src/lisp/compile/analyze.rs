@@ -52,9 +52,14 @@ impl<'a> Compiler<'a> {
     }
 
     /// Compiles a form as the body of a function without parameters.
-    pub(crate) fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
+    pub(crate) fn compile_toplevel(self, form: &Value) -> Compiled<Rc<Code>> {
+        self.compile_within(form, &Scope::default())
+    }
+
+    /// The same, within definitions of macros.
+    pub(super) fn compile_within(mut self, form: &Value, scope: &Scope) -> Compiled<Rc<Code>> {
         let id = self.enter_function();
-        let body = self.analyze(form, &Scope::default());
+        let body = self.analyze(form, scope);
         if let Some(reason) = self.stopped {
             drop(body);
             leave(reason);
@@ -337,16 +342,29 @@ impl<'a> Compiler<'a> {
             }
             None => {}
         }
+        if let Some(guarded) = super::locks::guarded_definition(self.image, form, self.place) {
+            return self.analyze(&guarded, scope);
+        }
         match &self.image.symbol(name).function {
             FunctionCell::Macro(function) => {
                 let function = function.clone();
-                if function.as_deferred().is_some() {
+                let is_of_library = function.as_deferred().is_some();
+                if is_of_library {
                     self.note_definition(name, form);
                 }
-                let expansion = self.expand_with(&function, form, scope)?;
+                let expansion = match self.expand_with(&function, form, scope) {
+                    Err(raise) if is_of_library => {
+                        Err(super::shape::explained(self.image, name, form, raise).at(self.place))
+                    }
+                    expansion => expansion,
+                }?;
                 self.analyze(&expansion, scope)
             }
             FunctionCell::Builtin => {
+                if let Some(operator) = self.image.operator(name) {
+                    super::shape::check(self.image, name, operator.lambda_list, form)
+                        .map_err(|r| r.at(self.place))?;
+                }
                 if let Some(special) = special_forms::lookup(name) {
                     return special(self, rest, scope);
                 }

@@ -2,6 +2,7 @@
 //! they are macros: `macroexpand` and programs that walk code see what they stand for.
 
 use crate::image::Image;
+use crate::print;
 use crate::value::Value;
 use crate::value::form::form;
 use crate::value::known;
@@ -63,6 +64,13 @@ pub(super) fn prog1(image: &mut Image, form: &Value) -> Expansion {
 pub(super) fn multiple_value_bind(image: &mut Image, form: &Value) -> Expansion {
     let args = form.cdr_or_nil();
     let (variables, rest) = (args.car_or_nil(), args.cdr_or_nil());
+    let names = variables.iter_list().filter_map(|name| name.as_symbol());
+    if let Some(name) = super::lambda_list::repeated(names) {
+        return Err(Raise::program(format!(
+            "The variable {} occurs more than once in the MULTIPLE-VALUE-BIND.",
+            print::to_string(image, &name.into(), true)
+        )));
+    }
     let others: Value = image.gensym("OTHERS").into();
     let mut parameters = vec![known::L_OPTIONAL.into()];
     parameters.extend(variables.iter_list());
@@ -78,17 +86,33 @@ pub(super) fn multiple_value_bind(image: &mut Image, form: &Value) -> Expansion 
 }
 
 /// `(handler-bind bindings body…)`: a call with a function of the body, types and handlers.
-pub(super) fn handler_bind(_: &mut Image, form: &Value) -> Expansion {
+pub(super) fn handler_bind(image: &mut Image, form: &Value) -> Expansion {
     let args = form.cdr_or_nil();
     let mut call = vec![
         known::SYS_CALL_WITH_HANDLERS.into(),
         thunk(args.cdr_or_nil()),
     ];
     for binding in args.car_or_nil().iter_list() {
+        check_binding(image, &binding)?;
         call.push(form![known::QUOTE, binding.car_or_nil()]);
         call.push(binding.cdr_or_nil().car_or_nil());
     }
     Ok(Value::list(call))
+}
+
+/// Signals an error unless this is a binding of `handler-bind`.
+pub(super) fn check_binding(image: &Image, binding: &Value) -> Result<(), Box<Raise>> {
+    if binding.list_to_vec().is_some_and(|parts| parts.len() == 2) {
+        return Ok(());
+    }
+    let hint = match binding {
+        Value::Cons(_) => "",
+        _ => "; a pair of parentheses is missing around it",
+    };
+    Err(Raise::program(format!(
+        "{} is not a binding of HANDLER-BIND: (type function) was expected{hint}.",
+        print::to_string(image, binding, true)
+    )))
 }
 
 /// `(with-restarts list body…)`: a call with the list and a function of the body.

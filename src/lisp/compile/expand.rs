@@ -2,6 +2,7 @@
 
 use super::analyze::keep_place;
 use super::environment;
+use super::shape;
 use crate::evaluator::nested;
 use crate::guard::look;
 use crate::image::Image;
@@ -31,14 +32,25 @@ pub(crate) fn macroexpand_1_in(
             };
             let expansion = match &image.symbol(name).function {
                 FunctionCell::Macro(function) => {
+                    let is_of_library = function.as_deferred().is_some();
                     let function = Value::Function(function.clone());
                     let args = vec![form.clone(), environment.clone()];
-                    nested::call_nested(image, function, args)?
+                    let expansion = nested::call_nested(image, function, args);
+                    expansion.map_err(|raise| match is_of_library {
+                        true => shape::explained(image, name, form, raise),
+                        false => raise,
+                    })?
                 }
-                FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
-                    Some(expand) => image.expand_with(expand, form, environment.clone())?,
-                    None => return Ok(None),
-                },
+                FunctionCell::Builtin => {
+                    let Some(operator) = image.operator(name) else {
+                        return Ok(None);
+                    };
+                    let Some(expand) = operator.expand else {
+                        return Ok(None);
+                    };
+                    shape::check(image, name, operator.lambda_list, form)?;
+                    image.expand_with(expand, form, environment.clone())?
+                }
                 _ => return Ok(None),
             };
             keep_place(form, &expansion);

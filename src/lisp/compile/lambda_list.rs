@@ -1,5 +1,7 @@
 //! Lambda lists, ordinary and destructuring.
 
+use std::collections::HashSet;
+
 use crate::image::Image;
 use crate::print;
 use crate::value::Value;
@@ -145,8 +147,36 @@ impl LambdaList {
         if section == Section::Rest {
             return Err(malformed(image, "&REST without a variable", list));
         }
+        if let Some(name) = repeated(parsed.variables()) {
+            return Err(Raise::program(format!(
+                "The variable {} occurs more than once in the lambda list {}.",
+                image.name(name),
+                print::to_string(image, list, true)
+            )));
+        }
         Ok(parsed)
     }
+
+    /// The variables that are not part of a pattern, those of `&aux` left out: each of these may
+    /// have the name of a parameter, which it hides.
+    fn variables(&self) -> impl Iterator<Item = Sym> {
+        let keys = self.keys.iter().map(|key| &key.parameter);
+        let optional = self.optional.iter().chain(keys);
+        let supplied = optional.clone().filter_map(|parameter| parameter.supplied);
+        let patterns = self.required.iter().chain(&self.rest).chain(&self.whole);
+        let patterns = patterns.chain(optional.map(|parameter| &parameter.pattern));
+        let names = patterns.filter_map(Value::as_symbol);
+        names
+            .chain(self.environment)
+            .chain(supplied)
+            .filter(|name| *name != known::NIL)
+    }
+}
+
+/// The first of the names that is there twice.
+pub(super) fn repeated(names: impl IntoIterator<Item = Sym>) -> Option<Sym> {
+    let mut seen = HashSet::new();
+    names.into_iter().find(|name| !seen.insert(*name))
 }
 
 fn is_lambda_keyword(name: Sym) -> bool {

@@ -14,16 +14,19 @@ mod emit;
 mod environment;
 mod expand;
 pub mod lambda_list;
+mod locks;
 mod node;
 mod operators;
 mod quasiquote;
 mod scope;
 pub mod setf;
+mod shape;
 mod special_forms;
 mod toplevel;
 
 use std::rc::Rc;
 
+use self::scope::Scope;
 use super::image::Image;
 use super::value::Value;
 use super::value::code::Code;
@@ -35,6 +38,7 @@ pub use emit::is_inlined;
 pub(crate) use environment::local_macro;
 pub use expand::{macroexpand, macroexpand_1};
 pub(crate) use expand::{macroexpand_1_in, macroexpand_in};
+pub(crate) use locks::guarded_definition;
 pub use operators::OPERATORS;
 pub(crate) use operators::{SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 pub use toplevel::Parts;
@@ -47,7 +51,16 @@ pub fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Rai
 
 /// Compiles a `lambda` expression into a function without free variables.
 pub fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
-    let code = compile_form(image, form)?;
+    compile_macro_function(image, form, &Scope::default())
+}
+
+/// The same, within the definitions of macros in a scope.
+fn compile_macro_function(
+    image: &mut Image,
+    form: &Value,
+    scope: &Scope,
+) -> Result<Rc<Function>, Box<Raise>> {
+    let code = analyze::Compiler::new(image).compile_within(form, scope)?;
     // The code of a `(lambda …)` at top level makes exactly that one closure.
     match code.inner.first() {
         Some((inner, _)) => Ok(Rc::new(Function::closure(inner.clone(), Vec::new()))),

@@ -127,7 +127,7 @@ pub(crate) enum Node {
     Prog1(Box<Node>, Vec<Node>, bool),
     Progv(Box<Node>, Box<Node>, Box<Node>),
     /// Handlers: a list of type specifiers and the functions, around a body.
-    Handlers(Value, Vec<Node>, Box<Node>),
+    Handlers(Value, Vec<Node>, Box<Node>, Place),
     /// Restarts: an expression for the list of them, around a body.
     Restarts(Box<Node>, Box<Node>),
 }

@@ -196,12 +196,20 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
 ];
 
 /// Special operators of package `SYSTEM`.
-pub(crate) static SYSTEM_FORMS: &[Operator] = &[special(
-    "NAMED-LAMBDA",
-    "name lambda-list &body body",
-    "A function with a name, whose body stands in a block of that name.",
-    &["(funcall (system:named-lambda f (x) (return-from f x)) 1) => 1"],
-)];
+pub(crate) static SYSTEM_FORMS: &[Operator] = &[
+    special(
+        "NAMED-LAMBDA",
+        "name lambda-list &body body",
+        "A function with a name, whose body stands in a block of that name.",
+        &["(funcall (system:named-lambda f (x) (return-from f x)) 1) => 1"],
+    ),
+    special(
+        "WITHOUT-PACKAGE-LOCKS",
+        "&body forms",
+        "Evaluates the forms, which may redefine what is built in.",
+        &["(system:without-package-locks 1) => 1"],
+    ),
+];
 
 /// Macros of package `SYSTEM`.
 pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[
@@ -253,14 +261,14 @@ pub static OPERATORS: &[Operator] = &[
     ),
     macro_(
         "MULTIPLE-VALUE-BIND",
-        "variables form &body body",
+        "(&rest variables) form &body body",
         "Binds variables to the values of a form.",
         &["(multiple-value-bind (q r) (floor 7 2) (list q r)) => (3 1)"],
         compiled_macros::multiple_value_bind,
     ),
     macro_(
         "HANDLER-BIND",
-        "bindings &body body",
+        "(&rest bindings) &body body",
         "Handlers that run where a condition is signalled, before anything is unwound.",
         &["(handler-bind ((warning #'muffle-warning)) (warn \"x\") 1) => 1"],
         compiled_macros::handler_bind,

@@ -127,6 +127,37 @@ impl Scope {
         })))
     }
 
+    /// The scope as the functions of its macros see it: macros and symbol macros, as far as no
+    /// variable or function hides them.
+    pub(super) fn of_macros(&self) -> Scope {
+        let mut seen: Vec<(Sym, u8)> = Vec::new();
+        let mut kept = Vec::new();
+        for entry in self.entries() {
+            let name = match entry {
+                Entry::Variable(name, _) => (*name, 0),
+                Entry::Function(name, is_setf, _) => (*name, 1 + u8::from(*is_setf)),
+                Entry::Block(_) | Entry::Tagbody(_) => continue,
+            };
+            if seen.contains(&name) {
+                continue;
+            }
+            seen.push(name);
+            match entry {
+                Entry::Variable(name, meaning @ VariableMeaning::SymbolMacro(_)) => {
+                    kept.push(Entry::Variable(*name, meaning.clone()));
+                }
+                Entry::Function(name, is_setf, meaning @ FunctionMeaning::Macro(_)) => {
+                    kept.push(Entry::Function(*name, *is_setf, meaning.clone()));
+                }
+                _ => {}
+            }
+        }
+        let scope = Scope::default();
+        kept.into_iter()
+            .rev()
+            .fold(scope, |scope, entry| scope.with(entry))
+    }
+
     fn entries(&self) -> impl Iterator<Item = &Entry> {
         let mut scope = self;
         std::iter::from_fn(move || {

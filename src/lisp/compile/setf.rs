@@ -5,6 +5,7 @@ use crate::image::Image;
 use crate::image::setf_expander::SetfExpander;
 use crate::print;
 use crate::value::Value;
+use crate::value::form::form;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
@@ -403,21 +404,33 @@ pub(super) fn expand_psetf(image: &mut Image, form: &Value) -> Result<Value, Box
     if !parts.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of args to PSETF"));
     }
-    let mut bindings = Vec::new();
+    let mut bound = Vec::new();
     let mut setters = Vec::new();
     for pair in parts.chunks_exact(2) {
         let expanded = expansion(image, &pair[0])?;
-        bindings.extend(pairs(&expanded));
-        if let [store] = expanded.stores.as_slice() {
-            bindings.push(Value::list([store.clone(), pair[1].clone()]));
-        }
+        let temps: Vec<Value> = pairs(&expanded).collect();
         setters.push(expanded.setter);
+        bound.push((temps, expanded.stores, pair[1].clone()));
     }
     setters.push(Value::NIL);
-    Ok(Value::list_with_tail(
-        [known::LET_STAR.into(), Value::list(bindings)],
-        Value::list(setters),
-    ))
+    // From the last pair outwards, since a place may take several values.
+    let mut forms = Value::list(setters);
+    let mut bindings: Vec<Value> = Vec::new();
+    for (temps, stores, value) in bound.into_iter().rev() {
+        if let [store] = stores.as_slice() {
+            bindings.insert(0, Value::list([store.clone(), value]));
+            bindings.splice(0..0, temps);
+            continue;
+        }
+        if !bindings.is_empty() {
+            let inner = Value::list(std::mem::take(&mut bindings));
+            forms = form![form![known::LET_STAR, inner; forms]];
+        }
+        let several = form![known::MULTIPLE_VALUE_BIND, Value::list(stores), value; forms];
+        forms = form![several];
+        bindings = temps;
+    }
+    Ok(form![known::LET_STAR, Value::list(bindings); forms])
 }
 
 fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {

@@ -56,6 +56,7 @@ pub(super) fn lookup(name: Sym) -> Option<SpecialForm> {
         },
         known::HANDLER_BIND => handler_bind,
         known::WITH_RESTARTS => restarts,
+        known::WITHOUT_PACKAGE_LOCKS => super::locks::without_package_locks,
         _ => return None,
     })
 }
@@ -179,6 +180,9 @@ fn let_form(c: &mut Compiler<'_>, rest: &Value, scope: &Scope, sequential: bool)
     for spec in &specs {
         let (name, init) = binding_parts(c, spec)?;
         let name = c.check_bindable(&name)?;
+        if !sequential && bound.contains(&name) {
+            return Err(occurs_twice(c, "variable", name, "LET"));
+        }
         let init = if sequential {
             c.analyze(&init, &inner.clone())?
         } else {
@@ -206,6 +210,35 @@ fn let_form(c: &mut Compiler<'_>, rest: &Value, scope: &Scope, sequential: bool)
         sequential,
         body: Box::new(node?),
     })
+}
+
+/// The error for a name that a form binds twice at once.
+fn occurs_twice(c: &Compiler<'_>, what: &str, name: Sym, operator: &str) -> Box<crate::Raise> {
+    let name = print::to_string(c.image, &name.into(), true);
+    c.program_error(format!(
+        "The {what} {name} occurs more than once in the {operator}."
+    ))
+}
+
+/// Signals an error if specifications of a form that binds names have a name twice.
+fn check_names(c: &Compiler<'_>, specs: &Value, what: &str, operator: &str) -> Compiled<()> {
+    let mut names = Vec::new();
+    for spec in specs.iter_list() {
+        let name = spec.car_or_nil();
+        if names.iter().any(|other: &Value| {
+            other.is_eql(&name)
+                || other
+                    .setf_name()
+                    .is_some_and(|of| name.setf_name() == Some(of))
+        }) {
+            let name = print::to_string(c.image, &name, true);
+            return Err(c.program_error(format!(
+                "The {what} {name} occurs more than once in the {operator}."
+            )));
+        }
+        names.push(name);
+    }
+    Ok(())
 }
 
 fn binding_parts(c: &Compiler<'_>, spec: &Value) -> Compiled<(Value, Value)> {
@@ -313,6 +346,16 @@ fn tagbody(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> 
         return Err(c.program_error("TAGBODY takes a proper list of tags and statements."));
     };
     let is_tag = |v: &Value| matches!(v, Value::Symbol(..) | Value::Int(_));
+    let mut tags: Vec<&Value> = Vec::new();
+    for tag in items.iter().filter(|item| is_tag(item)) {
+        if tags.iter().any(|other| other.is_eql(tag)) && !tag.is_nil() {
+            let shown = print::to_string(c.image, tag, true);
+            return Err(c.program_error(format!(
+                "The tag {shown} occurs more than once in the TAGBODY."
+            )));
+        }
+        tags.push(tag);
+    }
     let info = Rc::new(Tagbody {
         tags: items.iter().filter(|v| is_tag(v)).cloned().collect(),
         owner: c.function_id(),
@@ -400,6 +443,9 @@ fn multiple_value_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Com
     let mut inner = scope.clone();
     for name in &names {
         let name = c.check_bindable(name)?;
+        if bound.contains(&name) {
+            return Err(occurs_twice(c, "variable", name, "MULTIPLE-VALUE-BIND"));
+        }
         let (binding, next) = c.bind(name, body.specials.contains(&name), &inner);
         inner = next;
         bound.push(name);
@@ -442,6 +488,7 @@ fn local_function(c: &Compiler<'_>, spec: &Value) -> Compiled<(Value, Sym, bool,
 }
 
 fn flet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    check_names(c, &rest.car_or_nil(), "function", "FLET")?;
     let mut bindings = Vec::new();
     let mut inner = scope.clone();
     for spec in rest.car_or_nil().iter_list() {
@@ -469,6 +516,7 @@ fn flet_name(name: &Value) -> Value {
 }
 
 fn labels(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    check_names(c, &rest.car_or_nil(), "function", "LABELS")?;
     let mut inner = scope.clone();
     let mut specs = Vec::new();
     for spec in rest.car_or_nil().iter_list() {
@@ -495,11 +543,13 @@ fn labels(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
 }
 
 fn macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    check_names(c, &rest.car_or_nil(), "macro", "MACROLET")?;
     let mut inner = scope.clone();
     for spec in rest.car_or_nil().iter_list() {
         let (_, sym, _, lambda_list, body) = local_function(c, &spec)?;
         let lambda = super::destructure::macro_function(c.image, sym, &lambda_list, &body)?;
-        let function = super::compile_lambda(c.image, &lambda).map_err(|r| r.at(c.place))?;
+        let function = super::compile_macro_function(c.image, &lambda, &scope.of_macros())
+            .map_err(|r| r.at(c.place))?;
         inner = inner.with(Entry::Function(
             sym,
             false,
@@ -511,6 +561,7 @@ fn macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node>
 }
 
 fn symbol_macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    check_names(c, &rest.car_or_nil(), "name", "SYMBOL-MACROLET")?;
     let mut inner = scope.clone();
     for spec in rest.car_or_nil().iter_list() {
         let name = c.check_bindable(&spec.car_or_nil())?;
@@ -574,6 +625,7 @@ fn handler_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
     let mut types = Vec::new();
     let mut functions = Vec::new();
     for clause in rest.car_or_nil().iter_list() {
+        super::compiled_macros::check_binding(c.image, &clause).map_err(|r| r.at(c.place))?;
         types.push(clause.car_or_nil());
         functions.push(c.analyze(&clause.cdr_or_nil().car_or_nil(), scope)?);
     }
@@ -587,6 +639,7 @@ fn handler_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
         Value::list(types),
         functions,
         Box::new(body),
+        c.place,
     ))
 }
 

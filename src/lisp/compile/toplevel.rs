@@ -30,7 +30,7 @@ impl Parts {
             let rest = form.cdr_or_nil();
             let parts = match form.car_or_nil().as_symbol() {
                 Some(known::PROGN) => rest,
-                Some(known::EVAL_WHEN) if is_executed(&rest.car_or_nil()) => rest.cdr_or_nil(),
+                Some(known::EVAL_WHEN) if is_executed(image, &rest.car_or_nil()) => rest.cdr_or_nil(),
                 _ => return super::compile_form(image, &form).map(Some),
             };
             let parts: Vec<Value> = parts.iter_list().collect();
@@ -40,8 +40,14 @@ impl Parts {
     }
 }
 
-/// Do the situations of an `eval-when` include evaluation?
-pub(crate) fn is_executed(situations: &Value) -> bool {
-    let mut situations = situations.iter_list();
-    situations.any(|s| matches!(s.as_symbol(), Some(known::K_EXECUTE | known::EVAL)))
+/// Do the situations of an `eval-when` include evaluation? While a file is loaded as if it had been
+/// compiled, they also include loading and compiling.
+pub(crate) fn is_executed(image: &Image, situations: &Value) -> bool {
+    let as_compiled = image.special(known::V_AS_COMPILED).as_symbol() == Some(known::T);
+    let mut situations = situations.iter_list().filter_map(|s| s.as_symbol());
+    situations.any(|situation| match situation {
+        known::K_EXECUTE | known::EVAL => true,
+        known::K_LOAD_TOPLEVEL | known::K_COMPILE_TOPLEVEL => as_compiled,
+        old => as_compiled && matches!(image.name(old), "LOAD" | "COMPILE"),
+    })
 }

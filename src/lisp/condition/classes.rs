@@ -142,6 +142,12 @@ const TABLE: &[Entry] = &[
         &["METHOD", "ARGUMENTS"],
     ),
     entry("%CLASS-NOT-FOUND-ERROR", &["CELL-ERROR"], &[]),
+    entry(
+        "%LOCKED-PACKAGE-ERROR",
+        &["SIMPLE-CONDITION", "PACKAGE-ERROR"],
+        // The symbol whose meaning would change.
+        &["?NAME"],
+    ),
     entry("%FORMAT-ERROR", &["ERROR"], &[]),
     entry("%COMPILED-PROGRAM-ERROR", &["PROGRAM-ERROR"], &[]),
     entry("%INTERACTIVE-INTERRUPT", &["SERIOUS-CONDITION"], &[]),

@@ -3,6 +3,7 @@
 
 use std::rc::Rc;
 
+use super::matching::check_type;
 use crate::image::Image;
 use crate::value::Value;
 use crate::value::known;
@@ -45,7 +46,7 @@ impl Machine<'_> {
     }
 
     /// Pops `count` handler functions and establishes them with these types.
-    pub(super) fn enter_handlers(&mut self, types: &Value, count: u16) {
+    pub(super) fn enter_handlers(&mut self, types: &Value, count: u16) -> Result<(), Box<Raise>> {
         let start = self.fiber.stack.len() - usize::from(count);
         let handlers: Rc<[Handler]> = types
             .iter_list()
@@ -55,7 +56,11 @@ impl Machine<'_> {
                 function,
             })
             .collect();
+        for handler in handlers.iter() {
+            check_type(self.image, &handler.condition_type)?;
+        }
         self.fiber.dynamic.push(Dynamic::Handlers(handlers));
+        Ok(())
     }
 
     /// Pops a list of restarts and establishes them.

@@ -508,7 +508,11 @@ impl Machine<'_> {
                         }
                         Op::EnterHandlers(types, count) => {
                             let types = code.constants[types as usize].clone();
-                            slowly!(self.enter_handlers(&types, count));
+                            note!();
+                            if let Err(raise) = self.enter_handlers(&types, count) {
+                                return self.raise(raise);
+                            }
+                            continue 'frame;
                         }
                         Op::EnterRestarts => slowly!(self.enter_restarts()),
                         Op::ReturnFrom => {

@@ -34,14 +34,16 @@ impl Machine<'_> {
                 self.offer_restarts(&raise);
                 match self.signal(condition, Declined::Stop) {
                     Ok(step) => self.take_step(step, false),
-                    Err(raise) => self.raise_again(&raise),
+                    // A handler's predicate has failed. Its own and the inner handlers are masked,
+                    // so this comes to an end.
+                    Err(raise) => self.raise(raise),
                 }
             }
             Err(raise) => self.raise_again(&raise),
         }
     }
 
-    /// Stops, with the reason as the condition, because a condition could not be made or matched.
+    /// Stops, with the reason as the condition, because a condition could not be made.
     fn raise_again(&mut self, raise: &Raise) -> Next {
         let text = match raise {
             Raise::Make { report, .. } => report.clone(),
@@ -118,7 +120,7 @@ impl Computation for Search {
 
 impl Search {
     /// The next handler whose type the condition matches. During its call, it and all handlers
-    /// inside it are masked.
+    /// inside it are masked, as they are for the error of a predicate in a handler's type.
     fn next(&mut self, machine: &mut Machine<'_>) -> Result<Option<Value>, Box<Raise>> {
         loop {
             let handlers = if self.tried > 0 {
@@ -140,12 +142,13 @@ impl Search {
                     _ => continue,
                 }
             };
-            if let Some(function) = self.next_match(machine, &handlers)? {
+            let found = self.next_match(machine, &handlers);
+            if !matches!(found, Ok(None)) {
                 machine.fiber.dynamic.push(Dynamic::HandlerMask {
                     below: self.position,
                     condition: self.condition.clone(),
                 });
-                return Ok(Some(function));
+                return found;
             }
             self.tried = 0;
         }

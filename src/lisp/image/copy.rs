@@ -64,6 +64,7 @@ impl Image {
             new_symbols: self.new_symbols,
             natives: self.natives.clone(),
             printed: RefCell::default(),
+            locks: self.locks.clone(),
             extensions: {
                 let kept = self.extensions.iter();
                 kept.map(|kept| kept.clone().copied(copier)).collect()

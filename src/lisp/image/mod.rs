@@ -5,6 +5,7 @@ pub mod definition;
 pub mod extension;
 pub mod identity;
 pub mod input;
+pub mod locks;
 pub mod notes;
 pub mod open_call;
 mod output;
@@ -23,6 +24,7 @@ use self::definition::Installed;
 use self::extension::Extension;
 use self::identity::Identities;
 use self::input::Input;
+use self::locks::Locks;
 use self::notes::{Note, NoteKind};
 pub use self::output::Output;
 use self::setf_expander::SetfExpander;
@@ -88,6 +90,7 @@ pub struct Image {
     pub(super) natives: Vec<BuiltinCall>,
     /// Made-up addresses of objects that were printed.
     pub printed: RefCell<Identities>,
+    pub(crate) locks: Locks,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Extension>>,
 }
@@ -137,6 +140,7 @@ impl Image {
             entries: IndexMap::new(),
             library: Installed::default(),
             new_symbols: None,
+            locks: Locks::default(),
             extensions: Vec::new(),
         }
     }

@@ -8,12 +8,23 @@
   Examples:
   (handler-case (error \"x\") (error (e) (princ-to-string e))) => \"x\"
   (handler-case 1 (:no-error (x) (list x))) => (1)"
+  (mapc #'%check-handler-clause clauses)
   (let ((no-error (assoc :no-error clauses)))
     (if no-error
         (%handler-case-no-error form (cdr no-error) (remove no-error clauses))
         (if clauses
             (%handler-case form clauses)
             form))))
+
+(defun %check-handler-clause (clause)
+  "Signals an error unless a clause of HANDLER-CASE is well-formed."
+  (unless (and (consp clause)
+               (consp (cdr clause))
+               (listp (second clause))
+               (or (eq (first clause) :no-error) (null (cdr (second clause)))))
+    (%malformed "~s is not a clause of HANDLER-CASE: (type ([variable]) form…) was expected~@[; ~a~]."
+                clause
+                (and (not (consp clause)) "a pair of parentheses is missing around it"))))
 
 (defun %handler-case-no-error (form function clauses)
   "The form of HANDLER-CASE with a clause for the values of its form."
@@ -76,6 +87,7 @@
   condition, they belong to that condition.
   Examples:
   (restart-case (invoke-restart 'go-on 1) (go-on (x) (list x))) => (1)"
+  (mapc #'%check-restart-clause clauses)
   (let ((block (gensym "BLOCK"))
         (arguments (gensym "ARGUMENTS"))
         (restarts '())
@@ -103,6 +115,16 @@
             (return-from ,block ,(%with-restarts (macroexpand form environment)
                                                    (nreverse restarts)))
             ,@(nreverse statements))))))
+
+(defun %check-restart-clause (clause)
+  "Signals an error unless a clause of RESTART-CASE is well-formed."
+  (unless (and (consp clause)
+               (symbolp (first clause))
+               (consp (cdr clause))
+               (listp (second clause)))
+    (%malformed "~s is not a clause of RESTART-CASE: (name (parameter…) form…) was expected~@[; ~a~]."
+                clause
+                (and (not (consp clause)) "a pair of parentheses is missing around it"))))
 
 (defun %with-restarts (form restarts)
   "The form of a form, whose macro is expanded, with restarts. If it is a call of a function that

@@ -50,6 +50,20 @@
                               body)))
     (values (ldiff body forms) forms)))
 
+(defun %body-parts (body)
+  "The declarations at the start of a body, the other forms, and the documentation string among the
+  declarations, or NIL."
+  (let ((declarations '())
+        (text nil))
+    (loop (let ((form (first body)))
+            (cond ((and (consp form) (eq (first form) 'declare))
+                   (push form declarations))
+                  ((and (stringp form) (null text) (rest body))
+                   (setq text form))
+                  (t (return)))
+            (setq body (rest body))))
+    (values (nreverse declarations) body text)))
+
 (defmacro prog2 (first second &rest forms)
   "The value of the second form, after all are evaluated.
   Examples:

@@ -51,7 +51,7 @@ pub(super) fn compile(
 
 /// Settings that the reader, the compiler and macros depend on, with the values for reading a
 /// definition; a setting without a value keeps its own, which is restored afterwards.
-fn settings(package: Value) -> [(Sym, Option<Value>); 7] {
+fn settings(package: Value) -> [(Sym, Option<Value>); 8] {
     [
         (known::V_PACKAGE, Some(package)),
         (known::V_READTABLE, Some(Value::NIL)),
@@ -62,6 +62,7 @@ fn settings(package: Value) -> [(Sym, Option<Value>); 7] {
         ),
         (known::V_READ_EVAL, Some(Value::NIL)),
         (known::V_READ_SUPPRESS, Some(Value::NIL)),
+        (known::V_LOCKS_IGNORED, Some(Value::T)),
         (known::V_GENSYM_COUNTER, None),
     ]
 }

@@ -16,11 +16,23 @@
   "Defines a constant.
   Examples:
   (progn (defconstant +answer+ 42) +answer+) => 42"
-  (let ((definition `(define-constant ',(%name name "a constant") ,value)))
+  (let ((definition `(%define-constant ',(%name name "a constant") ,value)))
     (if documentation
         `(prog1 ,definition
            (setf (documentation ',name 'variable) ,documentation))
         definition)))
+
+(defun %define-constant (name value)
+  "Defines a constant, unless it has another value already and nobody wants to give it a new one."
+  (when (and (constantp name)
+             (boundp name)
+             (not (equal (symbol-value name) value)))
+    (cerror "Give it the new value; code that has been compiled keeps the old one."
+            'system:simple-program-error
+            :name name
+            :format-control "The constant ~s has the value ~s; DEFCONSTANT would give it ~s."
+            :format-arguments (list name (symbol-value name) value)))
+  (define-constant name value))
 
 (defmacro define-compiler-macro (name lambda-list &body body)
   "Keeps a compiler macro for COMPILER-MACRO-FUNCTION. It is never used: calls are evaluated as they are.
@@ -39,7 +51,7 @@
                (if (eq parameter '&environment)
                    (push (list (pop lambda-list) environment) bindings)
                    (push parameter parameters))))
-    (multiple-value-bind (declarations forms) (%split-body body)
+    (multiple-value-bind (declarations forms) (%body-parts body)
      `(progn
        (setf (compiler-macro-function ',name)
              #'(lambda (,form &optional ,environment)
@@ -97,8 +109,7 @@
       `(define-setf-update ',access-function ',(car how))
       (destructuring-bind (lambda-list stores &body body) how
         (let ((list (gensym "STORES")))
-          (multiple-value-bind (declarations forms)
-              (%split-body (if (and (stringp (car body)) (cdr body)) (cdr body) body))
+          (multiple-value-bind (declarations forms) (%body-parts body)
             `(define-setf-long ',access-function
                (lambda (,list ,@lambda-list)
                  (destructuring-bind ,stores ,list

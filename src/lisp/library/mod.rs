@@ -112,6 +112,7 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "time.lisp"),
     library_file!("src/lisp/library", "environment.lisp"),
     library_file!("src/lisp/library", "tracing.lisp"),
+    library_file!("src/lisp/library", "package-locks.lisp"),
     library_file!("src/lisp/library", "macroexpand-all.lisp"),
 ];
 

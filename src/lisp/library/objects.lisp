@@ -10,14 +10,16 @@
         (expander (gensym "EXPANDER"))
         (stands-alone (or (null lambda-list)
                           (member (first lambda-list) '(&optional &key &rest &aux)))))
-    (multiple-value-bind (declarations forms) (%split-body body)
+    (multiple-value-bind (declarations forms text) (%body-parts body)
       `(let ((,expander (lambda (,arguments)
+                          ,@(and text (list text))
                           (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
                             ,@declarations
                             (block ,name ,@forms)))))
          (%define-type ',name ,expander
                        ,(and stands-alone
-                             `(ignore-errors (list (funcall ,expander '())))))))))
+                             `(ignore-errors (list (funcall ,expander '())))))
+         ',name))))
 
 (defun upgraded-complex-part-type (type &optional environment)
   "The type that the parts of a complex number have that is made for parts of a type: that type itself.

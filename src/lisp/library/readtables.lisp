@@ -41,7 +41,10 @@ compares readtables finds the same ones.")
 
 (defun %read-after (text stream)
   "Reads a form that begins with a text and goes on in a stream."
-  (read (make-concatenated-stream (make-string-input-stream text) stream) t nil t))
+  (let ((input (make-concatenated-stream (make-string-input-stream text) stream))
+        ;; The readtable may have the function that calls this for the text's characters.
+        (%*standard-first* t))
+    (read input t nil t)))
 
 (defun %read-quoted (stream character)
   "Reads a form and quotes it."
@@ -63,7 +66,8 @@ compares readtables finds the same ones.")
 
 (defun %read-unmatched (stream character)
   "Signals that a parenthesis closes nothing."
-  (error 'reader-error :stream stream
+  (error 'system:simple-reader-error
+                       :stream stream
                        :format-control "~c closes nothing."
                        :format-arguments (list character)))
 
@@ -135,7 +139,8 @@ compares readtables finds the same ones.")
          (sub-character (read-char stream t nil t))
          (function (%dispatch-macro-character character sub-character *readtable*)))
     (unless function
-      (error 'reader-error :stream stream
+      (error 'system:simple-reader-error
+                           :stream stream
                            :format-control "No function reads what begins with ~c~c."
                            :format-arguments (list character sub-character)))
     (funcall function stream sub-character argument)))

@@ -81,9 +81,10 @@
            (shown (lambda (&rest arguments)
                     (%traced-call (prin1-to-string (cons name arguments)) (prin1-to-string name)
                                   (lambda () (apply function arguments))))))
-      (setf (fdefinition name) shown)
+      (system:without-package-locks (setf (fdefinition name) shown))
       (values (lambda () (and (fboundp name) (eq (fdefinition name) shown)))
-              (lambda () (setf (fdefinition name) function))
+              (lambda ()
+                (system:without-package-locks (setf (fdefinition name) function)))
               function))))
 
 (defun %traced-call (shown name call)

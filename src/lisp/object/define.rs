@@ -4,6 +4,8 @@ use std::rc::Rc;
 
 use super::precedence::precedence_list;
 use crate::image::Image;
+use crate::image::locks::Meaning;
+use crate::types::parse::near_class;
 use crate::value::class::{Class, ClassKind, Initform, OldSlot, SlotDefinition};
 use crate::value::known;
 use crate::value::raise::Raise;
@@ -28,6 +30,7 @@ impl Image {
     /// Defines a class, or redefines it: the class object stays, instances update
     /// themselves when they are next used.
     pub fn define_class(&mut self, definition: ClassDefinition) -> Result<Rc<Class>, Box<Raise>> {
+        self.check_lock(definition.name, Meaning::Type)?;
         if let Some(class) = self.classes.get(&definition.name)
             && class.kind == ClassKind::Builtin
         {
@@ -116,7 +119,11 @@ impl Image {
 /// The error for a name that is not the name of a class.
 pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
     let shown = crate::print::qualified(image, &name.into());
-    let report = format!("There is no class named {shown}.");
+    let mut report = format!("There is no class named {shown}.");
+    if let Some(near) = near_class(image, name) {
+        let near = super::text(image, &near.into());
+        report.push_str(&format!(" Did you mean {near}?"));
+    }
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
 }
 

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::print::qualified;
 use crate::value::Value;
 use crate::value::class::Class;
@@ -141,6 +142,9 @@ pub(crate) fn ensure_generic(
             }
         },
         None => {
+            if let Some(sym) = name.as_symbol() {
+                image.check_lock(sym, Meaning::Function)?;
+            }
             let mut parameters = parameters.clone();
             // The first method's own keywords do not restrict later methods.
             parameters.keys = parameters.keys.map(|_| Vec::new());

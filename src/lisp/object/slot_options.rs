@@ -9,7 +9,7 @@ use crate::value::form::{constant_value, form, quote};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::shared_slot::SharedSlot;
-use crate::value::symbol::Sym;
+use crate::value::symbol::{Sym, VariableKind};
 
 /// A parsed slot description.
 struct Description {
@@ -119,6 +119,16 @@ fn describe(image: &Image, description: &Value, definer: &str) -> Result<Descrip
         ),
         _ => return Err(malformed()),
     };
+    if image.is_keyword(name) || image.symbol(name).kind == VariableKind::Constant {
+        let shown = super::text(image, &name.into());
+        let what = match image.is_keyword(name) {
+            true => "a keyword",
+            false => "a constant",
+        };
+        return Err(Raise::program(format!(
+            "The name {shown} of a slot in {definer} is {what}. A slot with options is a list of its own: ((x :initarg :x))."
+        )));
+    }
     if !options.len().is_multiple_of(2) {
         return Err(malformed());
     }

@@ -75,7 +75,11 @@ pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String 
                 instance.class().name,
                 &settings.clone().with_escape(true),
             );
-            format!("#<{name} {}>", identity(image, value))
+            let message = match super::report::message(image, instance) {
+                Some(message) => format!("{} ", string(&message)),
+                None => String::new(),
+            };
+            format!("#<{name} {message}{}>", identity(image, value))
         }
         Value::Cell(_) => "#<CELL>".to_owned(),
         Value::Unbound => "#<UNBOUND>".to_owned(),

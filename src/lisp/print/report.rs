@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::to_string;
 use crate::image::Image;
 use crate::value::Value;
-use crate::value::class::{Class, Instance};
+use crate::value::class::{Class, ClassKind, Instance};
 use crate::value::function::Function;
 use crate::value::known;
 use crate::value::symbol::Sym;
@@ -56,6 +56,64 @@ pub fn report(image: &Image, condition: &Value) -> String {
         }
     }
     format!("Condition {} was signalled.", qualified(image, class.name))
+}
+
+/// The longest message within the printed form of a condition, in characters.
+const MESSAGE_LENGTH: usize = 80;
+
+/// What a condition says, on one line and not too long, for its printed form; `None` if that
+/// needs Lisp code, or if it says nothing beyond its class.
+pub(super) fn message(image: &Image, instance: &Rc<Instance>) -> Option<String> {
+    if instance.class().kind != ClassKind::Condition {
+        return None;
+    }
+    let condition = Value::Instance(instance.clone());
+    let given = slot(image, instance, "REPORT").and_then(|text| text.as_text());
+    let text = match given {
+        Some(text) => text,
+        None if function(instance).is_some() => return None,
+        None => {
+            let mut budget = MESSAGE_LENGTH;
+            let slots = instance.slots.borrow();
+            if !slots.iter().all(|value| is_plain(value, &mut budget)) {
+                return None;
+            }
+            drop(slots);
+            let text = report(image, &condition);
+            if text.starts_with("Condition ") && text.ends_with(" was signalled.") {
+                return None;
+            }
+            text
+        }
+    };
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let line = words.join(" ");
+    if line.chars().count() <= MESSAGE_LENGTH {
+        return (!line.is_empty()).then_some(line);
+    }
+    let mut cut: String = line.chars().take(MESSAGE_LENGTH - 1).collect();
+    cut.push('…');
+    Some(cut)
+}
+
+/// Is it certain, without looking at more than `budget` values, that a value is no condition and
+/// contains none, which could contain the condition that is being printed?
+fn is_plain(value: &Value, budget: &mut usize) -> bool {
+    let mut open = vec![value.clone()];
+    while let Some(value) = open.pop() {
+        let Some(left) = budget.checked_sub(1) else {
+            return false;
+        };
+        *budget = left;
+        match &value {
+            Value::Cons(cons) => open.extend([cons.car(), cons.cdr()]),
+            Value::Instance(_) | Value::Vector(_) | Value::Array(_) | Value::Hash(_) => {
+                return false;
+            }
+            _ => {}
+        }
+    }
+    true
 }
 
 /// A symbol with its package, as `prin1` shows it where no symbol is accessible.

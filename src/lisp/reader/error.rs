@@ -103,6 +103,22 @@ pub enum ReadErrorKind {
     /// `,x` outside backquote.
     #[error("Comma not inside a backquote.")]
     CommaOutsideBackquote,
+    /// `0,9` outside backquote.
+    #[error("{written} has a decimal comma; Lisp writes {instead}")]
+    DecimalComma {
+        written: String,
+        /// What to write.
+        instead: String,
+    },
+    /// A number with a dash that is no minus sign of Lisp.
+    #[error("{written} is written with {dash}, which is no minus sign of Lisp; write {instead}")]
+    Dash {
+        written: String,
+        /// The dash, with its code.
+        dash: String,
+        /// What to write.
+        instead: String,
+    },
     /// `,@x` right after a backquote, or in place of a dotted tail.
     #[error("{prefix} after {before}: there is no list to splice into")]
     NothingToSpliceInto {

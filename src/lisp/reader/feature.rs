@@ -25,14 +25,19 @@ fn holds_at(image: &Image, expression: &Value, depth: usize) -> Result<bool, Rea
     let Some((Value::Symbol(operator, ..), arguments)) = parts.split_first() else {
         return Err(ReadErrorKind::BadFeature);
     };
-    let truth = arguments
-        .iter()
-        .map(|argument| holds_at(image, argument, depth + 1))
-        .collect::<Result<Vec<bool>, _>>()?;
-    match (image.name(*operator), truth.as_slice()) {
-        ("AND", all) => Ok(all.iter().all(|t| *t)),
-        ("OR", any) => Ok(any.iter().any(|t| *t)),
-        ("NOT", [one]) => Ok(!one),
+    // What does not matter any more may be an expression of another implementation.
+    let first = |wanted: bool| {
+        for argument in arguments {
+            if holds_at(image, argument, depth + 1)? == wanted {
+                return Ok(wanted);
+            }
+        }
+        Ok(!wanted)
+    };
+    match (image.name(*operator), arguments) {
+        ("AND", _) => first(false),
+        ("OR", _) => first(true),
+        ("NOT", [one]) => Ok(!holds_at(image, one, depth + 1)?),
         _ => Err(ReadErrorKind::BadFeature),
     }
 }

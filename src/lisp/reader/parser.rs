@@ -51,6 +51,8 @@ pub struct Reader {
     macro_input: Option<Rc<Stream>>,
     /// A further character that ends tokens.
     terminator: Option<char>,
+    /// Is the first token read as in the standard syntax, whatever the readtable says?
+    begins_as_standard: bool,
 }
 
 /// Reads all forms of a source in the current package.
@@ -92,6 +94,15 @@ impl Reader {
             features: 0,
             macro_input: None,
             terminator: None,
+            begins_as_standard: false,
+        }
+    }
+
+    /// Reads the first token as in the standard syntax.
+    pub(crate) fn beginning_as_standard(self) -> Reader {
+        Reader {
+            begins_as_standard: true,
+            ..self
         }
     }
 
@@ -174,6 +185,8 @@ impl Reader {
             .with_terminators(&terminators)
             .with_constituents(&constituents);
         loop {
+            let is_standard = std::mem::take(&mut self.begins_as_standard);
+            let readtable = readtable.filter(|_| !is_standard);
             if let Some(readtable) = readtable {
                 lexer.skip_blanks();
                 let c = lexer.peek();

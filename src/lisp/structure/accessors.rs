@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::define::{check_slot_type, copy_structure};
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::value::Value;
 use crate::value::class::{Class, Instance, StructureSlot};
 use crate::value::cycles;
@@ -33,11 +34,12 @@ pub(crate) fn define(
     index: usize,
     slot: &StructureSlot,
     accessor: Sym,
-) {
+) -> Result<(), Box<Raise>> {
     // The accessor of an included slot may be the included structure's own.
     if is_inherited(image, class, accessor) {
-        return;
+        return Ok(());
     }
+    image.check_lock(accessor, Meaning::Function)?;
     let reader = Function::pure_of(accessor, (1, Some(1)), class.clone(), move |of, _, args| {
         instance_of(&args[0], of)
             .and_then(|instance| instance.slots.borrow().get(index).cloned())
@@ -47,7 +49,7 @@ pub(crate) fn define(
     let data = image.symbols.get_mut(accessor);
     if slot.read_only {
         data.setf_function = None;
-        return;
+        return Ok(());
     }
     let writer = Function::pure_of(
         accessor,
@@ -64,6 +66,7 @@ pub(crate) fn define(
         },
     );
     data.setf_function = Some(writer);
+    Ok(())
 }
 
 /// Is the accessor one that an included structure has defined?
@@ -82,15 +85,26 @@ fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
 }
 
 /// Defines the function that recognises structures of a class.
-pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
+pub(crate) fn define_predicate(
+    image: &mut Image,
+    class: &Rc<Class>,
+    predicate: Sym,
+) -> Result<(), Box<Raise>> {
+    image.check_lock(predicate, Meaning::Function)?;
     let function = Function::pure_of(predicate, (1, Some(1)), class.clone(), |of, _, args| {
         Ok(Value::bool(instance_of(&args[0], of).is_some()))
     });
     image.set_function(predicate, function);
+    Ok(())
 }
 
 /// Defines the function that copies structures of a class.
-pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
+pub(crate) fn define_copier(
+    image: &mut Image,
+    class: &Rc<Class>,
+    copier: Sym,
+) -> Result<(), Box<Raise>> {
+    image.check_lock(copier, Meaning::Function)?;
     let function = Function::pure_of(copier, (1, Some(1)), class.clone(), |of, _, args| {
         if instance_of(&args[0], of).is_none() {
             return Err(wrong_type(&args[0], of));
@@ -98,4 +112,5 @@ pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
         copy_structure(&args[0])
     });
     image.set_function(copier, function);
+    Ok(())
 }

@@ -57,14 +57,14 @@ pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Valu
     let parent = parent.as_symbol().filter(|p| *p != known::NIL);
     let class = define_class(image, *name, parent, &layout, doc)?;
     for (index, (slot, accessor)) in layout.slots.iter().zip(accessors).enumerate() {
-        accessors::define(image, &class, index, slot, accessor);
+        accessors::define(image, &class, index, slot, accessor)?;
     }
     *class.structure.borrow_mut() = Some(Rc::new(layout));
     if let Some(copier) = copier.as_symbol().filter(|c| *c != known::NIL) {
-        accessors::define_copier(image, &class, copier);
+        accessors::define_copier(image, &class, copier)?;
     }
     if let Some(predicate) = predicate.as_symbol().filter(|p| *p != known::NIL) {
-        accessors::define_predicate(image, &class, predicate);
+        accessors::define_predicate(image, &class, predicate)?;
     }
     Ok((*name).into())
 }

@@ -6,6 +6,7 @@ use super::constructors::constructor_form;
 use super::expand::override_slots;
 use super::options::{Representation, StructureDefinition};
 use crate::image::Image;
+use crate::image::locks::Meaning;
 use crate::object::define::no_class;
 use crate::value::Value;
 use crate::value::class::StructureSlot;
@@ -179,6 +180,7 @@ pub(crate) fn define_typed_structure(
             entry.car_or_nil().as_symbol(),
             Element::from_value(&element),
         ) {
+            image.check_lock(accessor, Meaning::Function)?;
             define_accessor(image, accessor, index, slot.read_only);
         }
         elements.push(element);
@@ -188,9 +190,11 @@ pub(crate) fn define_typed_structure(
             let sequence = Sequence::of(&args[0])?;
             sequence.kind().make(sequence.all()?)
         });
+        image.check_lock(copier, Meaning::Function)?;
         image.set_function(copier, function);
     }
     if let Some(predicate) = predicate.as_symbol().filter(|p| *p != known::NIL) {
+        image.check_lock(predicate, Meaning::Function)?;
         define_predicate(image, predicate, *name, &elements);
     }
     let data = image.symbols.get_mut(*name);

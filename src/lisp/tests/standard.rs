@@ -61,12 +61,23 @@ fn shown(image: &mut Image, text: &str) -> String {
     last.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// An image with package locks, as sessions have them.
+pub(super) fn locked_image() -> Image {
+    let mut image = Image::new();
+    image.lock_packages(&["COMMON-LISP-USER"]);
+    image
+}
+
 /// Checks pairs of forms and what they show.
 pub(super) fn check(cases: &[(&str, &str)]) {
-    let mut image = Image::new();
+    check_in(&mut Image::new(), cases);
+}
+
+/// Checks pairs of forms and what they show in an image.
+pub(super) fn check_in(image: &mut Image, cases: &[(&str, &str)]) {
     let mut wrong = Vec::new();
     for (form, expected) in cases {
-        let got = shown(&mut image, form);
+        let got = shown(image, form);
         if got != *expected {
             wrong.push(format!("{form}\n  gives {got}\n  not   {expected}"));
         }

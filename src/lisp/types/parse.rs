@@ -117,7 +117,16 @@ impl Parser<'_> {
             (known::NOT, [of]) => Type::Not(Box::new(self.parse(of)?)),
             (known::MEMBER, _) => Type::Member(args.to_vec()),
             (known::EQL, [value]) => Type::Member(vec![value.clone()]),
-            (known::SATISFIES, [function]) => Type::Satisfies(function.clone()),
+            (known::SATISFIES, [function]) => {
+                if function.as_symbol().is_none() {
+                    return Err(Raise::simple(format!(
+                        "{} is not the name of a predicate: (SATISFIES name) was expected.",
+                        crate::object::text(self.image, function)
+                    ))
+                    .into());
+                }
+                Type::Satisfies(function.clone())
+            }
             (known::CONS, [] | [_] | [_, _]) => {
                 let half = |parser: &mut Self, arg: Option<&Value>| match arg {
                     Some(arg) if !is_star(arg) => parser.parse(arg),
@@ -500,13 +509,23 @@ const PLAIN_TYPES: &[Sym] = &[
 
 /// The name of a type that is nearest to one that is none.
 fn near_type(image: &Image, name: Sym) -> Option<Sym> {
+    let names = image.types.keys().chain(PLAIN_TYPES).copied();
+    nearest(image, name, names.chain(defined_classes(image)))
+}
+
+/// The name of a class that is nearest to one that is none.
+pub(crate) fn near_class(image: &Image, name: Sym) -> Option<Sym> {
+    nearest(image, name, defined_classes(image))
+}
+
+fn defined_classes(image: &Image) -> impl Iterator<Item = Sym> {
     let classes = image.classes.iter();
     let classes = classes.filter(|(_, class)| class.is_defined.get());
-    let names = image.types.keys().chain(PLAIN_TYPES);
-    let names: Vec<Sym> = names
-        .chain(classes.map(|(name, _)| name))
-        .copied()
-        .collect();
+    classes.map(|(name, _)| *name)
+}
+
+fn nearest(image: &Image, name: Sym, names: impl Iterator<Item = Sym>) -> Option<Sym> {
+    let names: Vec<Sym> = names.collect();
     let near = closest_name(image.name(name), names.iter().map(|sym| image.name(*sym)))?;
     names.into_iter().find(|sym| image.name(*sym) == near)
 }

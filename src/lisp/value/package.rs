@@ -180,7 +180,7 @@ impl PackageTable {
     }
 
     /// Makes an exported symbol internal again.
-    pub(crate) fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
+    pub fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         if let Some(entry) = self.get_mut(package).symbols.get_mut(&name)
             && entry.0 == sym

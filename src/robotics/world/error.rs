@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::map_area::MapArea;
+use spatial::Shortest;
 
 /// A change that cannot be made; the world is left as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -51,7 +52,7 @@ pub enum WorldError {
         type_name: String,
     },
     /// A number is infinite or not a number, or a mass is not positive.
-    #[error("{quantity} of {name} is {value}, which cannot be")]
+    #[error("{quantity} of {name} is {}, which cannot be", Shortest(*.value))]
     ImpossibleNumber {
         /// The quantity that the number gives.
         quantity: &'static str,
@@ -63,7 +64,7 @@ pub enum WorldError {
     /// A place is too far away.
     #[error(
         "{name} cannot be at ({} {} {}): the world ends {border} m from the map, which covers \
-         {map}, and {border} m above and below the floor", .place[0], .place[1], .place[2]
+         {map}, and {border} m above and below the floor", Shortest(.place[0]), Shortest(.place[1]), Shortest(.place[2])
     )]
     BeyondTheWorld {
         /// The thing that was to be there.

@@ -14,7 +14,7 @@ use thiserror::Error;
 use super::hash::Hasher;
 use crate::robot::Side;
 use closest_name::closest_name;
-use spatial::{Pose, trig};
+use spatial::{Pose, Shortest, trig};
 
 /// How large errors are. Zero means none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -94,7 +94,7 @@ pub enum NoiseError {
         closest: Option<&'static str>,
     },
     /// The value is out of range.
-    #[error("The noise {name} is a number from 0 to {greatest}, not {value}.")]
+    #[error("The noise {name} is a number from 0 to {}, not {}.", Shortest(*.greatest), Shortest(*.value))]
     Range {
         /// The setting.
         name: &'static str,

@@ -6,6 +6,7 @@
 
 use indexmap::IndexMap;
 
+use super::solid::{Solid, bounds_of};
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use closest_name::closest_name;
 use spatial::pose::from_xyz_rpy;
@@ -33,6 +34,14 @@ pub struct ObjectType {
     /// Whether it is the same from all sides: it can be grasped from any of them, and turned
     /// when it is put down.
     pub is_round: bool,
+}
+
+impl ObjectType {
+    /// Edge lengths (m) of the box around it in its own frame.
+    pub fn size(&self) -> [f64; 3] {
+        let bounds = bounds_of(&Solid::all(&self.shapes));
+        bounds.map_or([0.0; 3], |bounds| bounds.extents().to_array())
+    }
 }
 
 /// The kinds of objects, in the order of the file.

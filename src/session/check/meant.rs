@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::package_name::short_name;
 use closest_name::closest_name;
-use cram::designator::schema;
+use cram::designator::schema::{self, Kind};
 use cram::designator::value::Class;
 use lisp::builtins::help;
 use lisp::image::Image;
@@ -84,6 +84,9 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
         }
         known::UNDEFINED_FUNCTION => Meant::by(image, name, |sym| has_function(image, sym)),
         known::UNBOUND_VARIABLE if has_function(image, name) => return call(),
+        known::UNBOUND_VARIABLE if is_value(image, image.name(name)) => {
+            return Some(format!("Did you mean the keyword :{}?", image.name(name)));
+        }
         known::UNBOUND_VARIABLE => Meant::by(image, name, is_variable),
         known::CLASS_NOT_FOUND_ERROR => {
             Meant::by(image, name, |sym| image.classes.contains_key(&sym))
@@ -107,6 +110,24 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
             }
         }
     })
+}
+
+/// Is the name that of a keyword which plans have as a value: an arm, a type of objects, a choice of a
+/// key?
+fn is_value(image: &Image, name: &str) -> bool {
+    let is_choice = |class| {
+        let rows = schema::all(image, class);
+        rows.iter()
+            .flat_map(|row| &row.keys)
+            .any(|key| match &key.kind {
+                Kind::Member(members) => members.iter().any(|member| member == name),
+                _ => false,
+            })
+    };
+    matches!(name, "LEFT" | "RIGHT")
+        || help::is_topic(image, name, "type of objects")
+        || is_choice(Class::Action)
+        || is_choice(Class::Motion)
 }
 
 /// What to say to somebody who has named a package that does not exist.

@@ -25,6 +25,7 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 use lisp::vm::calls::run;
 use robotics::world::Models;
+use spatial::Shortest;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -164,12 +165,22 @@ pub(crate) fn install_topics(image: &mut Image, models: Arc<Models>) {
         if let Some(object) = models.objects.get(&name.to_lowercase()) {
             topics.push(Topic {
                 kind: "type of objects",
-                text: format!("A type of objects: {} kg\n", object.mass),
+                text: format!(
+                    "A type of objects: {} kg, {}\n",
+                    object.mass,
+                    size_text(&object.size())
+                ),
             });
         }
         topics
     };
     image.extend(Topics(Box::new(topics)));
+}
+
+/// Edge lengths (m) for people.
+fn size_text(size: &[f64; 3]) -> String {
+    let [x, y, z] = size.map(|edge| Shortest((edge * 1e3).round() / 10.0));
+    format!("{x} x {y} x {z} cm")
 }
 
 /// An action or motion with its keys.
@@ -219,8 +230,9 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             .join(", ")
             .to_lowercase();
         text.push_str(&format!(
-            "A type of objects: {} kg, grasps: {}\n",
+            "A type of objects: {} kg, {}, grasps: {}\n",
             object.mass,
+            size_text(&object.size()),
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }

@@ -69,6 +69,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         |image, args| Ok(is_built_in(image, &args[0]).into()),
     ),
     pure(
+        "WITHOUT-FILES-P",
+        "system",
+        "Is only the package of a system built in?",
+        &["(system:without-files-p :cram-language) => NIL"],
+        |image, args| Ok(is_without_files(image, &args[0]).into()),
+    ),
+    pure(
         "BUILT-IN-SYSTEMS",
         "",
         "The names of the systems that are built in, as ROS writes them.",
@@ -107,6 +114,9 @@ const OTHER_SYSTEMS: [&str; 7] = [
     "trivial_garbage",
     "trivial_gray_streams",
 ];
+
+/// Systems of which only the packages are built in. Their files may be in a folder of the user.
+const WITHOUT_FILES: [&str; 2] = ["cram_beginner_tutorial", "cram_bullet_world_tutorial"];
 
 /// Packages that stand for no system that is built in.
 const NO_SYSTEMS: [&str; 6] = [
@@ -201,6 +211,11 @@ fn is_built_in(image: &Image, system: &Value) -> bool {
     name_text(image, system).is_some_and(|name| systems().contains(&rosify(&name)))
 }
 
+/// Whether only the package of a system is built in.
+fn is_without_files(image: &Image, system: &Value) -> bool {
+    name_text(image, system).is_some_and(|name| WITHOUT_FILES.contains(&rosify(&name).as_str()))
+}
+
 fn built_in_files(image: &Image, system: &Value) -> Value {
     let name = name_text(image, system).map(|name| rosify(&name));
     let files = DEMO_SYSTEMS
@@ -218,8 +233,19 @@ fn load_built_in_system(
     let is_built_in = is_built_in(image, &args[0]);
     if is_built_in {
         let shown = print::to_string(image, &args[0], false);
-        let text = format!("{shown} is built in: there is nothing to load.");
-        simulation.log(image, LogLevel::Info, "(ROS-LOAD LOAD-SYSTEM)", &text);
+        let (level, text) = match is_without_files(image, &args[0]) {
+            true => (
+                LogLevel::Warn,
+                format!(
+                    "{shown}: of this tutorial only the package is here, not its files. --systems FOLDER or (push \"FOLDER/\" asdf:*central-registry*) loads them from CRAM's sources."
+                ),
+            ),
+            false => (
+                LogLevel::Info,
+                format!("{shown} is built in: there is nothing to load."),
+            ),
+        };
+        simulation.log(image, level, "(ROS-LOAD LOAD-SYSTEM)", &text);
     }
     done(Value::bool(is_built_in))
 }

@@ -140,7 +140,10 @@ fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         None => {
             let package = image.packages.find("CRAM-PICK-PLACE-TUTORIAL");
             let package = package.unwrap_or_else(|| image.current_package());
-            image.intern(package, "BOTTLE-1").into()
+            let kind = type_text_of(image, &kind)?;
+            image
+                .intern(package, &format!("{}-1", kind.to_uppercase()))
+                .into()
         }
     };
     let is_new =

@@ -85,6 +85,12 @@ fn part(name: impl Into<String>, value: impl Into<Value>) -> (String, Value) {
     (name.into(), value.into())
 }
 
+/// Edge lengths (m) as a list, in whole millimetres.
+fn size_value(size: &[f64; 3]) -> Value {
+    let rounded = |edge: &f64| Value::from((edge * 1e3).round() / 1e3);
+    Value::list(size.iter().map(rounded).collect::<Vec<_>>())
+}
+
 /// An object in the world, or the robot.
 pub(crate) fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) -> Option<View> {
     let simulation = &host.simulation;
@@ -102,6 +108,7 @@ pub(crate) fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) 
         parts.push(part("pose", pose_stamped("map", &pose)));
     }
     if let Some(known) = simulation.object_types().get(&kind) {
+        parts.push(part("size (m)", size_value(&known.size())));
         parts.push(part("mass (kg)", known.mass));
     }
     let grasps: Vec<Value> = simulation

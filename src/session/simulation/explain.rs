@@ -23,6 +23,8 @@ use spatial::{Pose, pose};
 
 /// A hand goal closer to an object than this (m) is taken to be meant for that object.
 const AT_THE_OBJECT: f64 = 0.4;
+/// A distance (m) from an object that is worth telling.
+const LEAST_MISS: f64 = 0.001;
 /// Number of headings tried where the robot cannot stand.
 const HEADINGS: u32 = 8;
 /// Maximum number of pairs of bodies listed.
@@ -90,6 +92,9 @@ impl Simulation {
             }
             MotionFailure::PoseUnreachable(pose) => facts.extend(self.about_hand(pose)),
             MotionFailure::NoGrasp(nothing) => facts.extend(nothing.table()),
+            MotionFailure::NothingGripped { side } => {
+                facts.extend(self.missed(*side).unwrap_or_default());
+            }
             _ => {}
         }
         facts
@@ -149,6 +154,57 @@ impl Simulation {
             ));
         }
         facts
+    }
+
+    /// By how much the fingers of a hand have missed the nearest object, and where they are.
+    fn missed(&self, side: Side) -> Option<Vec<String>> {
+        let frame = self.models.description.arm(side).tool;
+        let tips = self.world.link_pose(frame).translation.vector;
+        let miss = |name: &str| {
+            let extent = self.world.object_extent(name).ok()?;
+            let [x, y] = extent.local([tips.x, tips.y]);
+            let beside = libm::hypot(
+                outside(x, extent.min[0], extent.max[0]),
+                outside(y, extent.min[1], extent.max[1]),
+            );
+            let bottom = extent.frame.translation.z + extent.min[2];
+            Some((beside, outside(tips.z, bottom, extent.top()), extent))
+        };
+        let names = self.world.objects().map(|object| object.name().to_owned());
+        let (name, (beside, higher, extent)) = names
+            .filter_map(|name| miss(&name).map(|found| (name, found)))
+            .filter(|(_, (beside, higher, _))| libm::hypot(*beside, *higher) < AT_THE_OBJECT)
+            .min_by(|(_, a), (_, b)| libm::hypot(a.0, a.1).total_cmp(&libm::hypot(b.0, b.1)))?;
+        let mut places = Vec::new();
+        let mm = |distance: f64| format!("{:.0} mm", distance.abs() * 1e3);
+        if higher > LEAST_MISS {
+            places.push(format!("{} above its top", mm(higher)));
+        } else if higher < -LEAST_MISS {
+            places.push(format!("{} below its bottom", mm(higher)));
+        }
+        if beside > LEAST_MISS {
+            places.push(format!("{} beside it", mm(beside)));
+        }
+        let [x, y] = extent.local([tips.x, tips.y]);
+        if places.is_empty() {
+            let depth = (extent.top() - tips.z) * 1e3;
+            places.push(format!("{depth:.0} mm below its top, but not around it"));
+        }
+        let aside = [x, y].map(|off| off * 1e3);
+        Some(vec![
+            format!(
+                "the fingertips of the {side} hand are at {} of the map",
+                point(&tips)
+            ),
+            format!(
+                "the nearest object is {name}: the fingertips are {}",
+                places.join(" and ")
+            ),
+            format!(
+                "in the frame of {name}, turned about the vertical only, they are {:.0} mm along x and {:.0} mm along y from its origin",
+                aside[0], aside[1]
+            ),
+        ])
     }
 
     fn remedies(&self, image: &mut Image, failure: &MotionFailure) -> Vec<String> {
@@ -289,6 +345,12 @@ impl Simulation {
             (object.name().to_owned(), wanted)
         })
     }
+}
+
+/// How far (m) a coordinate is beyond the greater or, then negative, below the smaller of two others;
+/// 0 between them.
+fn outside(at: f64, least: f64, greatest: f64) -> f64 {
+    (at - greatest).max(0.0) + (at - least).min(0.0)
 }
 
 fn place_to_grasp_line(name: &str, (base, arm, grasp): &(Pose, Side, String)) -> String {

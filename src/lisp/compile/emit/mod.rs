@@ -308,10 +308,11 @@ impl Emitter<'_> {
                 self.dynamic -= 1;
                 self.op(Op::EndProgv);
             }
-            Node::Handlers(types, functions, body) => {
+            Node::Handlers(types, functions, body, place) => {
                 for function in functions {
                     self.emit(function, Want::One)?;
                 }
+                self.at(*place);
                 let types = self.constant(types)?;
                 let count = arg_count(functions.len())?;
                 self.op(Op::EnterHandlers(types, count));

@@ -40,6 +40,11 @@ pub(super) fn shortest(value: &Value) -> Digits {
 /// The digits rounded to `places` places after the decimal point (before it if negative).
 pub(super) fn rounded(value: &Value, places: i64) -> Digits {
     let places = places.clamp(-MAX_PLACES, MAX_PLACES);
+    // What the float is printed as has no digits to be rounded away: 1d23 is 1 and zeros.
+    let whole = shortest(value);
+    if i64::try_from(whole.digits.len()).unwrap_or(i64::MAX) - whole.point <= places {
+        return whole;
+    }
     let x = match value {
         Value::Single(x) => f64::from(*x),
         Value::Double(x) => *x,

@@ -100,7 +100,9 @@ impl Reader {
         start: usize,
     ) -> Result<Option<Outcome>, ReadErrorKind> {
         if self.backquotes == 0 && self.skips == 0 {
-            return Err(ReadErrorKind::CommaOutsideBackquote);
+            return Err(
+                decimal_comma(&self.text, start).unwrap_or(ReadErrorKind::CommaOutsideBackquote)
+            );
         }
         if operator == known::UNQUOTE_SPLICING {
             let before = match self.frames.last().map(|f| f.kind) {
@@ -169,6 +171,9 @@ impl Reader {
         if let Some(number) = parse_number(token, radix, float_format) {
             return number.map(Some);
         }
+        if let Some(error) = number_with_dash(token, radix, float_format) {
+            return Err(error);
+        }
         let name = symbol::split(token, LetterCase::current(image))?;
         let sym = if self.features > 0 && name.package.is_none() {
             image.keyword(&name.name)
@@ -199,4 +204,50 @@ impl Reader {
             _ => Err(ReadErrorKind::DotContext),
         }
     }
+}
+
+/// The error for a comma at a byte of a text, if digits stand directly before and after it.
+fn decimal_comma(text: &str, comma: usize) -> Option<ReadErrorKind> {
+    let is_part = |c: char| c.is_ascii_digit();
+    let before = text.get(..comma)?;
+    let after = text.get(comma + 1..)?;
+    let whole = before.len() - before.trim_end_matches(is_part).len();
+    let digits = after.len() - after.trim_start_matches(is_part).len();
+    if whole == 0 || digits == 0 {
+        return None;
+    }
+    let mut start = comma - whole;
+    if text.get(..start)?.ends_with(['-', '+']) {
+        start -= 1;
+    }
+    let whole = text.get(start..comma)?;
+    let fraction = after.get(..digits)?;
+    Some(ReadErrorKind::DecimalComma {
+        written: format!("{whole},{fraction}"),
+        instead: format!("{whole}.{fraction}"),
+    })
+}
+
+/// The error for a token that would be a number if its dashes were minus signs.
+fn number_with_dash(token: &str, radix: u32, float_format: Sym) -> Option<ReadErrorKind> {
+    if token.is_ascii() {
+        return None;
+    }
+    let is_dash = |c: char| {
+        matches!(
+            c,
+            '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' | '\u{ff0d}'
+        )
+    };
+    let dash = token.chars().find(|c| is_dash(*c))?;
+    let instead: String = token
+        .chars()
+        .map(|c| if is_dash(c) { '-' } else { c })
+        .collect();
+    parse_number(&instead, radix, float_format)?.ok()?;
+    Some(ReadErrorKind::Dash {
+        written: token.to_owned(),
+        dash: format!("{dash} (U+{:04X})", u32::from(dash)),
+        instead,
+    })
 }

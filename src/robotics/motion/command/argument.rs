@@ -3,7 +3,7 @@
 use crate::motion::jobs::detect::DetectQuery;
 use crate::motion::jobs::move_tcp::PoseGoal;
 use crate::robot::Side;
-use spatial::Pose;
+use spatial::{Pose, Shortest};
 
 /// The kind of value that a key of a motion takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ pub enum ArgumentError {
     #[error("the object of ({} …) has no name: detect it first", .0.to_lowercase())]
     Nameless(&'static str),
     /// A number that must not be negative.
-    #[error("({} {number}) is negative", key.to_lowercase())]
+    #[error("({} {}) is negative", key.to_lowercase(), Shortest(*.number))]
     Negative {
         /// The key.
         key: &'static str,

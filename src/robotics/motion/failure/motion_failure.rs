@@ -25,6 +25,7 @@ use super::wording::{
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
 use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial};
+use spatial::Shortest;
 
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq, Serialize)]
@@ -84,7 +85,12 @@ pub enum MotionFailure {
         pushed: PushedObject,
     },
     /// The torso has reached its limit, short of the goal.
-    #[error("Torso goal {goal} was out of joint limits\nthe torso goes from {lower} to {upper} m")]
+    #[error(
+        "Torso goal {} was out of joint limits\nthe torso goes from {} to {} m",
+        Shortest(*.goal),
+        Shortest(*.lower),
+        Shortest(*.upper)
+    )]
     TorsoGoalOutOfLimits {
         /// Height that was wanted (m).
         goal: f64,
