@@ -5,6 +5,7 @@ use plan_files::{DEMOS, LIBRARY};
 
 use super::SessionError;
 use super::console::{Ended, Evaluator};
+use lisp::image::built_in_files::BuiltInFiles;
 use lisp::reader::Reader;
 use lisp::value::Value;
 use lisp::value::known;
@@ -24,6 +25,7 @@ pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
 
 /// Loads the built-in plans. The current package stays the same.
 pub(super) fn load(evaluator: &mut Evaluator) -> Result<(), SessionError> {
+    evaluator.image.extend(BuiltInFiles(plan_files::text_of));
     for (name, text) in LIBRARY {
         let failed = |report: String| SessionError::Plan {
             name: (*name).to_owned(),

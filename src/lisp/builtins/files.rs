@@ -11,7 +11,7 @@ use super::shown::shown;
 use super::strings::string;
 use crate::builtin::Builtin;
 use crate::image::Image;
-use crate::stream::{Stream, StreamKind};
+use crate::stream::{Stream, StreamKind, outside};
 use crate::typed::FromValue;
 use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
@@ -142,7 +142,7 @@ fn open_probe(path: &str, if_does_not_exist: Option<&Value>) -> Opened {
 }
 
 fn open_input(path: &str, elements: Elements, if_does_not_exist: Option<&Value>) -> Opened {
-    let bytes = match fs::read(path) {
+    let bytes = match outside::read(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => match if_does_not_exist {
             Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
             Some(Value::Symbol(known::K_CREATE, ..)) => {
@@ -181,7 +181,7 @@ fn open_both(
         return Ok(None);
     };
     drop(kind);
-    let bytes = fs::read(path).map_err(|error| file_error("opening", path, &error))?;
+    let bytes = outside::read(path).map_err(|error| file_error("opening", path, &error))?;
     let position = match if_exists {
         Some(Value::Symbol(known::K_APPEND, ..)) => bytes.len(),
         _ => 0,
@@ -241,9 +241,8 @@ fn open_output(
             _ => options.create(true),
         };
     }
-    let file = options
-        .open(path)
-        .map_err(|error| file_error("opening", path, &error))?;
+    let file =
+        outside::open(&options, path).map_err(|error| file_error("opening", path, &error))?;
     let position = match (exists, if_exists) {
         (true, Some(Value::Symbol(known::K_APPEND, ..))) => {
             fs::metadata(path).map_or(0, |data| data.len())

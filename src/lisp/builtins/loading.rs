@@ -4,7 +4,9 @@ use std::path::{Component, Path, PathBuf};
 
 use super::files::reason;
 use crate::builtin::Builtin;
+use crate::image::built_in_files::BuiltInFiles;
 use crate::reader::{Outcome, Reader};
+use crate::stream::outside;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -99,7 +101,7 @@ fn restore(machine: &mut Machine<'_>) {
 }
 
 /// Evaluates all forms of a file; T. A file that another file loads is looked for beside that one
-/// first.
+/// first; the tutorial's files, such as `plans/tutorial/skills.plan`, are built in.
 #[builtin(_, "file &key verbose print if-does-not-exist external-format")]
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
@@ -114,6 +116,12 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
+    if !Path::new(&path).exists()
+        && let Some((name, text)) = built_in(machine, &path)
+    {
+        let shows_values = announce(machine, &name, &args[1..])?;
+        return load_and_tell(machine, &name, text, shows_values);
+    }
     let text = match read_file(&path) {
         Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
         result => result?,
@@ -161,6 +169,21 @@ fn beside(machine: &Machine<'_>, path: &str) -> Option<String> {
         .map(|plain| plain.to_string_lossy().into_owned())
 }
 
+/// Name and text of the built-in file of that name, or of that name in the folder of the file whose
+/// form is being evaluated.
+fn built_in(machine: &Machine<'_>, path: &str) -> Option<(String, &'static str)> {
+    let files = machine.image.extension::<BuiltInFiles>()?;
+    let loader = machine.image.sources.locate(machine.place());
+    let folder = loader.as_ref().and_then(|at| Path::new(&*at.name).parent());
+    let neighbour = folder.map(|folder| folder.join(path));
+    let candidates = [neighbour, Some(PathBuf::from(path))];
+    candidates.into_iter().flatten().find_map(|path| {
+        let name = without_detours(&path).to_string_lossy().into_owned();
+        let text = (files.0)(&name)?;
+        Some((name, text))
+    })
+}
+
 /// The path without `folder/..`.
 fn without_detours(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
@@ -177,7 +200,11 @@ fn without_detours(path: &Path) -> PathBuf {
 }
 
 fn read_file(path: &str) -> Result<String> {
-    std::fs::read_to_string(path).map_err(|error| {
+    let text = outside::read(path).and_then(|bytes| {
+        let text = String::from_utf8(bytes);
+        text.map_err(|_| std::io::Error::from(std::io::ErrorKind::InvalidData))
+    });
+    text.map_err(|error| {
         Raise::new(
             known::FILE_ERROR,
             format!("The file {path:?} cannot be read: {}.", reason(&error)),

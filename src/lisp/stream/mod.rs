@@ -4,6 +4,7 @@
 //! gives `None`; the caller decides whether that is an error.
 
 mod bytes;
+pub(crate) mod outside;
 
 use std::io::Write as _;
 use std::rc::Rc;
