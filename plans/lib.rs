@@ -48,3 +48,43 @@ pub const DEMOS: &[(&str, &str)] = &[
         include_str!("demos/household-demo.plan"),
     ),
 ];
+
+/// Name and text of files of other folders below `plans`.
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        &[$((concat!("plans/", $name), include_str!($name))),*]
+    };
+}
+
+/// Name and text of what the tutorial and its exercises load.
+pub const TUTORIAL: &[(&str, &str)] = files![
+    "tutorial/changing-grasp.plan",
+    "tutorial/going.plan",
+    "tutorial/looking-around.plan",
+    "tutorial/move-bottle.plan",
+    "tutorial/new-grasp.plan",
+    "tutorial/picking-up.plan",
+    "tutorial/pictures.plan",
+    "tutorial/skills.plan",
+    "tutorial/transport.plan",
+    "exercises/1.plan",
+    "exercises/1b.plan",
+    "exercises/2.plan",
+    "exercises/3.plan",
+    "exercises/4.plan",
+    "exercises/5.plan",
+    "exercises/6.plan",
+    "exercises/7.plan",
+    "exercises/8.plan",
+    "exercises/9.plan",
+    "sweeps/changing-grasp.plan",
+    "sweeps/move-bottle.plan",
+    "sweeps/transporting.plan",
+];
+
+/// The text of a file that programs may load by its name, such as `plans/tutorial/skills.plan`,
+/// though there is no such file.
+pub fn text_of(name: &str) -> Option<&'static str> {
+    let mut files = TUTORIAL.iter().chain(DEMOS);
+    files.find(|(file, _)| *file == name).map(|(_, text)| *text)
+}

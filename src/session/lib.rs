@@ -178,6 +178,12 @@ impl Session {
         &mut self.evaluator.image
     }
 
+    /// From now on, inputs are interrupted when so much real time has passed, all together.
+    pub fn set_time_limit(&mut self, limit: Option<std::time::Duration>) {
+        let begin = std::time::Instant::now();
+        self.evaluator.deadline = limit.and_then(|limit| begin.checked_add(limit));
+    }
+
     /// What it began with.
     pub fn options(&self) -> &SessionOptions {
         &self.options

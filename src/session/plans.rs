@@ -16,6 +16,7 @@ use lisp::compile::Parts;
 use lisp::guard::Stopped;
 use lisp::image::Image;
 use lisp::image::precompiled::{Precompiler, Recording, Unit};
+use lisp::image::built_in_files::BuiltInFiles;
 use lisp::reader::Reader;
 use lisp::source::SourceId;
 use lisp::value::Value;
@@ -49,6 +50,7 @@ pub(crate) fn demo_text(name: &str) -> Option<&'static str> {
 
 /// Loads the built-in plans. The current package stays the same.
 pub(super) fn load(evaluator: &mut Evaluator) -> Result<(), SessionError> {
+    evaluator.image.extend(BuiltInFiles(plan_files::text_of));
     let first = evaluator.image.symbols.iter().count();
     for (name, text) in LIBRARY {
         let loaded = load_file(evaluator, &format!("plans/lib/{name}"), text);

@@ -3,8 +3,10 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+use std::time::Duration;
 
 use super::Session;
+use super::bounds::Limit;
 use super::dialogue::{Evaluate, Event, Outcome, Repeat};
 use cram::Handlers;
 use lisp::image::Image;
@@ -48,6 +50,8 @@ struct State {
     /// Values that are set instead of drawn.
     set: Vec<(String, Value)>,
     known: Vec<Known>,
+    /// Whether the values of the sweep's variables are being found.
+    is_varying: bool,
     /// What came of the world, once it has ended.
     record: Option<Record>,
 }
@@ -68,6 +72,13 @@ impl Sweeping {
         state.drawn = Pairs::default();
         state.simplest = Pairs::default();
         state.record = None;
+        state.is_varying = false;
+    }
+
+    /// Whether the values of the sweep's variables are being found: what fails then is no failure of
+    /// the plan.
+    pub(super) fn set_varying(&self, is_varying: bool) {
+        self.0.borrow_mut().is_varying = is_varying;
     }
 
     /// 64 bits that belong to a path.
@@ -176,8 +187,8 @@ impl Session {
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes
-    /// them. After so many polls of the interrupt flag the world counts as endless. Call it in a
-    /// session that has done nothing but load the file.
+    /// them. After so many polls of the interrupt flag the world counts as endless; after so much real
+    /// time it is given up. Call it in a session that has done nothing but load the file.
     pub fn run_sweep_world(
         &mut self,
         name: &str,
@@ -185,6 +196,7 @@ impl Session {
         world: u64,
         set: &[(String, String)],
         most_polls: u64,
+        time_limit: Option<Duration>,
     ) -> Record {
         let mut form = String::from("(progn ");
         for (path, value) in set {
@@ -202,6 +214,8 @@ impl Session {
             .set_again(Some((most_polls / CLEANING).max(1)));
         let mut ending = Ending::Failure;
         let mut class = None;
+        let mut mistake = None;
+        self.set_time_limit(time_limit);
         let outcome = self.evaluate("sweep", &form, &mut |event| {
             if let Event::Aborted(abort) = event {
                 ending = match abort.condition.as_str() {
@@ -210,8 +224,15 @@ impl Session {
                     _ => Ending::Failure,
                 };
                 class = Some(abort.class.clone()).filter(|class| !class.is_empty());
+                mistake = Some(match abort.main_place() {
+                    Some(place) => format!("{place}: {}", abort.report.trim_end()),
+                    None => abort.report.trim_end().to_owned(),
+                });
             }
         });
+        let is_late =
+            time_limit.is_some() && self.evaluator.host.bounds.reached() == Some(Limit::WallClock);
+        self.set_time_limit(None);
         self.evaluator.image.polls().set_again(None);
         let mut kept = state.0.borrow_mut().record.take();
         if let Outcome::Quit(_) = outcome {
@@ -221,6 +242,18 @@ impl Session {
                 record.outcome = Ending::Failure;
                 record.class.clone_from(&class);
             }
+        }
+        if state.0.borrow().is_varying && ending == Ending::Failure && !is_late {
+            let mut record = Record::new(world, Ending::Mistake);
+            record.class = class;
+            record.cause = mistake;
+            return record;
+        }
+        if is_late {
+            // Whatever it has come to by then depends on the machine.
+            ending = Ending::Timeout;
+            class = None;
+            kept = None;
         }
         kept.unwrap_or_else(|| {
             let mut record = state.record(&mut self.evaluator.image, ending);

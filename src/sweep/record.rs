@@ -23,18 +23,22 @@ pub enum Ending {
     Limit,
     /// The plan computed without end while no simulated time passed.
     Endless,
+    /// It took more real time than it may.
+    Timeout,
     /// What the world was to contain found no place. This says nothing about the plan.
     Invalid,
     /// planwright itself failed.
     Defect,
     /// The process that ran the world was killed by it.
     Crashed,
+    /// The sweep itself is wrong: what varies cannot be found.
+    Mistake,
 }
 
 impl Ending {
     /// Whether the plan was tried at all.
     pub fn counts(self) -> bool {
-        self != Self::Invalid
+        !matches!(self, Self::Invalid | Self::Mistake)
     }
 
     fn name(self) -> &'static str {
@@ -44,9 +48,11 @@ impl Ending {
             Self::Expectation => "expectation",
             Self::Limit => "limit",
             Self::Endless => "endless",
+            Self::Timeout => "timeout",
             Self::Invalid => "invalid",
             Self::Defect => "defect",
             Self::Crashed => "crashed",
+            Self::Mistake => "mistake",
         }
     }
 }

@@ -5,12 +5,15 @@
 mod closed;
 #[cfg(unix)]
 mod interrupts;
+mod outputs;
 mod pseudo_terminal;
 #[cfg(unix)]
 mod swank;
 mod sweep;
 #[cfg(unix)]
 mod terminal;
+#[cfg(unix)]
+mod text_that_comes_anyhow;
 #[cfg(unix)]
 mod torture;
 mod usage;

@@ -71,8 +71,23 @@ impl Terminal {
         Terminal::spawn(state, &["--resume"])
     }
 
+    /// Starts the program with variables of the environment.
+    pub(crate) fn start_with(
+        state: &State,
+        arguments: &[&str],
+        variables: &[(&str, &str)],
+    ) -> Terminal {
+        let terminal = Terminal::spawn_with(state, arguments, variables);
+        terminal.wait_for("CL-USER> ");
+        terminal
+    }
+
     /// Starts the program.
     pub(crate) fn spawn(state: &State, arguments: &[&str]) -> Terminal {
+        Terminal::spawn_with(state, arguments, &[])
+    }
+
+    fn spawn_with(state: &State, arguments: &[&str], variables: &[(&str, &str)]) -> Terminal {
         let (pty, pts) = open().expect("a pseudo-terminal");
         pty.resize(Size::new(ROWS, COLUMNS)).expect("it has a size");
         let child = Command::new(env!("CARGO_BIN_EXE_planwright"))
@@ -80,6 +95,9 @@ impl Terminal {
             .env("XDG_STATE_HOME", state.path())
             .env("TERM", "xterm-256color")
             .env_remove("NO_COLOR")
+            .env_remove("XTERM_VERSION")
+            .env_remove("TMUX")
+            .envs(variables.iter().copied())
             .spawn(pts)
             .expect("the program starts");
         let keys = Arc::new(pty);
@@ -101,6 +119,16 @@ impl Terminal {
             screen,
             child,
         }
+    }
+
+    /// Gives the window another size.
+    pub(crate) fn resize(&self, rows: u16, columns: u16) {
+        let mut screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
+        screen.screen_mut().set_size(rows, columns);
+        drop(screen);
+        self.keys
+            .resize(Size::new(rows, columns))
+            .expect("it has a size");
     }
 
     /// Types a text, or presses keys.

@@ -385,6 +385,71 @@ fn plans_are_compared_in_the_same_worlds_and_reports_are_written() {
 
 #[cfg(unix)]
 #[test]
+fn a_world_without_end_is_given_up_after_its_time() {
+    let endless = scratch(
+        "endless.plan",
+        "(defsweep endless (:worlds 3)
+           (vary (x (between 0 1)))
+           (run (when (= x 1) (loop))))",
+    );
+    let endless = endless.to_str().expect("a name");
+    let run = |options: &[&str]| {
+        let arguments = [
+            &["sweep", endless, "--seed", "3", "--time-limit", "0.5"],
+            options,
+        ];
+        planwright(&arguments.concat())
+    };
+    let records = text(&run(&["--json"]).stdout);
+    let late = records.matches("\"outcome\":\"timeout\"").count();
+    assert!(late > 0 && late < 3, "{records}");
+    assert_eq!(records.matches("\"outcome\":\"success\"").count(), 3 - late);
+    assert!(text(&run(&[]).stdout).contains("timeout"));
+    for wrong in ["0", "-1", "nan", "1e300"] {
+        let option = format!("--time-limit={wrong}");
+        let output = planwright(&["sweep", endless, &option]);
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+    }
+}
+
+#[test]
+fn a_mistake_in_what_varies_stops_the_sweep_with_its_place() {
+    let wrong = scratch(
+        "wrong.plan",
+        "(defun place ()\n  (car 5))\n(defsweep wrong (:worlds 500)
+           (vary (x (place)))
+           (run x))",
+    );
+    let wrong = wrong.to_str().expect("a name");
+    let output = planwright(&["sweep", wrong]);
+    let error = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("wrong.plan:2:3: "), "{error}");
+    assert!(
+        error.contains("in the vary of the sweep, world 0"),
+        "{error}"
+    );
+}
+
+#[test]
+fn things_are_put_onto_surfaces_that_were_drawn() {
+    let drawn = scratch(
+        "drawn.plan",
+        "(defsweep drawn (:worlds 12)
+           (vary (where (choice :table-area-main :kitchen-island-surface))
+                 (cup (object cup :on where)))
+           (run where))",
+    );
+    let drawn = drawn.to_str().expect("a name");
+    let records = text(&planwright(&["sweep", drawn, "--json"]).stdout);
+    assert_eq!(
+        records.matches("\"outcome\":\"success\"").count(),
+        12,
+        "{records}"
+    );
+}
+
+#[test]
 fn an_interrupt_keeps_what_is_done() {
     let file = scratch("interrupted.plan", SWEEP);
     let folder = file.with_file_name("interrupted");

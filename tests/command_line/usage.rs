@@ -342,3 +342,25 @@ fn a_run_without_end_ends_when_nobody_reads_its_output() {
     drop(stdout);
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }
+
+#[test]
+fn a_run_without_end_is_interrupted_after_its_time() {
+    let (status, out, err) = output(&[
+        "run",
+        "--time-limit",
+        "0.5",
+        "--eval",
+        "(print :begun)",
+        "--eval",
+        "(unwind-protect (loop) (print :cleaned))",
+    ]);
+    assert_eq!(status, Some(1), "{err}");
+    assert!(
+        out.ends_with(":CLEANED \n") || out.ends_with(":CLEANED\n"),
+        "{out:?}"
+    );
+    assert!(
+        err.contains("Interrupted: the limit of real time has been reached."),
+        "{err}"
+    );
+}

@@ -222,8 +222,9 @@ fn a_world_of_a_sweep_is_the_same_in_a_copy() {
                                      (location (a location (on table-area-main))))))))";
     let loaded_once = loaded(text);
     for world in [1, 0, 1] {
-        let run =
-            |mut session: Session| session.run_sweep_world("picking", 5, world, &[], 1_000_000);
+        let run = |mut session: Session| {
+            session.run_sweep_world("picking", 5, world, &[], 1_000_000, None)
+        };
         let record = run(loaded_once.copied().expect("there can be a copy"));
         assert_eq!(record, run(loaded(text)));
         assert!(record.steps > 0, "{record:?}");

@@ -21,7 +21,7 @@ fn session(text: &str) -> Session {
 
 /// What comes of a world of the sweep in the text.
 fn world(text: &str, number: u64) -> Record {
-    session(text).run_sweep_world("s", 42, number, &[], 100_000)
+    session(text).run_sweep_world("s", 42, number, &[], 100_000, None)
 }
 
 /// What a session prints.

@@ -2,6 +2,7 @@
 
 mod after_interrupt;
 mod flattened;
+mod flattened_tutorial;
 mod recovery;
 mod reference;
 mod resume;

@@ -84,6 +84,28 @@ pub(crate) enum CommandError {
     /// A file is no executed notebook.
     #[error("{} is no notebook: {error}", path.display())]
     Notebook { path: PathBuf, error: NotebookError },
+    /// An output is an input, too.
+    #[error(
+        "{option} {} would overwrite {}, which is read: name another file",
+        path.display(), input.display()
+    )]
+    Overwrites {
+        option: &'static str,
+        path: PathBuf,
+        input: PathBuf,
+    },
+    /// Two outputs are the same file.
+    #[error("{} and {} both write {}: name two files", options[0], options[1], path.display())]
+    WritesTwice {
+        options: [&'static str; 2],
+        path: PathBuf,
+    },
+    /// There are frames of another film in the folder.
+    #[error(
+        "{} has frames already, such as {example}, which would be mixed with new ones: remove them, \
+         or name another folder", folder.display()
+    )]
+    OtherFrames { folder: PathBuf, example: String },
     /// The prompt does not work.
     #[error("{0}")]
     Prompt(#[from] ReplError),
@@ -100,10 +122,16 @@ impl CommandError {
     }
 }
 
-/// Reads a file named on the command line.
+/// Reads a file named on the command line; the tutorial's files are built in.
 pub(crate) fn read(path: &PathBuf) -> Result<String, CommandError> {
-    std::fs::read_to_string(path).map_err(|error| CommandError::Read {
-        path: path.clone(),
-        error,
+    std::fs::read_to_string(path).or_else(|error| {
+        let name = path.to_str().filter(|_| !path.exists());
+        let built_in = name.and_then(plan_files::text_of);
+        built_in
+            .map(str::to_owned)
+            .ok_or_else(|| CommandError::Read {
+                path: path.clone(),
+                error,
+            })
     })
 }

@@ -16,6 +16,7 @@ mod jupyter;
 mod man;
 mod open;
 mod options;
+mod outputs;
 mod paint;
 mod picture;
 mod pipe;

@@ -81,6 +81,19 @@ pub(crate) struct Options {
     pub(crate) heap: Option<usize>,
 }
 
+impl Options {
+    /// The files that these options name, all of which are read.
+    pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let files = [
+            &self.world,
+            &self.world_description,
+            &self.robot,
+            &self.robot_description,
+        ];
+        files.into_iter().flatten()
+    }
+}
+
 /// Severity of log messages.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum)]
 pub(crate) enum LogLevel {
@@ -95,6 +108,19 @@ pub(crate) enum LogLevel {
     /// Nothing
     None,
 }
+
+/// A real time (s) that something may take.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.001..=MOST_SECONDS).contains(&seconds) => Ok(seconds),
+        _ => Err(format!(
+            "expected a time in seconds, from 0.001 to {MOST_SECONDS}"
+        )),
+    }
+}
+
+/// Ten years.
+const MOST_SECONDS: f64 = 3.2e8;
 
 fn positive_factor(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

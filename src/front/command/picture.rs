@@ -10,6 +10,7 @@ use nalgebra::Point3;
 
 use super::failure::{CommandError, Status};
 use super::options::Options;
+use super::outputs::Outputs;
 use super::paint::Paint;
 use super::run::run_in;
 use session::{Filming, Session};
@@ -86,6 +87,14 @@ pub(crate) fn picture(
     options: &Options,
     wanted: &PictureArguments,
 ) -> Result<Status, CommandError> {
+    Outputs::reading(wanted.files.iter().chain(options.files()))
+        .file("--output", wanted.output.as_ref())
+        .file("--gif", wanted.gif.as_ref())
+        .folder("--frames", wanted.frames.as_ref())
+        .check()?;
+    if let Some(folder) = &wanted.frames {
+        refuse_other_frames(folder)?;
+    }
     let (width, height) = (wanted.width.into(), wanted.height.into());
     let view = wanted.view();
     let is_film = wanted.gif.is_some() || wanted.frames.is_some();
@@ -127,13 +136,37 @@ pub(crate) fn picture(
     Ok(status)
 }
 
+/// An error if there are frames in a folder: there may be more of them than will be written.
+fn refuse_other_frames(folder: &Path) -> Result<(), CommandError> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let frames = names.filter(|name| {
+        let number = name
+            .strip_prefix(FRAME)
+            .and_then(|name| name.strip_suffix(PNG));
+        number
+            .is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
+    });
+    match frames.min() {
+        Some(example) => Err(CommandError::OtherFrames {
+            folder: folder.to_owned(),
+            example,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// How the names of frames begin and end.
+const FRAME: &str = "frame-";
+const PNG: &str = ".png";
+
 fn write_frames(folder: &Path, shots: &[Shot]) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| CommandError::Rewrite {
         path: folder.to_owned(),
         error,
     })?;
     for (place, shot) in shots.iter().enumerate() {
-        let path = folder.join(format!("frame-{:04}.png", place + 1));
+        let path = folder.join(format!("{FRAME}{:04}{PNG}", place + 1));
         write(&path, &shot.image().to_png()?)?;
     }
     Ok(())

@@ -3,12 +3,13 @@
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
-use super::options::Options;
+use super::options::{Options, seconds};
 use super::paint::Paint;
 use super::stop_at::stop_at;
 use crate::transcript::{Transcript, Verdict, blessed, replay_all};
@@ -28,6 +29,9 @@ pub(crate) struct ReplayArguments {
     /// Number of files to run in parallel [default: the number of processors]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
+    /// Real time that each file may take; then its inputs are interrupted
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    time_limit: Option<f64>,
 }
 
 /// Replays the files and prints the differences, or rewrites the expected output; or opens the
@@ -51,7 +55,11 @@ pub(crate) fn replay(options: &Options, wanted: &ReplayArguments) -> Result<Stat
     replay_all(
         &transcripts,
         jobs,
-        || open_session(options),
+        || {
+            let mut session = open_session(options)?;
+            session.set_time_limit(wanted.time_limit.map(Duration::from_secs_f64));
+            Ok(session)
+        },
         |transcript, verdicts| {
             let path = files.next();
             if told.is_ok() {

@@ -2,13 +2,15 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
 use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
-use super::options::Options;
+use super::options::{Options, seconds};
+use super::outputs::Outputs;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments, Writing};
 use session::Session;
@@ -23,6 +25,9 @@ pub(crate) struct RunArguments {
     /// Form to evaluate after loading the files; its values are shown
     #[arg(long, value_name = "FORM")]
     pub(super) eval: Vec<String>,
+    /// Real time that all of it may take; then it is interrupted
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) time_limit: Option<f64>,
     #[command(flatten)]
     pub(super) watch: WatchArguments,
 }
@@ -30,12 +35,22 @@ pub(crate) struct RunArguments {
 /// Loads the files, then evaluates the forms, up to the first unhandled condition. Output goes
 /// to standard output, the condition to standard error.
 pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, CommandError> {
-    let RunArguments { files, eval, watch } = wanted;
+    let RunArguments {
+        files,
+        eval,
+        time_limit,
+        watch,
+    } = wanted;
+    Outputs::reading(files.iter().chain(options.files()))
+        .file("--record", watch.record.as_ref())
+        .file("--html", watch.html.as_ref())
+        .check()?;
     let mut has_browser = false;
     let mut writing = Writing::default();
     let begin = |session: &mut Session| {
         has_browser = watching::begin(session, watch)?;
         writing = watching::finish_at_interrupt(session, watch);
+        session.set_time_limit(time_limit.map(Duration::from_secs_f64));
         Ok(())
     };
     let (status, mut session) = run_in(options, files, eval, begin)?;

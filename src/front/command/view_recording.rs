@@ -11,6 +11,7 @@ use clap::Args;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
+use super::outputs::Outputs;
 use view::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
 use view::watch::recording::{RecordingError, read_recording};
 
@@ -29,6 +30,9 @@ pub(crate) struct ViewArguments {
 /// Serves the page with the recording until interrupted, or writes it into a file.
 pub(crate) fn view(options: &Options, wanted: &ViewArguments) -> Result<Status, CommandError> {
     let ViewArguments { file, html } = wanted;
+    Outputs::reading(options.files().chain([file]))
+        .file("--html", html.as_ref())
+        .check()?;
     let failed = |error: RecordingError| CommandError::Recording {
         path: file.to_owned(),
         error,

@@ -6,20 +6,23 @@ use std::rc::Rc;
 
 use rustyline::completion::{Candidate, Completer};
 use rustyline::highlight::{CmdKind, Highlighter};
-use rustyline::hint::Hinter;
+use rustyline::hint::{Hint, Hinter};
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{CompletionType, Context, Helper, Result};
 
+use super::drawing::Drawing;
 use super::highlight::highlighted;
+use super::layout::{self, Position};
+use super::menu::Menu;
+use super::open_forms::still_open;
 use super::pasted::Inputs;
 use super::shape::Shape;
+use super::tty;
+use super::typed_ahead::LastKey;
 use session::dialogue::Serve;
 
 /// The evaluator, which also knows what could be typed.
 pub(crate) type Shared = Rc<RefCell<dyn Serve>>;
-
-/// Width of a terminal that does not tell its own.
-const USUAL_COLUMNS: usize = 80;
 
 /// Tells whether an input is complete, colours it and completes it.
 pub(crate) struct Assist {
@@ -27,23 +30,50 @@ pub(crate) struct Assist {
     colored: bool,
     /// The input is final: nothing at the cursor is highlighted any more.
     is_settled: Cell<bool>,
-    /// Widths of prompt and terminal, in columns.
-    widths: Cell<(usize, usize)>,
+    /// What is drawn.
+    drawing: Drawing,
+    /// Tells when all keys that there are have been read, if they can be collected.
+    last_key: Option<LastKey>,
+    /// Whether the line editor asks something about the completions.
+    menu: Menu,
 }
 
 impl Assist {
-    pub(crate) fn new(evaluator: Shared, colored: bool) -> Self {
+    pub(super) fn new(
+        evaluator: Shared,
+        colored: bool,
+        drawing: Drawing,
+        last_key: Option<LastKey>,
+        menu: Menu,
+    ) -> Self {
         Assist {
             evaluator,
             colored,
             is_settled: Cell::new(false),
-            widths: Cell::new((0, USUAL_COLUMNS)),
+            drawing,
+            last_key,
+            menu,
         }
     }
 
-    /// Sets the widths of prompt and terminal; `None` if it does not tell its own.
-    pub(crate) fn set_widths(&self, prompt: usize, terminal: Option<usize>) {
-        self.widths.set((prompt, terminal.unwrap_or(USUAL_COLUMNS)));
+    /// The hint behind a text, of which so many bytes are before the cursor.
+    fn hint_text(&self, line: &str, pos: usize) -> Option<String> {
+        let rest = line.get(pos..)?;
+        if line.len() > LONGEST_HINTED || !rest.bytes().all(|b| b == b')') {
+            return None;
+        }
+        let shape = {
+            let evaluator = self.evaluator.try_borrow().ok()?;
+            evaluator.hint(line, pos)
+        };
+        // On a new line nothing shows yet what it is a line of.
+        let last = line.rsplit_once('\n').map(|(_, last)| last);
+        let open = last.filter(|last| last.trim().is_empty());
+        let open = open.and_then(|_| still_open(line));
+        match (shape, open) {
+            (Some(shape), Some(open)) => Some(format!("{shape} ; {open}")),
+            (shape, open) => shape.or(open),
+        }
     }
 }
 
@@ -56,18 +86,27 @@ impl Hinter for Assist {
     type Hint = Shape;
 
     fn hint(&self, line: &str, pos: usize, _: &Context<'_>) -> Option<Shape> {
-        let rest = line.get(pos..)?;
-        if line.len() > LONGEST_HINTED || !rest.bytes().all(|b| b == b')') {
+        if self.last_key.as_ref().is_some_and(LastKey::begins) {
             return None;
         }
-        let evaluator = self.evaluator.try_borrow().ok()?;
-        let hint = evaluator.hint(line, pos)?;
-        let (prompt_width, columns) = self.widths.get();
-        let column = match line.rsplit_once('\n') {
-            Some((_, last)) => last.chars().count(),
-            None => prompt_width + line.chars().count(),
-        };
-        Some(Shape::new(&hint, column, columns))
+        self.drawing.draws(line, pos);
+        let hint = self.hint_text(line, pos).map(|hint| {
+            let (prompt_width, columns) = (self.drawing.widths().0, tty::columns());
+            let begin = match line.rsplit_once('\n') {
+                Some((_, last)) => Position::default().after(last, columns),
+                None => {
+                    let behind_prompt = Position {
+                        row: 0,
+                        column: prompt_width,
+                    };
+                    behind_prompt.after(line, columns)
+                }
+            };
+            Shape::new(&hint, begin.column, columns)
+        });
+        self.drawing
+            .hints(hint.as_ref().map_or("", |hint| hint.display()));
+        hint
     }
 }
 
@@ -121,6 +160,10 @@ impl Completer for Assist {
             return Ok((pos, Vec::new()));
         };
         let found = evaluator.completions(line, pos);
+        let typed = pos.saturating_sub(found.start);
+        let texts = found.candidates.iter().map(|c| c.text.as_str());
+        let is_at_end = line.get(pos..).is_none_or(str::is_empty);
+        self.menu.opens(texts, typed, self.colored && !is_at_end);
         let widths = found.candidates.iter().map(|c| c.text.chars().count());
         let width = widths.max().unwrap_or(0).min(MOST_NAME_WIDTH);
         let candidates = found.candidates.into_iter();
@@ -141,8 +184,16 @@ impl Validator for Assist {
 
 impl Highlighter for Assist {
     fn highlight<'l>(&self, line: &'l str, pos: usize) -> Cow<'l, str> {
+        self.menu.draws();
+        let (first, columns) = self.drawing.widths();
+        let (line, pos) = if line.contains(|c: char| c.is_control() && c != '\n') {
+            let (shown, pos) = layout::shown(line, pos, first, columns);
+            (Cow::Owned(shown), pos)
+        } else {
+            (Cow::Borrowed(line), pos)
+        };
         if !self.colored {
-            return Cow::Borrowed(line);
+            return line;
         }
         let cursor = (!self.is_settled.get()).then_some(pos);
         let evaluator = self.evaluator.try_borrow().ok();
@@ -151,10 +202,13 @@ impl Highlighter for Assist {
                 .as_ref()
                 .is_some_and(|evaluator| evaluator.is_designator_type(name))
         };
-        Cow::Owned(highlighted(line, cursor, is_type))
+        Cow::Owned(highlighted(&line, cursor, is_type))
     }
 
     fn highlight_prompt<'b, 's: 'b, 'p: 'b>(&'s self, prompt: &'p str, _: bool) -> Cow<'b, str> {
+        if let Some(last_key) = &self.last_key {
+            last_key.draws_prompt();
+        }
         if self.colored {
             Cow::Owned(format!("\x1b[1m{prompt}\x1b[0m"))
         } else {
@@ -181,6 +235,10 @@ impl Highlighter for Assist {
 
     fn highlight_char(&self, _: &str, _: usize, kind: CmdKind) -> bool {
         self.is_settled.set(kind == CmdKind::ForcedRefresh);
+        if kind != CmdKind::Other && (self.colored || kind == CmdKind::ForcedRefresh) {
+            // The line is drawn without its hint.
+            self.drawing.hints("");
+        }
         self.colored
     }
 }

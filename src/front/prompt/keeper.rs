@@ -15,9 +15,10 @@ pub(crate) struct Keeper {
 
 impl Keeper {
     pub(crate) fn new(journal: Option<Journal>) -> Keeper {
+        let is_failing = journal.as_ref().is_some_and(Journal::is_behind);
         Keeper {
             journal,
-            ..Keeper::default()
+            is_failing,
         }
     }
 

@@ -1,26 +1,31 @@
 //! Key bindings that the line editor does not have itself.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, RepeatCount};
+use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, Movement, RepeatCount};
 
+use super::drawing::Drawing;
 use super::indent::indentation;
 use super::pasted::Inputs;
+#[cfg(unix)]
+use super::tty::Modes;
+use session::dialogue::ends_in_quotes;
 
 /// A line break with the indentation of the next line.
-fn line_break(context: &EventContext<'_>, prompt_width: &AtomicUsize) -> Option<Cmd> {
+fn line_break(context: &EventContext<'_>, drawing: &Drawing) -> Option<Cmd> {
     let before = context.line().get(..context.pos())?;
-    let width = prompt_width.load(Ordering::Relaxed);
+    let (width, _) = drawing.widths();
     let indent = " ".repeat(indentation(before, width));
     Some(Cmd::Insert(1, format!("\n{indent}")))
 }
 
 /// Enter: evaluates a complete input, breaks the line of any other.
 pub(crate) struct Enter {
-    /// Width of the prompt in columns.
-    pub(crate) prompt_width: Arc<AtomicUsize>,
+    pub(super) drawing: Drawing,
+    /// Set by an interrupt. What came before Enter concerns nothing that is evaluated.
+    pub(super) interrupt: Arc<AtomicBool>,
 }
 
 impl ConditionalEventHandler for Enter {
@@ -32,9 +37,10 @@ impl ConditionalEventHandler for Enter {
         context: &EventContext<'_>,
     ) -> Option<Cmd> {
         if Inputs::of(context.line()).are_whole() {
+            self.interrupt.store(false, Ordering::Relaxed);
             return None;
         }
-        line_break(context, &self.prompt_width)
+        line_break(context, &self.drawing)
     }
 }
 
@@ -43,8 +49,7 @@ impl ConditionalEventHandler for Enter {
 /// While a form is evaluated, the terminal turns Enter into the same character: if it arrives
 /// right after the prompt, it was typed ahead and means Enter.
 pub(crate) struct NewLine {
-    /// Width of the prompt in columns.
-    pub(crate) prompt_width: Arc<AtomicUsize>,
+    pub(super) drawing: Drawing,
     /// When the prompt was shown.
     pub(crate) shown: Arc<Mutex<Instant>>,
 }
@@ -64,7 +69,70 @@ impl ConditionalEventHandler for NewLine {
         if shown.elapsed() < TYPED_AHEAD && Inputs::of(context.line()).are_whole() {
             return Some(Cmd::AcceptLine);
         }
-        line_break(context, &self.prompt_width)
+        line_break(context, &self.drawing)
+    }
+}
+
+/// Tab: with nothing but blanks before it, it indents the line; elsewhere it completes. So text that
+/// is sent to the terminal as if it were typed keeps its meaning.
+pub(crate) struct Tab {
+    pub(super) drawing: Drawing,
+}
+
+impl ConditionalEventHandler for Tab {
+    fn handle(
+        &self,
+        _: &Event,
+        _: RepeatCount,
+        _: bool,
+        context: &EventContext<'_>,
+    ) -> Option<Cmd> {
+        let before = context.line().get(..context.pos())?;
+        let (above, blanks) = match before.rfind('\n') {
+            Some(at) => before.split_at_checked(at)?,
+            None => ("", before),
+        };
+        let blanks = blanks.trim_start_matches('\n');
+        if ends_in_quotes(before) {
+            return Some(Cmd::SelfInsert(1, '\t'));
+        }
+        if !blanks.trim().is_empty() {
+            return None;
+        }
+        let wanted = indentation(above, self.drawing.widths().0);
+        let count = blanks.chars().count();
+        Some(if blanks == " ".repeat(wanted) {
+            Cmd::Noop
+        } else if count == 0 {
+            Cmd::Insert(1, " ".repeat(wanted))
+        } else {
+            let before = RepeatCount::try_from(count).unwrap_or(RepeatCount::MAX);
+            Cmd::Replace(Movement::BackwardChar(before), Some(" ".repeat(wanted)))
+        })
+    }
+}
+
+/// Ctrl-Z: stops the process until somebody wants it to go on.
+#[cfg(unix)]
+pub(super) struct Suspend {
+    pub(super) modes: Modes,
+    pub(super) drawing: Drawing,
+}
+
+#[cfg(unix)]
+impl ConditionalEventHandler for Suspend {
+    fn handle(
+        &self,
+        _: &Event,
+        _: RepeatCount,
+        _: bool,
+        context: &EventContext<'_>,
+    ) -> Option<Cmd> {
+        self.drawing.leaves(context.pos());
+        // If the modes cannot be set, the terminal is gone, which reading the next key tells.
+        let _ = self.modes.suspend();
+        self.drawing.moves_down(context.pos());
+        Some(Cmd::Repaint)
     }
 }
 

@@ -5,6 +5,7 @@
 //! ends it.
 
 mod assist;
+mod drawing;
 mod editor;
 mod highlight;
 mod history;
@@ -12,10 +13,15 @@ pub(crate) mod indent;
 mod journal;
 mod keeper;
 mod keys;
+mod layout;
+mod menu;
+mod open_forms;
 pub(crate) mod pasted;
 mod resume;
 mod serving;
 mod shape;
+mod tty;
+mod typed_ahead;
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -105,11 +111,16 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
 
     let evaluator: Shared = Rc::new(RefCell::new(evaluator));
     evaluator.borrow_mut().set_interactive(true);
-    let mut editor = LineEditor::new(Rc::clone(&evaluator), options.is_colored)?;
+    let mut editor = LineEditor::new(
+        Rc::clone(&evaluator),
+        options.is_colored,
+        Arc::clone(&interrupt),
+    )?;
     let mut screen = Screen::new(io::stdout());
     screen.set_detailed(true);
     let is_terminal = io::stdout().is_terminal();
     screen.set_terminal(is_terminal);
+    screen.set_colored(options.is_colored);
     if is_terminal {
         let pictures = InlinePictures::detect(|name| std::env::var(name).ok());
         screen.set_pictures(pictures);
@@ -224,8 +235,6 @@ impl Repl {
         }
         self.leave_out("it is not finished", unfinished)?;
         self.leave_out("it looks like output", left_out)?;
-        // An interrupt also discards the rest of the pasted inputs.
-        self.interrupt.store(false, Ordering::Relaxed);
         let count = inputs.len();
         let level = self.evaluator.borrow().level();
         for (at, input) in inputs.iter().enumerate() {

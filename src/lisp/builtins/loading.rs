@@ -6,6 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::files::reason;
 use crate::builtin::Builtin;
 use crate::image::Image;
+use crate::image::built_in_files::BuiltInFiles;
 use crate::reader::{Outcome, Reader};
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
@@ -108,7 +109,7 @@ fn restore(machine: &mut Machine<'_>) {
 }
 
 /// Evaluates all forms of a file; T. A file that another file loads is looked for beside that one
-/// first.
+/// first; the tutorial's files, such as `plans/tutorial/skills.plan`, are built in.
 #[builtin(_, "file &key verbose print if-does-not-exist external-format")]
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if let Value::Stream(stream) = &args[0] {
@@ -123,6 +124,12 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
+    if machine.image.files.facts(&path).is_err()
+        && let Some((name, text)) = built_in(machine, &path)
+    {
+        let shows_values = announce(machine, &name, &args[1..])?;
+        return load_and_tell(machine, &name, text, shows_values);
+    }
     let text = match read_file(machine.image, &path) {
         Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
         result => result?,
@@ -172,6 +179,21 @@ fn beside(machine: &Machine<'_>, path: &str) -> Option<String> {
         .then(|| without_detours(&neighbour))
         .filter(|plain| is_file(plain))
         .map(|plain| plain.to_string_lossy().into_owned())
+}
+
+/// Name and text of the built-in file of that name, or of that name in the folder of the file whose
+/// form is being evaluated.
+fn built_in(machine: &Machine<'_>, path: &str) -> Option<(String, &'static str)> {
+    let files = machine.image.extension::<BuiltInFiles>()?;
+    let loader = machine.image.sources.locate(machine.place());
+    let folder = loader.as_ref().and_then(|at| Path::new(&*at.name).parent());
+    let neighbour = folder.map(|folder| folder.join(path));
+    let candidates = [neighbour, Some(PathBuf::from(path))];
+    candidates.into_iter().flatten().find_map(|path| {
+        let name = without_detours(&path).to_string_lossy().into_owned();
+        let text = (files.0)(&name)?;
+        Some((name, text))
+    })
 }
 
 /// The path without `folder/..`.

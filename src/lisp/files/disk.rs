@@ -4,6 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind, Result};
 use std::time::UNIX_EPOCH;
 
+use super::waiting;
 use super::{Contents, FileFacts, Files, Opening, Output};
 
 /// The file system that the process sees.
@@ -23,7 +24,7 @@ impl Files for Disk {
     }
 
     fn read(&self, name: &str) -> Result<Vec<u8>> {
-        fs::read(name)
+        waiting::read(name)
     }
 
     fn open(&self, name: &str, opening: Opening) -> Result<Box<dyn Output>> {
@@ -34,7 +35,7 @@ impl Files for Disk {
             Contents::Overwrite => options.truncate(false),
             Contents::Append => options.append(true),
         };
-        Ok(Box::new(BufWriter::new(options.open(name)?)))
+        Ok(Box::new(BufWriter::new(waiting::open(&options, name)?)))
     }
 
     fn true_name(&self, name: &str) -> Result<String> {

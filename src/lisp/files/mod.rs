@@ -7,6 +7,7 @@
 
 mod closed;
 mod disk;
+mod waiting;
 
 use std::fmt::Debug;
 use std::io::{self, Seek, Write};

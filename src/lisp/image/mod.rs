@@ -1,5 +1,6 @@
 //! One Lisp image: the meanings of all global names.
 
+pub mod built_in_files;
 mod copy;
 pub mod definition;
 pub mod extension;

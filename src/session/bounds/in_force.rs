@@ -46,6 +46,11 @@ impl Bounds {
         InterruptHandle(Arc::clone(&self.running))
     }
 
+    /// The limit that has interrupted the evaluation under way.
+    pub(crate) fn reached(&self) -> Option<Limit> {
+        self.running.reached()
+    }
+
     /// The time (s) until which time may pass from `now`, given a time that is waited for.
     pub(crate) fn until(&self, now: f64, until: Option<f64>) -> Option<f64> {
         match (until, self.end.get().map(|end| end.max(now))) {

@@ -101,6 +101,11 @@ impl Running {
         is_first
     }
 
+    /// The limit that has interrupted the evaluation first.
+    pub(super) fn reached(&self) -> Option<Limit> {
+        self.state().reached
+    }
+
     /// Whether an evaluation is under way.
     pub(super) fn is_under_way(&self) -> bool {
         self.state().flag.is_some()

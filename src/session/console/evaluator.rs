@@ -1,6 +1,7 @@
 //! Evaluating inputs.
 
 use std::rc::Rc;
+use std::time::Instant;
 
 use super::halt;
 use super::line_breaks;
@@ -34,6 +35,8 @@ pub(crate) struct Evaluator {
     pub(crate) objects: Rc<Objects>,
     /// The condition that has ended the evaluation of a form last.
     pub(crate) failed_with: Option<Value>,
+    /// When inputs have to have ended.
+    pub(crate) deadline: Option<Instant>,
 }
 
 /// How the evaluation of one form ended.
@@ -58,6 +61,7 @@ impl Evaluator {
             console: Console::default(),
             objects,
             failed_with: None,
+            deadline: None,
         }
     }
 
@@ -104,8 +108,12 @@ impl Evaluator {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        self.host
-            .begin_bounds(&Limits::NONE, self.image.interrupt());
+        let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
+        let limits = Limits {
+            wall_clock: self.deadline.map(left),
+            ..Limits::NONE
+        };
+        self.host.begin_bounds(&limits, self.image.interrupt());
         let outcome = match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
             Ok(outcome) => outcome,
             Err(defect) => self.recover(&defect, sink),
@@ -159,8 +167,13 @@ impl Evaluator {
                 Ended::Aborted(Box::new(abort))
             }
             Evaluation::Interrupted => {
+                let reached = self.host.bounds.reached();
                 self.abort(sink);
-                Ended::Aborted(Box::new(interrupted()))
+                let mut abort = interrupted();
+                if let Some(limit) = reached {
+                    abort.report = format!("Interrupted: {limit} has been reached.");
+                }
+                Ended::Aborted(Box::new(abort))
             }
         };
         self.flush(sink);

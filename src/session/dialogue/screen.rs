@@ -25,6 +25,7 @@ pub struct Screen<W> {
     /// Whether there is such a line now.
     has_progress: bool,
     pictures: Option<InlinePictures>,
+    is_colored: bool,
 }
 
 impl<W: Write> Screen<W> {
@@ -40,7 +41,13 @@ impl<W: Write> Screen<W> {
             is_terminal: false,
             has_progress: false,
             pictures: None,
+            is_colored: false,
         }
+    }
+
+    /// Sets whether values have a colour, by which they can be told from output.
+    pub fn set_colored(&mut self, is_colored: bool) {
+        self.is_colored = is_colored;
     }
 
     /// Sets whether it writes to a terminal: it then shows the progress of motions, and takes
@@ -158,14 +165,23 @@ impl<W: Write> Screen<W> {
     fn value(&mut self, number: usize, value: &str) -> io::Result<()> {
         let cut = value.char_indices().nth(LONGEST_VALUE);
         let Some((end, _)) = cut.filter(|_| self.is_terminal) else {
-            return self.line(value);
+            return self.colored_line(value);
         };
         let (shown, rest) = value.split_at(end);
-        self.line(&format!("{shown} …"))?;
+        self.colored_line(&format!("{shown} …"))?;
         let more = rest.chars().count();
         self.line(&format!(
             "; … and {more} more characters; (print (nth {number} /)) shows all."
         ))
+    }
+
+    /// Writes lines in the colour of values.
+    fn colored_line(&mut self, text: &str) -> io::Result<()> {
+        if !self.is_colored {
+            return self.line(text);
+        }
+        text.split('\n')
+            .try_for_each(|line| self.line(&format!("{VALUE_COLOR}{line}{RESET}")))
     }
 
     fn picture(&mut self, picture: &Image) -> io::Result<()> {
@@ -265,6 +281,10 @@ impl<W: Write> Screen<W> {
     }
 }
 
+/// Red, as in SLIME.
+const VALUE_COLOR: &str = "\x1b[31m";
+const RESET: &str = "\x1b[0m";
+
 /// How much of a value a terminal shows, in characters.
 const LONGEST_VALUE: usize = 8000;
 
@@ -353,6 +373,16 @@ mod tests {
     #[test]
     fn each_value_has_a_line() {
         assert_eq!(shown(&[values(&["1", "2"]), values(&["3"])]), "1\n2\n3\n");
+    }
+
+    #[test]
+    fn values_have_a_colour_if_wanted() {
+        let mut screen = Screen::new(Vec::new());
+        screen.set_colored(true);
+        screen.show(&output("a\n")).unwrap();
+        screen.show(&values(&["1\n2"])).unwrap();
+        let text = String::from_utf8(screen.into_inner()).unwrap();
+        assert_eq!(text, "a\n\x1b[31m1\x1b[0m\n\x1b[31m2\x1b[0m\n");
     }
 
     #[test]

@@ -101,6 +101,13 @@ pub(super) static TABLE: &[Builtin] = &[
         mute_output,
     ),
     pure(
+        "%SWEEP-VARYING",
+        "flag",
+        "Whether the values of a sweep's variables are being found: what fails then is a mistake in the sweep.",
+        &["(pw::%sweep-varying nil) => NIL"],
+        varying,
+    ),
+    pure(
         "%SWEEP-UNIT",
         "path",
         "The next number from 0 to 1 of a path.",
@@ -310,6 +317,12 @@ fn text(value: &Value) -> Result<String> {
 fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
     let before = image.output.mute(args[0].as_text());
     Ok(before.map_or(Value::NIL, |text| Value::string(&text)))
+}
+
+fn varying(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let flag = args.first().is_some_and(Value::is_true);
+    Sweeping::of(image).set_varying(flag);
+    Ok(Value::NIL)
 }
 
 fn unit(image: &mut Image, args: &[Value]) -> Result<Value> {

@@ -34,6 +34,9 @@ pub(super) struct Plan {
     pub(super) worlds: u64,
     pub(super) shards: u64,
     pub(super) goal: Option<f64>,
+    /// Real time (s) that each world may take.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) time_limit: Option<f64>,
 }
 
 /// A folder in which a sweep is done.
@@ -59,6 +62,7 @@ impl Job {
         title: &Title,
         worlds: u64,
         shards: Option<u64>,
+        time_limit: Option<f64>,
     ) -> Result<Self, CommandError> {
         let plan = Plan {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -72,6 +76,7 @@ impl Job {
                 .unwrap_or_else(|| worlds.div_ceil(20))
                 .clamp(1, worlds),
             goal: title.goal,
+            time_limit,
         };
         // Workers run elsewhere.
         let folder = std::path::absolute(folder).map_err(|error| written(folder, error))?;
@@ -163,7 +168,30 @@ impl Job {
             hash: checksum(&text),
         };
         let end = serde_json::to_string(&end).unwrap_or_default();
-        write_whole(&self.path_of(shard), format!("{text}{end}\n").as_bytes())
+        let written = write_whole(&self.path_of(shard), format!("{text}{end}\n").as_bytes());
+        // Somebody else may have done it meanwhile, and tidied up.
+        written.or_else(|error| self.read(shard).map(drop).ok_or(error))
+    }
+
+    /// Removes what those have left who were killed while they wrote a file that is there now.
+    pub(super) fn tidy(&self) {
+        for path in files(&self.folder) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let Some((whole, process)) = name.rsplit_once(UNFINISHED) else {
+                continue;
+            };
+            let is_ours = process.parse() == Ok(std::process::id());
+            let shard = whole.strip_prefix("shard-");
+            let shard = shard.and_then(|rest| rest.strip_suffix(".jsonl")?.parse().ok());
+            let is_there = match shard {
+                Some(shard) => self.read(shard).is_some(),
+                None => self.folder.join(whole).exists(),
+            };
+            if is_there && !is_ours {
+                // Files that cannot be removed do no harm.
+                let _ = fs::remove_file(&path);
+            }
+        }
     }
 
     /// The records of a shard; `None` if it is not there, or not whole.
@@ -207,12 +235,22 @@ impl Job {
     /// Writes all records into one file, `records.jsonl`.
     pub(super) fn merge(&self) -> Result<Vec<Record>, CommandError> {
         let records = self.records();
+        self.tidy();
         write_whole(
             &self.folder.join("records.jsonl"),
             lines(&records).as_bytes(),
         )?;
         Ok(records)
     }
+}
+
+/// The files of a job in a folder that are there.
+pub(super) fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    files.retain(|path| path.is_file());
+    files.sort();
+    files
 }
 
 /// Records as lines of JSON.
@@ -241,10 +279,13 @@ fn written(path: &Path, error: io::Error) -> CommandError {
     }
 }
 
+/// What follows the name of a file that is being written, before the number of the process.
+const UNFINISHED: &str = ".tmp.";
+
 /// Writes a file under another name, and renames it when it is on the disk.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     let mut unfinished = path.as_os_str().to_owned();
-    unfinished.push(format!(".tmp.{}", std::process::id()));
+    unfinished.push(format!("{UNFINISHED}{}", std::process::id()));
     let unfinished = PathBuf::from(unfinished);
     let write = || {
         let mut file = File::create(&unfinished)?;

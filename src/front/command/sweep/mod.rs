@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 
 use crate::command::failure::{CommandError, Status};
 use crate::command::options::Options;
+use crate::command::outputs::Outputs;
 use crate::sweep_report;
 use compare::compare;
 use file::SweepFile;
@@ -28,11 +29,11 @@ use job::{Job, lines, write_whole};
 pub(crate) use options::SweepOptions;
 use progress::Progress;
 use session::sweeping::Known;
-use sweep::Record;
 use sweep::influence::Influence;
 use sweep::paired::{error_at_look, is_narrow};
 use sweep::summary::{CONFIDENCE, Summary, Title};
-use worlds::Worlds;
+use sweep::{Ending, Record};
+use worlds::{Worlds, sound};
 
 /// Runs the sweep, one of its worlds or one of its shards, or tells how far it has got.
 pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, CommandError> {
@@ -42,6 +43,7 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
         ));
     }
     let threads = wanted.threads.map_or_else(worker::threads, usize::from);
+    check_outputs(&options, wanted)?;
     if let Some(folder) = &wanted.status {
         return status(&Job::open(folder)?);
     }
@@ -75,6 +77,22 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
     }
 }
 
+/// An error if anything that is written would destroy what is read, or cannot be written.
+fn check_outputs(options: &Options, wanted: &SweepOptions) -> Result<(), CommandError> {
+    let jobs = [&wanted.into, &wanted.resume, &wanted.report, &wanted.status];
+    let jobs = jobs.into_iter().flatten();
+    let of_jobs: Vec<PathBuf> = jobs.flat_map(|folder| job::files(folder)).collect();
+    let files = [&wanted.file, &wanted.compare].into_iter().flatten();
+    let heat_map = wanted.heat_map.as_ref().map(|heat_map| &heat_map.path);
+    Outputs::reading(files.chain(options.files()).chain(&of_jobs))
+        .file("--csv", wanted.csv.as_ref())
+        .file("--junit", wanted.junit.as_ref())
+        .file("--html", wanted.html.as_ref())
+        .file("--heat-map", heat_map)
+        .folder("--record-failures", wanted.record_failures.as_ref())
+        .check()
+}
+
 fn title(options: &Options, known: &Known) -> Title {
     Title {
         name: known.name.clone(),
@@ -92,6 +110,7 @@ fn in_memory(
 ) -> Result<Status, CommandError> {
     let file_name = file.name.clone();
     let (worlds, known) = Worlds::open(options, file, wanted.name.as_deref())?;
+    let worlds = worlds.within(wanted.time_limit);
     let title = title(options, &known);
     if let Some(world) = wanted.shrink {
         shrink::shrink(&worlds, &known.name, options.seed, world, threads)?;
@@ -103,6 +122,7 @@ fn in_memory(
         let other = SweepFile::read(path)?;
         let other_name = other.name.clone();
         let (others, known) = Worlds::open(options, other, wanted.name.as_deref())?;
+        let others = others.within(wanted.time_limit);
         let plans = [
             (&worlds, file_name, title),
             (&others, other_name, self::title(options, &known)),
@@ -117,7 +137,7 @@ fn in_memory(
         let summary = Summary::new(&second.title, &second.records);
         return Ok(ending(&summary, compared.wanted(count)));
     }
-    let records = run(&worlds, &title, count, threads, wanted.until_width);
+    let records = sound(run(&worlds, &title, count, threads, wanted.until_width))?;
     if let Some(folder) = &wanted.record_failures {
         record_failures(&worlds, &records, folder, wanted.most)?;
     }
@@ -150,7 +170,8 @@ fn run(
             let is_enough = width
                 .zip(error)
                 .is_some_and(|(width, error)| is_narrow(worked, tried, error, width));
-            progress.record(record) && !is_enough && !interrupt::has_come()
+            let is_sound = record.outcome != Ending::Mistake;
+            progress.record(record) && is_sound && !is_enough && !interrupt::has_come()
         },
     );
     progress.end();
@@ -179,11 +200,12 @@ fn into_folder(
         ));
     }
     let (worlds, known) = Worlds::open(options, file.clone(), wanted.name.as_deref())?;
+    let worlds = worlds.within(wanted.time_limit);
     let title = title(options, &known);
     let count = wanted.worlds.map_or(known.worlds, |count| count.get());
     let shard = wanted.shard.as_deref().map(shard_of).transpose()?;
     let shards = shard.map(|(_, of)| of).or(wanted.shards.map(|of| of.get()));
-    let job = Job::prepare(folder, &file, &title, count, shards)?;
+    let job = Job::prepare(folder, &file, &title, count, shards, wanted.time_limit)?;
     if let Some((shard, _)) = shard {
         return worker::shard(options, &job, shard, threads);
     }

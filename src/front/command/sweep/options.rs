@@ -7,6 +7,7 @@ use clap::{ArgGroup, Args};
 
 use super::engine::Engine;
 use super::heat_map::HeatMap;
+use crate::command::options::seconds;
 
 /// How to run a sweep.
 #[derive(Args, Debug)]
@@ -21,6 +22,10 @@ pub(crate) struct SweepOptions {
     /// How many worlds [default: as many as the sweep says]
     #[arg(long, value_name = "N")]
     pub(crate) worlds: Option<NonZeroU64>,
+    /// Real time that each world may take; one that takes longer is given up and counted as
+    /// timeout
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) time_limit: Option<f64>,
     /// How many worlds to run at the same time [default: the number of processors]
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,

@@ -35,6 +35,7 @@ pub(super) fn replay(
         let wanted = RunArguments {
             files: vec![PathBuf::from(&file.name)],
             eval: vec![set_up, "(planwright:run-sweep-world)".to_owned()],
+            time_limit: wanted.time_limit,
             watch: WatchArguments::default(),
         };
         return run(&options, &wanted);

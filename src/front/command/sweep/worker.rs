@@ -8,7 +8,7 @@ use super::interrupt;
 use super::job::Job;
 use super::pool;
 use super::progress::Progress;
-use super::worlds::Worlds;
+use super::worlds::{Worlds, sound};
 use crate::command::failure::{CommandError, Status};
 use crate::command::options::Options;
 use sweep::{Ending, Record};
@@ -54,8 +54,15 @@ pub(super) fn shard(
     }
     let worlds = open(options, job)?;
     let numbers = job.worlds_of(shard);
-    let records = pool::in_order(threads, &numbers, || worlds.runner(), |_| true);
+    let is_sound = |record: &Record| record.outcome != Ending::Mistake;
+    let records = sound(pool::in_order(
+        threads,
+        &numbers,
+        || worlds.runner(),
+        is_sound,
+    ))?;
     job.write(shard, &records)?;
+    job.tidy();
     Ok(Status::Good)
 }
 
@@ -64,7 +71,8 @@ fn open(options: &Options, job: &Job) -> Result<Worlds, CommandError> {
         seed: job.plan.seed,
         ..options.clone()
     };
-    Ok(Worlds::open(&options, job.file()?, Some(&job.plan.name))?.0)
+    let (worlds, _) = Worlds::open(&options, job.file()?, Some(&job.plan.name))?;
+    Ok(worlds.within(job.plan.time_limit))
 }
 
 /// The shards that are missing, and the progress of their worlds.
@@ -86,8 +94,12 @@ pub(super) fn all(job: &Job, worlds: &Worlds, threads: usize) -> Result<(), Comm
             threads,
             &numbers,
             || worlds.runner(),
-            |record| progress.record(record) && !interrupt::has_come(),
+            |record| {
+                let is_sound = record.outcome != Ending::Mistake;
+                progress.record(record) && is_sound && !interrupt::has_come()
+            },
         );
+        let records = sound(records)?;
         if records.len() < numbers.len() {
             break;
         }

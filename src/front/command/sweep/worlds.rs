@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::file::SweepFile;
 use crate::command::failure::CommandError;
@@ -22,6 +23,8 @@ pub(super) struct Worlds {
     name: String,
     seed: u64,
     options: SessionOptions,
+    /// Real time that each may take.
+    time_limit: Option<Duration>,
     /// Shared by all sessions.
     models: Arc<Models>,
 }
@@ -56,9 +59,16 @@ impl Worlds {
             name: known.name.clone(),
             seed: options.seed,
             options: session.options().clone(),
+            time_limit: None,
             models: Arc::clone(session.models()),
         };
         Ok((worlds, known))
+    }
+
+    /// The same, each of which may take so much real time (s).
+    pub(super) fn within(mut self, seconds: Option<f64>) -> Self {
+        self.time_limit = seconds.map(Duration::from_secs_f64);
+        self
     }
 
     /// A function that runs worlds, in the thread that asks for it.
@@ -83,7 +93,8 @@ impl Worlds {
     pub(super) fn run_recorded(&self, world: u64, path: &Path) -> Result<(), CommandError> {
         let mut session = self.session().map_err(CommandError::Sweep)?;
         session.begin_recording(path)?;
-        session.run_sweep_world(&self.name, self.seed, world, &[], MOST_POLLS);
+        let (name, limit) = (&self.name, self.time_limit);
+        session.run_sweep_world(name, self.seed, world, &[], MOST_POLLS, limit);
         session.end_recording()?;
         Ok(())
     }
@@ -118,7 +129,8 @@ impl<'a> Sessions<'a> {
         let Worlds { name, seed, .. } = self.worlds;
         let run = || match self.next() {
             Ok(mut session) => {
-                let record = session.run_sweep_world(name, *seed, world, set, MOST_POLLS);
+                let limit = self.worlds.time_limit;
+                let record = session.run_sweep_world(name, *seed, world, set, MOST_POLLS, limit);
                 (record, session.simplest_draws())
             }
             Err(report) => (defective(world, report), Pairs::default()),
@@ -146,6 +158,18 @@ impl<'a> Sessions<'a> {
             return Ok(copy);
         }
         self.worlds.session()
+    }
+}
+
+/// The records, unless one says that the sweep itself is wrong.
+pub(super) fn sound(records: Vec<Record>) -> Result<Vec<Record>, CommandError> {
+    match records.iter().find(|r| r.outcome == Ending::Mistake) {
+        Some(record) => Err(CommandError::Sweep(format!(
+            "{} [in the vary of the sweep, world {}]",
+            record.cause.clone().unwrap_or_default(),
+            record.world
+        ))),
+        None => Ok(records),
     }
 }
 

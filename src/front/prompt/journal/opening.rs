@@ -83,6 +83,7 @@ fn fresh_in(path: &Path, beginning: &Beginning) -> Result<Opened, JournalError> 
     }
     Ok(match Journal::create(path, beginning, &[]) {
         Ok(journal) => Opened {
+            remarks: not_yet_kept(&journal).into_iter().collect(),
             journal: Some(journal),
             ..Opened::default()
         },
@@ -206,7 +207,8 @@ fn copied_into(
 ) -> (Option<Journal>, String) {
     let (journal, failure) = kept_in(folder, beginning, inputs);
     let remark = match (&journal, failure) {
-        (Some(journal), _) => format!(
+        (Some(_), Some(failure)) => failure,
+        (Some(journal), None) => format!(
             "; It stays as it is; this session is kept in {}.",
             journal.path().display()
         ),
@@ -227,9 +229,22 @@ fn kept_in(
         return (None, Some(text.to_owned()));
     };
     match folder::begin(folder, beginning, inputs) {
-        Ok(journal) => (Some(journal), None),
+        Ok(journal) => {
+            let remark = not_yet_kept(&journal);
+            (Some(journal), remark)
+        }
         Err(error) => (None, Some(not_kept(folder, &error))),
     }
+}
+
+/// What is said of a journal for which there is no room.
+fn not_yet_kept(journal: &Journal) -> Option<String> {
+    let path = journal.path().display();
+    journal.is_behind().then(|| {
+        format!(
+            "; What is typed is not kept: there is no room for {path}. Every input tries again."
+        )
+    })
 }
 
 fn not_kept(path: &Path, reason: &dyn std::fmt::Display) -> String {

@@ -10,7 +10,8 @@ use super::{Beginning, End, Recorded};
 /// A journal that is being written. It is locked until it is dropped.
 #[derive(Debug)]
 pub(crate) struct Journal {
-    file: File,
+    /// None if there was no room for it.
+    file: Option<File>,
     path: PathBuf,
     checksum: Checksum,
     /// What could not be written yet.
@@ -18,26 +19,17 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// A new journal in a file that does not exist, or is empty.
+    /// A new journal in a file that does not exist, or is empty. While the disk is full, it is one
+    /// that begins when there is room.
     pub(super) fn create(
         path: &Path,
         beginning: &Beginning,
         inputs: &[Recorded],
     ) -> io::Result<Journal> {
-        let may_be_empty = path.metadata().is_ok_and(|found| found.len() == 0);
-        let mut options = OpenOptions::new();
-        options.read(true).append(true);
-        let file = if may_be_empty {
-            options.open(path)?
-        } else {
-            options.create_new(true).open(path)?
+        let file = match opened(path) {
+            Err(error) if is_full(&error) => None,
+            file => Some(file?),
         };
-        if !lock(&file)? {
-            return Err(io::Error::new(
-                ErrorKind::ResourceBusy,
-                "it belongs to a running session",
-            ));
-        }
         let mut journal = Journal {
             file,
             path: path.to_owned(),
@@ -50,9 +42,19 @@ impl Journal {
         for (index, input) in inputs.iter().enumerate() {
             journal.add_input(index + 1, input);
         }
-        journal.flush()?;
-        journal.file.sync_data()?;
-        Ok(journal)
+        match journal.flush().and_then(|()| journal.sync()) {
+            Err(error) if is_full(&error) => Ok(journal),
+            begun => begun.map(|()| journal),
+        }
+    }
+
+    /// Whether something could not be written yet.
+    pub(crate) fn is_behind(&self) -> bool {
+        !self.pending.is_empty()
+    }
+
+    fn sync(&self) -> io::Result<()> {
+        self.file.as_ref().map_or(Ok(()), File::sync_data)
     }
 
     /// Continues a journal that is locked by `file` and in order up to byte `length`.
@@ -67,7 +69,7 @@ impl Journal {
             file.set_len(length)?;
         }
         let mut journal = Journal {
-            file,
+            file: Some(file),
             path: path.to_owned(),
             checksum,
             pending: Vec::new(),
@@ -86,7 +88,7 @@ impl Journal {
         let text = text.to_owned();
         self.add(&Record::Input { text, stops });
         self.flush()?;
-        self.file.sync_data()
+        self.sync()
     }
 
     /// Records that the last input has ended, and where it was interrupted, if it was.
@@ -98,7 +100,7 @@ impl Journal {
         self.flush()?;
         match interrupted_at {
             // What a user decided cannot be found out again.
-            Some(_) => self.file.sync_data(),
+            Some(_) => self.sync(),
             None => Ok(()),
         }
     }
@@ -140,8 +142,12 @@ impl Journal {
     /// Writes what is pending. What cannot be written stays pending for the next attempt, so
     /// that no record is lost or written twice while a disk is full.
     fn flush(&mut self) -> io::Result<()> {
+        let file = match &mut self.file {
+            Some(file) => file,
+            none => none.insert(opened(&self.path)?),
+        };
         while !self.pending.is_empty() {
-            match self.file.write(&self.pending) {
+            match file.write(&self.pending) {
                 Ok(0) => return Err(ErrorKind::WriteZero.into()),
                 Ok(count) => drop(self.pending.drain(..count)),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
@@ -150,6 +156,31 @@ impl Journal {
         }
         Ok(())
     }
+}
+
+/// Whether there is no room on the disk, which may change.
+fn is_full(error: &io::Error) -> bool {
+    let kinds = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
+    kinds.contains(&error.kind())
+}
+
+/// Opens and locks a file that does not exist, or is empty.
+fn opened(path: &Path) -> io::Result<File> {
+    let may_be_empty = path.metadata().is_ok_and(|found| found.len() == 0);
+    let mut options = OpenOptions::new();
+    options.read(true).append(true);
+    let file = if may_be_empty {
+        options.open(path)?
+    } else {
+        options.create_new(true).open(path)?
+    };
+    if !lock(&file)? {
+        return Err(io::Error::new(
+            ErrorKind::ResourceBusy,
+            "it belongs to a running session",
+        ));
+    }
+    Ok(file)
 }
 
 /// Locks a file against other sessions; returns false if another session has locked it. Where
@@ -174,7 +205,7 @@ mod tests {
         let _ = std::fs::remove_file(&path);
         let mut journal = Journal::create(&path, &Beginning::default(), &[]).unwrap();
         let full = OpenOptions::new().append(true).open("/dev/full").unwrap();
-        let disk = std::mem::replace(&mut journal.file, full);
+        let disk = journal.file.replace(full);
         let error = journal.begun("(a)", true).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::StorageFull);
         assert!(journal.ended(None, 1).is_err());
@@ -185,5 +216,24 @@ mod tests {
         let texts: Vec<&str> = earlier.inputs.iter().map(|input| &*input.text).collect();
         assert_eq!(texts, ["(a)", "(b)"]);
         assert_eq!(earlier.inputs[0].end, End::Ended(Some(1)));
+    }
+
+    #[test]
+    fn a_journal_that_had_no_room_begins_when_there_is_some() {
+        let path = std::env::temp_dir().join(format!("planwright-{}-no-room", std::process::id()));
+        let _ = std::fs::remove_file(&path);
+        // Writing to the device fails as it does on a full disk.
+        std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+        let mut journal = Journal::create(&path, &Beginning::default(), &[]).unwrap();
+        assert!(journal.is_behind());
+        assert!(journal.begun("(a)", true).is_err());
+        std::fs::remove_file(&path).unwrap();
+        journal.file = None;
+        journal.ended(None, 1).unwrap();
+        assert!(!journal.is_behind());
+        let earlier = Earlier::parse(&path, &std::fs::read(&path).unwrap()).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(earlier.inputs.len(), 1);
+        assert_eq!(earlier.inputs[0].text, "(a)");
     }
 }

@@ -1,0 +1,111 @@
+//! Reading and opening what may keep one waiting: pipes, devices and terminals. An interrupt is heard
+//! meanwhile.
+
+use std::fs::{self, File, OpenOptions};
+use std::io;
+
+/// The bytes of a file. One that is no regular file is read up to its end, or an interrupt, which
+/// leaves the calling function by unwinding.
+pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
+    #[cfg(unix)]
+    if keeps_waiting(path) {
+        return waiting::read(path);
+    }
+    fs::read(path)
+}
+
+/// Opens a file for writing. A pipe is open when somebody reads it.
+pub(super) fn open(options: &OpenOptions, path: &str) -> io::Result<File> {
+    #[cfg(unix)]
+    if keeps_waiting(path) {
+        return waiting::open(options, path);
+    }
+    options.open(path)
+}
+
+#[cfg(unix)]
+fn keeps_waiting(path: &str) -> bool {
+    fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+#[cfg(unix)]
+mod waiting {
+    use std::fs::{File, OpenOptions};
+    use std::io::{self, ErrorKind, Read};
+    use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+    use std::time::Duration;
+
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+
+    use crate::guard;
+
+    /// How long an interrupt may have to wait.
+    const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+    const CHUNK: usize = 1 << 16;
+
+    pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
+        let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits();
+        let flags = i32::try_from(flags).unwrap_or_default();
+        let mut file = OpenOptions::new()
+            .read(true)
+            .custom_flags(flags)
+            .open(path)?;
+        let mut bytes = Vec::new();
+        let mut chunk = vec![0; CHUNK];
+        loop {
+            guard::look();
+            if !is_ready(&file)? {
+                continue;
+            }
+            match file.read(&mut chunk) {
+                Ok(0) => return Ok(bytes),
+                Ok(count) => bytes.extend_from_slice(chunk.get(..count).unwrap_or_default()),
+                Err(error) if is_passing(&error) => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Waits a moment; is there anything to be read, or will there never be?
+    fn is_ready(file: &File) -> io::Result<bool> {
+        let time = Timespec::try_from(BETWEEN_LOOKS).ok();
+        let mut waited = [PollFd::new(file, PollFlags::IN)];
+        match poll(&mut waited, time.as_ref()) {
+            Ok(count) => Ok(count > 0),
+            Err(error) if is_passing(&error.into()) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    pub(super) fn open(options: &OpenOptions, path: &str) -> io::Result<File> {
+        let is_pipe = std::fs::metadata(path)?.file_type().is_fifo();
+        if !is_pipe {
+            return options.open(path);
+        }
+        let mut options = options.clone();
+        let flags = i32::try_from(OFlags::NONBLOCK.bits()).unwrap_or_default();
+        options.custom_flags(flags);
+        loop {
+            guard::look();
+            match options.open(path) {
+                // Nobody reads it.
+                Err(error)
+                    if error.raw_os_error() == Some(rustix::io::Errno::NXIO.raw_os_error()) =>
+                {
+                    std::thread::sleep(BETWEEN_LOOKS);
+                }
+                Err(error) => return Err(error),
+                Ok(file) => {
+                    let flags = fcntl_getfl(&file)?;
+                    fcntl_setfl(&file, flags - OFlags::NONBLOCK)?;
+                    return Ok(file);
+                }
+            }
+        }
+    }
+
+    fn is_passing(error: &io::Error) -> bool {
+        matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted)
+    }
+}
