@@ -108,6 +108,8 @@ impl Machine<'_> {
                     if !matches!(event, Event::Output) {
                         self.fiber.leave(self.image);
                     }
+                    // A program may make requests so often that it never comes to a pause.
+                    self.tidy();
                     return event;
                 }
                 Err(reason) => {
@@ -263,9 +265,7 @@ impl Machine<'_> {
 
     /// Looks whether there is a reason not to go on, once in a while.
     pub(super) fn pause(&mut self) -> Option<Next> {
-        release::some();
-        let in_use = self.image.limits.heap.in_use();
-        cycles::collect_if_due(&mut self.image.symbols, in_use);
+        self.tidy();
         match self.image.limits.reason() {
             Some(Stopped::Interrupted) => Some(Next::Stop(Event::Interrupted)),
             Some(Stopped::HeapExhausted) if !self.frees_enough() => {
@@ -278,6 +278,13 @@ impl Machine<'_> {
                 is_due.then_some(Next::Stop(Event::Output))
             }
         }
+    }
+
+    /// Frees some of what has been put off, and circles if that is due.
+    fn tidy(&mut self) {
+        release::some();
+        let in_use = self.image.limits.heap.in_use();
+        cycles::collect_if_due(&mut self.image.symbols, in_use);
     }
 
     /// Frees what has been put off, and circles of symbols, too, which only the machine can free; is

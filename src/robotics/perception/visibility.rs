@@ -144,6 +144,16 @@ impl<'w> Sight<'w> {
         Ok(Self::draw(world, picture, description.visible_share))
     }
 
+    /// Whether the robot's own body is in front of a point (m, map frame) for its own camera. So it is in no
+    /// case for a point that is not in the picture.
+    pub fn is_behind_own_body(world: &'w World, point: &Point3<f64>) -> bool {
+        Self::of_robot_towards(world, point).is_some_and(|glance| {
+            let body = glance.key.and_then(|key| world.body_name(key));
+            let is_nearer = glance.depth.is_some_and(|depth| depth < glance.wanted);
+            is_nearer && matches!(body, Some(BodyName::Robot(_)))
+        })
+    }
+
     /// What the robot's own camera sees in the direction of a point (m, map frame): the depth of that
     /// (m along the camera's z) and the point's, and the body; `None` if the point is not in the
     /// picture.

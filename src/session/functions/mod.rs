@@ -18,6 +18,7 @@ mod robot_state;
 mod ros;
 mod scene;
 mod serving;
+mod sight;
 mod snapshots;
 mod sweep_things;
 mod sweeps;

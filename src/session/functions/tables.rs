@@ -17,6 +17,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         "CRAM-MOBILE-PICK-PLACE-PLANS",
         functions::containers::PLANS_TABLE,
     ),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::sight::TABLE),
     ("CRAM-ROBOT-INTERFACES", functions::robot_state::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
     ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),
