@@ -93,9 +93,9 @@ fn malformed(
 fn usage(image: &Image, operator: Sym, lambda_list: &str) -> String {
     let mut text = format!("({}", image.name(operator).to_lowercase());
     let mut ending = "";
-    let mut tokens = Tokens(lambda_list);
+    let tokens = Tokens(lambda_list);
     let mut marker = "";
-    while let Some(token) = tokens.next() {
+    for token in tokens {
         match token {
             ")" => {
                 text.push_str(ending);
@@ -132,7 +132,7 @@ fn misfit(image: &Image, tokens: &mut Tokens<'_>, arguments: &Value) -> Option<S
     let mut rest = arguments.clone();
     let mut is_optional = false;
     let mut takes_all = false;
-    while let Some(token) = tokens.next() {
+    for token in tokens.by_ref() {
         match token {
             ")" => break,
             "&optional" => is_optional = true,

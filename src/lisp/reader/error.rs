@@ -14,7 +14,7 @@ pub struct ReadError {
     /// What is wrong.
     pub kind: ReadErrorKind,
     /// If a comment may have swallowed parentheses: where, and what.
-    pub comment: Option<String>,
+    pub comment: Option<Box<str>>,
     /// First byte of the wrong text.
     pub start: usize,
     /// Byte after the wrong text.

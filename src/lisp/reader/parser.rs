@@ -286,7 +286,7 @@ impl Reader {
     }
 
     /// In words, the comment that has swallowed the parentheses which the text lacks.
-    fn swallowing_comment(&self, kind: &ReadErrorKind, start: usize) -> Option<String> {
+    fn swallowing_comment(&self, kind: &ReadErrorKind, start: usize) -> Option<Box<str>> {
         self.source?;
         let comment = match kind {
             ReadErrorKind::EndOfFile { .. } => {
@@ -296,7 +296,7 @@ impl Reader {
             ReadErrorKind::UnmatchedClose => last_swallowing_comment(self.text.get(..start)?),
             _ => None,
         }?;
-        Some(comment.described(&self.text))
+        Some(comment.described(&self.text).into())
     }
 
     fn end_of_file(&self, what: &'static str, opened_at: usize) -> ReadErrorKind {
