@@ -132,7 +132,7 @@ fn misfit(image: &Image, tokens: &mut Tokens<'_>, arguments: &Value) -> Option<S
     let mut rest = arguments.clone();
     let mut is_optional = false;
     let mut takes_all = false;
-    for token in tokens.by_ref() {
+    while let Some(token) = tokens.next() {
         match token {
             ")" => break,
             "&optional" => is_optional = true,
