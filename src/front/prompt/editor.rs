@@ -203,7 +203,10 @@ impl LineEditor {
         if self.collect()? {
             self.interrupt.store(true, Ordering::Relaxed);
         }
-        Ok(text)
+        Ok(match self.ahead.rest_of(&text) {
+            Some(rest) => format!("{text}\n{rest}"),
+            None => text,
+        })
     }
 
     /// Shows an input as if it had just been typed.
