@@ -297,7 +297,9 @@ impl LineEditor {
     }
 
     fn answer(&mut self, question: &str) -> std::result::Result<bool, ReadlineError> {
-        let answer = self.editor.readline(&format!("{question} (y or n) "))?;
+        let question = format!("{question} (y or n) ");
+        self.drawing.begin(&question);
+        let answer = self.editor.readline(&question)?;
         Ok(matches!(answer.trim(), "y" | "Y" | "yes"))
     }
 }
