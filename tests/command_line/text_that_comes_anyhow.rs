@@ -51,6 +51,16 @@ fn what_is_pasted_while_a_form_runs_is_no_list_of_answers() {
 }
 
 #[test]
+fn a_session_that_is_pasted_without_brackets_is_one_text() {
+    let state = State::new("unbracketed");
+    let terminal = Terminal::start(&state, &[]);
+    terminal.keys("CL-USER> (list nil\r  1)\r(NIL 1)\r\rCL-USER> (+ 1 2)\r3\r");
+    terminal.wait_for("CL-USER> (+ 1 2)\n3\nCL-USER>");
+    let text = terminal.text();
+    assert!(!text.contains("CL-USER 1]>"), "{text}");
+}
+
+#[test]
 fn a_line_that_is_begun_while_a_form_runs_is_offered_for_editing() {
     let state = State::new("begun");
     let terminal = Terminal::start(&state, &[]);

@@ -90,7 +90,8 @@ impl Drawing {
     pub(super) fn draws(&self, text: &str, at: usize) {
         let columns = tty::columns();
         let correction = self.with(|drawn| {
-            let correction = if drawn.text == text && drawn.columns != columns {
+            let is_known = drawn.columns > 0;
+            let correction = if is_known && drawn.text == text && drawn.columns != columns {
                 drawn.at = at;
                 let correction = drawn.correction(columns, tty::reflows());
                 drawn.columns = columns;

@@ -203,7 +203,10 @@ impl LineEditor {
         if self.collect()? {
             self.interrupt.store(true, Ordering::Relaxed);
         }
-        Ok(text)
+        Ok(match self.ahead.rest_of(&text) {
+            Some(rest) => format!("{text}\n{rest}"),
+            None => text,
+        })
     }
 
     /// Shows an input as if it had just been typed.
@@ -294,7 +297,9 @@ impl LineEditor {
     }
 
     fn answer(&mut self, question: &str) -> std::result::Result<bool, ReadlineError> {
-        let answer = self.editor.readline(&format!("{question} (y or n) "))?;
+        let question = format!("{question} (y or n) ");
+        self.drawing.begin(&question);
+        let answer = self.editor.readline(&question)?;
         Ok(matches!(answer.trim(), "y" | "Y" | "yes"))
     }
 }

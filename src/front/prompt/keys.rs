@@ -94,7 +94,7 @@ impl ConditionalEventHandler for Tab {
         };
         let blanks = blanks.trim_start_matches('\n');
         if ends_in_quotes(before) {
-            return Some(Cmd::SelfInsert(1, '\t'));
+            return Some(Cmd::Insert(1, "\t".to_owned()));
         }
         if !blanks.trim().is_empty() {
             return None;

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, RepeatCount};
+use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, Movement, RepeatCount};
 
 /// Number of candidates that are listed without asking.
 pub(super) const LISTED_CANDIDATES: usize = 60;
@@ -56,7 +56,9 @@ pub(super) struct Leave(pub(super) Menu);
 
 impl ConditionalEventHandler for Leave {
     fn handle(&self, _: &Event, _: RepeatCount, _: bool, _: &EventContext<'_>) -> Option<Cmd> {
-        self.0.is_open().then_some(Cmd::SelfInsert(1, 'n'))
+        // What Backspace means, which is an answer, too.
+        let no = Cmd::Kill(Movement::BackwardChar(1));
+        self.0.is_open().then_some(no)
     }
 }
 

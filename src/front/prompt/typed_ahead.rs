@@ -181,6 +181,17 @@ impl TypedAhead {
         self.0.contains('\n')
     }
 
+    /// The lines that follow an input that was pasted without brackets, if it was: one with a prompt,
+    /// which nobody types.
+    pub(super) fn rest_of(&mut self, input: &str) -> Option<String> {
+        let is_copied = input
+            .lines()
+            .any(|line| prompt_line(line.trim_start()).is_some());
+        let end = self.0.rfind('\n').filter(|_| is_copied)?;
+        let lines: String = self.0.drain(..=end).filter(|c| *c != CTRL_D).collect();
+        Some(lines.trim_end().to_owned())
+    }
+
     /// Takes the next input. Lines that are no whole form go on with those after them. Lines with
     /// prompts among them were copied from a session, and are one text.
     pub(super) fn next(&mut self) -> Ahead {
@@ -262,6 +273,17 @@ mod tests {
             [input("(a)"), Ahead::Draft("(b\n c".to_owned())]
         );
         assert_eq!(all("(b"), [Ahead::Draft("(b".to_owned())]);
+    }
+
+    #[test]
+    fn a_copied_session_that_is_typed_is_one_input_too() {
+        let mut ahead = TypedAhead::default();
+        ahead.add("(NIL 1)\n\nA> (+ 1 2)\n3\n(b");
+        assert_eq!(ahead.rest_of("(list b)"), None);
+        let rest = ahead.rest_of("A> (list b\n  1)");
+        assert_eq!(rest.as_deref(), Some("(NIL 1)\n\nA> (+ 1 2)\n3"));
+        assert_eq!(ahead.next(), Ahead::Draft("(b".to_owned()));
+        assert_eq!(ahead.rest_of("A> (c)"), None);
     }
 
     #[test]
