@@ -145,7 +145,7 @@ fn a_system_that_cannot_be_loaded_is_refused_with_the_reason() {
         system("chicken", ":depends-on (:egg)"),
         system("egg", ":depends-on (:chicken)"),
         system("foreign", ":depends-on (:cffi)"),
-        system("threads", ":depends-on (\"bordeaux-threads\")"),
+        system("threads", ":depends-on (\"lparallel\")"),
         system("grovel", ":components ((:cffi-grovel-file \"a\"))"),
         system(
             "round",
@@ -194,7 +194,7 @@ fn a_system_that_cannot_be_loaded_is_refused_with_the_reason() {
         ),
         (
             ":threads",
-            "The system \"bordeaux-threads\", on which threads depends, needs threads of the machine, which there are not; ",
+            "The system \"lparallel\", on which threads depends, needs threads of the machine, which there are not; ",
         ),
         (
             ":grovel",
@@ -214,7 +214,7 @@ fn a_system_that_cannot_be_loaded_is_refused_with_the_reason() {
         ),
         (
             ":computed",
-            "computed.asd: the option :COMPONENTS of the system \"computed\" has to be computed; nothing in such a file is evaluated.",
+            "computed.asd: a component is written (:file \"name\" …) or (:module \"name\" :components (…)), not 1.",
         ),
         (
             ":inferred",
@@ -239,6 +239,93 @@ fn a_system_that_cannot_be_loaded_is_refused_with_the_reason() {
         let report = refused(name);
         assert!(report.starts_with(expected), "{name}: {report}");
     }
+}
+
+#[test]
+fn descriptions_are_evaluated_where_reading_is_not_enough() {
+    let folder = Folder::new(
+        "evaluated",
+        &[
+            (
+                "a/b/c/d/e/f/computed.asd",
+                "(defvar *parts* '((:file \"one\")))\n\
+                 (defsystem \"computed\" :version (:read-file-form \"version.sexp\")\n\
+                   :components #.(append *parts* '((:file \"two\"))))",
+            ),
+            ("a/b/c/d/e/f/version.sexp", "\"1.4\""),
+            (
+                "a/b/c/d/e/f/one.lisp",
+                "(defvar cl-user::*loaded* '())\n\
+                 (eval-when (:compile-toplevel :load-toplevel) (push :compiled cl-user::*loaded*))\n\
+                 (eval-when (:execute) (push :executed cl-user::*loaded*))",
+            ),
+            ("a/b/c/d/e/f/two.lisp", noting!(":two")),
+            (
+                "wrapped.asd",
+                "(when (uiop:featurep :planwright)\n\
+                   (defsystem :wrapped :version \"2.0\" :components ((:file \"three\"))))",
+            ),
+            ("three.lisp", noting!(":three")),
+            ("wrong.asd", "(when t (car 5))"),
+        ],
+    );
+    let mut session = folder.session();
+    for (text, expected) in [
+        ("(asdf:load-system :computed)", "T"),
+        ("cl-user::*loaded*", "(:TWO :EXECUTED :COMPILED)"),
+        ("(asdf:component-version :computed)", "\"1.4\""),
+        ("(asdf:load-system :wrapped)", "T"),
+        ("(first cl-user::*loaded*)", ":THREE"),
+        ("(asdf:component-version :wrapped)", "\"2.0\""),
+        ("(asdf:component-loaded-p :wrapped)", "T"),
+        ("(asdf:load-system :bordeaux-threads)", "T"),
+        (
+            "(let ((l (bt:make-lock))) (cpl:top-level (bt:acquire-lock l) (cpl:par (bt:with-lock-held (l) (push :inside cl-user::*loaded*)) (progn (cpl:sleep 1) (push :before cl-user::*loaded*) (bt:release-lock l)))) (list (first cl-user::*loaded*) (second cl-user::*loaded*)))",
+            "(:INSIDE :BEFORE)",
+        ),
+    ] {
+        assert_eq!(said(&mut session, text), expected, "{text}");
+    }
+    // What is loaded by itself is not compiled.
+    let file = folder.0.join("a/b/c/d/e/f/one.lisp");
+    let load = format!("(load {file:?})");
+    assert_eq!(said(&mut session, &load), "T");
+    assert_eq!(said(&mut session, "(first cl-user::*loaded*)"), ":EXECUTED");
+    let wrong = said(&mut session, "(asdf:load-system :wrong)");
+    assert!(wrong.contains("wrong.asd cannot be evaluated: "), "{wrong}");
+}
+
+#[test]
+fn a_tutorial_whose_files_are_not_there_says_so() {
+    let name = "(ros-load:load-system \"cram_beginner_tutorial\" :cram-beginner-tutorial)";
+    let mut session = Session::new(&SessionOptions::default()).expect("a session starts");
+    let mut text = String::new();
+    session.evaluate("test", name, &mut |event| {
+        if let Event::Output(output) = event {
+            text.push_str(&output);
+        }
+    });
+    assert!(
+        text.contains("of this tutorial only the package is here"),
+        "{text}"
+    );
+    let folder = Folder::new(
+        "tutorial",
+        &[
+            (
+                "cram-beginner-tutorial.asd",
+                "(defsystem cram-beginner-tutorial :components ((:file \"package\")))",
+            ),
+            (
+                "package.lisp",
+                "(defpackage :cram-beginner-tutorial (:nicknames :tut) (:use :cpl))\n\
+                 (in-package :tut) (defun drawn () :drawn)",
+            ),
+        ],
+    );
+    let mut session = folder.session();
+    assert_eq!(said(&mut session, name), "T");
+    assert_eq!(said(&mut session, "(tut::drawn)"), ":DRAWN");
 }
 
 #[test]

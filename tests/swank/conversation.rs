@@ -129,6 +129,27 @@ fn names_are_completed_and_explained() {
             "(swank:set-package \"#:pp-tut\")",
             "(:ok (\"CRAM-PICK-PLACE-TUTORIAL\" \"PP-TUT\"))",
         ),
+        ("(swank:undefine-function \"gone\")", "(:ok \"GONE\")"),
+        (
+            "(swank:interactive-eval \"(fboundp 'gone)\")",
+            "(:ok \"=> NIL\")",
+        ),
+        (
+            "(swank:export-symbol-for-emacs \"pp-tut::exported-here\" \"PP-TUT\")",
+            "(:ok \"T\")",
+        ),
+        (
+            "(swank:interactive-eval \"(nth-value 1 (find-symbol \\\"EXPORTED-HERE\\\" :pp-tut))\")",
+            "(:ok \"=> :EXTERNAL\")",
+        ),
+        (
+            "(swank:commit-edited-value \"(get 'edited 'x)\" \"(1 ,(+ 1 1))\")",
+            "(:ok \"(1 2)\")",
+        ),
+        (
+            "(swank:value-for-editing \"(get 'edited 'x)\")",
+            "(:ok \"(1 2)\")",
+        ),
         (
             "(swank:no-such-thing 1)",
             "(:abort \"planwright has no no-such-thing\")",
@@ -138,6 +159,14 @@ fn names_are_completed_and_explained() {
     }
     let described = client.call("(swank:describe-symbol \"add\")");
     assert!(described.contains("Adds two numbers."), "{described}");
+    let packages = client.call("(swank:list-all-package-names t)");
+    assert!(packages.contains("\"CL-USER\""), "{packages}");
+    let packages = client.call("(swank:list-all-package-names)");
+    assert!(packages.contains("\"COMMON-LISP-USER\""), "{packages}");
+    assert!(!packages.contains("\"CL-USER\""), "{packages}");
+    let exported = client.call("(swank:apropos-list-for-emacs \"\" t nil \"ROS-LOAD\")");
+    assert!(exported.contains("ROS-LOAD:LOAD-SYSTEM"), "{exported}");
+    assert!(!exported.contains("MULTIPLE-VALUE-BIND"), "{exported}");
     let apropos = client.call("(swank:apropos-list-for-emacs \"multiple-value-b\" t nil nil)");
     assert!(
         apropos.contains(":designator \"CL:MULTIPLE-VALUE-BIND\" :macro"),

@@ -142,7 +142,7 @@ fn a_designator_prints_its_properties_line_by_line() {
     check(&[
         (
             "(let ((?arm :left)) (an action (type picking-up) (arm ?arm) (object (an object (type bottle)))))",
-            "#<A ACTION\n    (TYPE PICKING-UP)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n    (TYPE BOTTLE)>)>",
+            "#<A ACTION\n    (TYPE PICKING-UP)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n                (TYPE BOTTLE)>)>",
         ),
         (
             "(all objects (type bottle))",

@@ -48,6 +48,39 @@ fn failure_handling() {
             "(2 :X 1 :Y NIL 0 2 2 5)",
         ),
         ("(with-retry-counters ((c 1)) (do-retry c 1 2 3))", "3"),
+        // The number is computed again.
+        (
+            "(let ((n 2)) (with-retry-counters ((c n)) (setq n 5) (reset-counter c) (get-counter c)))",
+            "5",
+        ),
+        (
+            "(with-retry-counters ((outer 2)) (with-retry-counters ((inner 1)) (list (do-retry outer :x) (do-retry inner :y) (get-counter outer) (reset-counter outer))))",
+            "(:X :Y 1 2)",
+        ),
+        (
+            "(with-retry-counters ((c 2)) (with-retry-counters ((c 5)) (get-counter c)))",
+            "5",
+        ),
+        (
+            "(with-retry-counters ((a 1)) (get-counter typo))",
+            "!! SIMPLE-PROGRAM-ERROR GET-COUNTER: there is no retry counter TYPO here. Known is A.",
+        ),
+        (
+            "(with-retry-counters ((a 1) (b 1)) (do-retry typo))",
+            "!! SIMPLE-PROGRAM-ERROR DO-RETRY: there is no retry counter TYPO here. Known are A, B.",
+        ),
+        (
+            "(reset-counter c)",
+            "!! SIMPLE-PROGRAM-ERROR RESET-COUNTER: there is no retry counter C here; WITH-RETRY-COUNTERS around it makes some.",
+        ),
+        (
+            "(with-retry-counters (c 1) 2)",
+            "!! SIMPLE-PROGRAM-ERROR (C 1) in WITH-RETRY-COUNTERS: a list of counters, ((name count)…), was expected.",
+        ),
+        (
+            "(handler-case (tl (with-failure-handling ((plan-failre (e) (return :handled))) (fail \"x\"))) (error (e) (princ-to-string e)))",
+            "\"unknown type specifier: PLAN-FAILRE. Did you mean PLAN-FAILURE?\"",
+        ),
         (
             "(with-failure-handling (((or f1 f3) (e) (return (type-of e)))) (fail 'f3))",
             "F3",

@@ -516,7 +516,7 @@ fn copy_readtable(
 }
 
 /// Lets a function of stream and character read what begins with the character.
-#[builtin]
+#[builtin("%SET-MACRO-CHARACTER")]
 fn set_macro_character(
     image: &mut Image,
     character: char,
@@ -558,13 +558,13 @@ pub(crate) static TABLE: &[Builtin] = builtins![
     copy_readtable,
     readtablep,
     readtable_case,
-    set_macro_character,
 ];
 
 /// Builtins of package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
     whole_form_p,
     macro_character,
+    set_macro_character,
     reset_macro_character,
     set_constituent,
     dispatch_macro_character,

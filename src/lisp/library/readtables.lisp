@@ -14,6 +14,20 @@
       (values (or function standard)
               (if standard (char= character #\#) non-terminating-p)))))
 
+(defun set-macro-character (character function &optional non-terminating-p
+                                                        (readtable *readtable*))
+  "Lets a function of stream and character read what begins with the character.
+  Examples:
+  (let ((*readtable* (copy-readtable nil))) (set-macro-character #\\! (lambda (s c) (list c (read s)))) (read-from-string \"!x\")) => (#\\! X) ; 2"
+  (check-type character character)
+  ;; The character's own function makes it what it is in the standard syntax.
+  (if (and function
+           (eq function (%standard-reader character))
+           (eq (and non-terminating-p t) (char= character #\#)))
+      (%reset-macro-character character readtable)
+      (%set-macro-character character function non-terminating-p readtable))
+  t)
+
 (defun %standard-reader (character)
   "The function that does what the reader does itself with a character, or NIL."
   (case character
