@@ -311,3 +311,32 @@ fn a_thread_that_had_a_session_gives_everything_back() {
         "{before} B before a thread, {after} B after it"
     );
 }
+
+#[test]
+fn references_of_symbolic_locations_leave_nothing_behind() {
+    let _alone = MEMORY.lock();
+    let mut session = Session::new(&limited(1 << 30)).unwrap();
+    let mut run = |text: &str| {
+        let outcome = session.evaluate("test", text, &mut |_| {});
+        assert_eq!(outcome, Outcome::Finished, "{text}");
+        HEAP.allocated()
+    };
+    run("(in-package :pp-tut)
+         (defun references (n)
+           (dotimes (i n)
+             (let ((?i (a location (on (an object (urdf-name kitchen-island-surface)
+                                                  (part-of kitchen))))))
+               (desig:reference ?i))))");
+    let before = run("(references 20) (tg:gc :full t)");
+    let after = run("(references 40) (tg:gc :full t)");
+    assert!(
+        after < before + (128 << 10),
+        "{before} B after 20 references, {after} B after 60"
+    );
+    // Nobody has to ask for it.
+    let most = run("(references 400)");
+    assert!(
+        most < after + (20 << 20),
+        "{after} B before 400 references, {most} B after them"
+    );
+}

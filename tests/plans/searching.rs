@@ -140,3 +140,25 @@ fn what_stands_on_the_rim_of_the_sink_is_on_the_counter() {
     assert!(!said.contains("not at the place"), "{said}");
     assert!(said.ends_with("CEREAL-1\n"), "{said}");
 }
+
+#[test]
+fn the_robot_knows_what_its_forearms_hide_from_it() {
+    let mut cook = cook();
+    let at = |x: f64, y: f64| {
+        format!(
+            "(let ((?point (make-pose \"map\" '(({x} {y} 0.86) (0 0 0 1)))))
+               (perform (an action (type turning-towards) (target (a location (pose ?point)))))
+               (pp-plans::own-body-hides-p ?point))"
+        )
+    };
+    cook.done(
+        "(with-simulated-robot
+           (pp-plans::park-arms)
+           (let ((?stand (make-pose \"map\" '((-0.325 1.875 0) (0 0 0.95966 0.28118)))))
+             (perform (an action (type navigating) (location (a location (pose ?stand)))))))",
+    );
+    let mut hidden = |x, y| cook.done(&format!("(with-simulated-robot {})", at(x, y)));
+    // A forearm is above the near edge of the island, and below the line of sight to the far one.
+    assert!(hidden(-0.86, 1.3).ends_with("T\n"));
+    assert!(hidden(-1.3, 2.5).ends_with("NIL\n"));
+}

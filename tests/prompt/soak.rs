@@ -93,6 +93,74 @@ fn memory_and_drift_of_a_thousand_cycles() {
     assert!(grown < 16_384, "the memory has grown by {grown} kB");
 }
 
+/// What each cycle of a household needs.
+const HOUSEHOLD: [&str; 5] = [
+    "(in-package :pp-tut)",
+    "(spawn-object '((1.425 0.94 0.4631) (0 0 1 0)) :bowl 'bowl-1)",
+    "(btr-utils:spawn-object
+       'milk-1 :milk
+       :pose (desig:reference
+              (let ((?for (an object (type milk)))
+                    (?in (an object (urdf-name iai-fridge-main) (part-of kitchen))))
+                (a location (in ?in) (for ?for)))))",
+    "(defun bring (?type ?context)
+       (handler-case
+           (with-simulated-robot
+             (perform (an action (type transporting) (object (an object (type ?type)))
+                          (context ?context)))
+             t)
+         (serious-condition (failure) (format nil \"~a ~a: ~a\" ?type ?context failure))))",
+    "(defun set-and-clean ()
+       (list (bring :bowl :table-setting) (bring :milk :table-setting)
+             (bring :milk :table-cleaning) (bring :bowl :table-cleaning)))",
+];
+
+#[test]
+#[ignore = "it takes hours and tells figures"]
+fn a_thousand_times_the_table_is_set_and_cleaned() {
+    let count = cycles(1000);
+    let folder = Folder::new("household");
+    let mut sitting = Sitting::begin(&folder.journal());
+    for input in HOUSEHOLD {
+        sitting.say(input);
+    }
+    let mut failed = 0;
+    let mut settled = None;
+    let mut times = Vec::new();
+    for cycle in 1..=count {
+        let begin = Instant::now();
+        let said = sitting.say("(set-and-clean)");
+        times.push(begin.elapsed().as_secs_f64());
+        let values = said.rsplit("\n(").next().unwrap_or(&said);
+        let good = values.trim_start_matches('(').split_whitespace();
+        let good = good
+            .take_while(|word| word.trim_end_matches(')') == "T")
+            .count();
+        if good < 4 {
+            failed += 4 - good;
+            println!("cycle {cycle}: {values}");
+        }
+        if cycle == count.min(10) {
+            settled = resident();
+        }
+        if cycle % 10 == 0 || cycle == count {
+            let last = &times[times.len().saturating_sub(10)..];
+            let mean = last.iter().sum::<f64>() / last.len() as f64;
+            println!(
+                "{cycle} cycles: {:?} kB, {mean:.2} s each, {failed} failed",
+                resident()
+            );
+        }
+    }
+    let grown = resident().zip(settled).map_or(0, |(now, then)| now - then);
+    assert!(grown < 16_384, "the memory has grown by {grown} kB");
+    assert!(
+        failed * 50 <= 4 * count,
+        "{failed} of {} transports",
+        4 * count
+    );
+}
+
 #[test]
 #[ignore = "it tells the memory of this process, in which no other test may run"]
 fn memory_of_four_hundred_forms_that_change_the_world() {
