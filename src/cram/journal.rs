@@ -9,7 +9,7 @@ use lisp::source::Place;
 use lisp::value::Value;
 
 /// Maximum number of entries kept until they are fetched; the oldest are discarded first.
-const MOST_ENTRIES: usize = 20_000;
+const MAX_ENTRIES: usize = 20_000;
 
 /// Identifies an action that is or was performed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -113,7 +113,7 @@ impl Journal {
 
     pub(super) fn note(&self, change: Change) {
         if let Some(entries) = self.entries.borrow_mut().as_mut() {
-            if entries.len() >= MOST_ENTRIES {
+            if entries.len() >= MAX_ENTRIES {
                 entries.pop_front();
             }
             entries.push_back(change);

@@ -28,7 +28,7 @@ struct Child {
     last: Option<Rc<TreeNode>>,
     /// Number of calls in this run of the tree.
     calls: i64,
-    /// Greatest number of calls in any run.
+    /// Maximum number of calls in any run.
     most: i64,
 }
 

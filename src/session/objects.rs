@@ -12,8 +12,8 @@ use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::raise::Raise;
 
-/// Most values that are kept; beyond that, the oldest are forgotten.
-const MOST_OBJECTS: usize = 10_000;
+/// Maximum number of values that are kept; beyond that, the oldest are forgotten.
+const MAX_OBJECTS: usize = 10_000;
 
 /// Builtins of package `SWANK`.
 pub(super) static TABLE: &[Builtin] = &[pure(
@@ -71,7 +71,7 @@ impl Objects {
         self.next.set(number + 1);
         let mut kept = self.kept.borrow_mut();
         kept.insert(number, value);
-        let oldest = (kept.len() > MOST_OBJECTS).then(|| kept.pop_first());
+        let oldest = (kept.len() > MAX_OBJECTS).then(|| kept.pop_first());
         drop(kept);
         // Freeing a value may run any code.
         drop(oldest);

@@ -17,9 +17,9 @@ use lisp::value::raise::{Raise, is_interrupt};
 use lisp::value::symbol::Sym;
 
 /// Maximum number of enclosing actions shown with a condition.
-const MOST_ACTIONS: usize = 8;
+const MAX_ACTIONS: usize = 8;
 /// Maximum length of an action as shown, in characters.
-const LONGEST_ACTION: usize = 100;
+const MAX_ACTION_LENGTH: usize = 100;
 
 /// Whether the place is in a built-in plan.
 fn is_built_in(place: &Location) -> bool {
@@ -28,7 +28,7 @@ fn is_built_in(place: &Location) -> bool {
 
 /// `#<AN ACTION …>` as `(AN ACTION …)` on one line, truncated if it is long.
 pub(super) fn on_one_line(shown: &str) -> String {
-    on_line_of(shown, LONGEST_ACTION)
+    on_line_of(shown, MAX_ACTION_LENGTH)
 }
 
 /// The same, truncated to so many characters.
@@ -89,7 +89,7 @@ fn actions(image: &Image, calls: &[OpenCall]) -> Vec<ActionStep> {
             place: outer.iter().find_map(|c| image.sources.locate(c.place)),
         })
     });
-    steps.take(MOST_ACTIONS).collect()
+    steps.take(MAX_ACTIONS).collect()
 }
 
 /// What is shown for an error in Rust code.

@@ -18,7 +18,7 @@ use sweep::{Drawn, Draws, Ending, Record};
 
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
 /// computing. A plan that moves looks some thousands of times.
-pub const MOST_POLLS: u64 = 1_000_000;
+pub const MAX_POLLS: u64 = 1_000_000;
 /// Share of them after which cleaning up counts as endless, too.
 const CLEANING: u64 = 10;
 

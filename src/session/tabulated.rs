@@ -8,14 +8,14 @@ use lisp::image::identity::aside;
 use lisp::print;
 use lisp::value::Value;
 
-/// Most rows of a table.
-const MOST_ROWS: usize = 500;
+/// Maximum number of rows of a table.
+const MAX_ROWS: usize = 500;
 
 /// The table of a list of designators, a row for each and a column for each of their keys, in the order
 /// in which these come first. None for other values and for lists with very many elements.
 pub(super) fn table_of(image: &Image, value: &Value) -> Option<Table> {
-    let rows: Vec<Value> = value.iter_list().take(MOST_ROWS + 1).collect();
-    if rows.is_empty() || rows.len() > MOST_ROWS {
+    let rows: Vec<Value> = value.iter_list().take(MAX_ROWS + 1).collect();
+    if rows.is_empty() || rows.len() > MAX_ROWS {
         return None;
     }
     let mut head: Vec<String> = Vec::new();

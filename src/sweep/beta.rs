@@ -1,7 +1,7 @@
 //! The incomplete beta function, and so the binomial distribution.
 
-/// Most terms of the continued fraction: it needs about the root of the larger parameter.
-const MOST_TERMS: u32 = 5_000;
+/// Maximum number of terms of the continued fraction: it needs about the root of the larger parameter.
+const MAX_TERMS: u32 = 5_000;
 /// A ratio this close to 1 ends it.
 const CLOSE: f64 = 1e-15;
 /// Stands in for zero in a denominator.
@@ -28,7 +28,7 @@ pub(super) fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     let mut c = 1.0;
     let mut d = nonzero(1.0 - (a + b) * x / (a + 1.0)).recip();
     let mut fraction = d;
-    for m in 1..MOST_TERMS {
+    for m in 1..MAX_TERMS {
         let m = f64::from(m);
         let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
         d = nonzero(1.0 + even * d).recip();

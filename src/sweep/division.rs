@@ -2,7 +2,7 @@
 
 use super::feature::{Feature, Level};
 
-/// Most values of a number that are looked at one by one.
+/// Maximum number of values of a number that are looked at one by one.
 const FEW: usize = 10;
 
 /// A question about the value of a draw.

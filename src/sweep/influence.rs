@@ -13,18 +13,18 @@ use super::feature::{Feature, Level, features};
 use super::record::Record;
 use super::tree::Tree;
 
-/// Most bins of a number.
+/// Maximum number of bins of a number.
 const BINS: usize = 10;
 /// How often the outcomes are shuffled.
 const SHUFFLES: usize = 999;
 /// Corrected probability below which a draw has an effect.
 const SIGNIFICANT: f64 = 0.05;
-/// Smallest share of the worlds on either side of a bound.
-const LEAST_SHARE: f64 = 0.05;
+/// Minimum share of the worlds on either side of a bound.
+const MIN_SHARE: f64 = 0.05;
 /// Fewest failures, and fewest successes, about which anything can be said.
 const FEWEST: usize = 5;
-/// Most draws that are named as having no effect.
-const MOST_NAMED: usize = 6;
+/// Maximum number of draws that are named as having no effect.
+const MAX_NAMED: usize = 6;
 
 /// What a draw has to do with failures.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,7 +177,7 @@ fn holm(chances: &[f64]) -> Vec<f64> {
 /// The part, beyond a bound or with one value, that tells failures best from successes.
 fn worst_part(feature: &Feature, fails: &[bool]) -> Option<Part> {
     let all: Vec<usize> = (0..fails.len()).collect();
-    let least = (LEAST_SHARE * fails.len() as f64).ceil() as usize;
+    let least = (MIN_SHARE * fails.len() as f64).ceil() as usize;
     let Division {
         test,
         holds,
@@ -224,12 +224,12 @@ impl Display for Influence {
                 "no draw explains the {failed} failures of {tried} worlds"
             ));
         } else if !without.is_empty() {
-            let more = if without.len() > MOST_NAMED {
+            let more = if without.len() > MAX_NAMED {
                 ", …"
             } else {
                 ""
             };
-            let named: Vec<&str> = without.into_iter().take(MOST_NAMED).collect();
+            let named: Vec<&str> = without.into_iter().take(MAX_NAMED).collect();
             sentences.push(format!("{}{more}: no effect seen", named.join(", ")));
         }
         writeln!(f, "what matters: {}", sentences.join(" · "))?;

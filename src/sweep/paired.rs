@@ -34,8 +34,8 @@ pub enum Decision {
 
 /// Confidence of the interval of the difference.
 const CONFIDENCE: f64 = 0.95;
-/// Most worlds that are listed.
-const MOST_WORLDS: usize = 20;
+/// Maximum number of worlds that are listed.
+const MAX_WORLDS: usize = 20;
 
 impl Comparison {
     /// Compares records of the same worlds. Worlds that one of the two could not try do not count.
@@ -184,10 +184,10 @@ impl Display for Comparison {
         if only_a > 0 {
             let mut worlds: Vec<String> = self.only[0]
                 .iter()
-                .take(MOST_WORLDS)
+                .take(MAX_WORLDS)
                 .map(u64::to_string)
                 .collect();
-            if only_a > MOST_WORLDS {
+            if only_a > MAX_WORLDS {
                 worlds.push("…".to_owned());
             }
             writeln!(f, "worse with {b}: --replay {}", worlds.join(" "))?;

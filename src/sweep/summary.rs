@@ -10,12 +10,12 @@ use super::record::Record;
 
 /// Confidence of all intervals.
 pub const CONFIDENCE: f64 = 0.95;
-/// Most worlds that are named as examples of a kind of failure.
-const MOST_EXAMPLES: usize = 3;
-/// Most kinds of failures that are listed.
-const MOST_KINDS: usize = 20;
-/// Most failures that are named as never handled.
-const MOST_UNHANDLED: usize = 10;
+/// Maximum number of worlds that are named as examples of a kind of failure.
+const MAX_EXAMPLES: usize = 3;
+/// Maximum number of kinds of failures that are listed.
+const MAX_KINDS: usize = 20;
+/// Maximum number of failures that are named as never handled.
+const MAX_UNHANDLED: usize = 10;
 /// Share of invalid worlds from which on a variable is warned of.
 const MANY_INVALID: f64 = 0.2;
 
@@ -127,7 +127,7 @@ impl<'r> Summary<'r> {
 
     fn failures(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let kinds = self.kinds();
-        let shown = kinds.iter().take(MOST_KINDS);
+        let shown = kinds.iter().take(MAX_KINDS);
         let width = |part: usize| {
             let lengths = shown.clone().map(|k| k.kind[part].chars().count());
             lengths.max().unwrap_or(0)
@@ -140,13 +140,9 @@ impl<'r> Summary<'r> {
             }
             writeln!(f, "  --replay {}", examples(worlds))?;
         }
-        let rest: usize = kinds.iter().skip(MOST_KINDS).map(|k| k.worlds.len()).sum();
+        let rest: usize = kinds.iter().skip(MAX_KINDS).map(|k| k.worlds.len()).sum();
         if rest > 0 {
-            writeln!(
-                f,
-                "{rest:>4}  of {} further kinds",
-                kinds.len() - MOST_KINDS
-            )?;
+            writeln!(f, "{rest:>4}  of {} further kinds", kinds.len() - MAX_KINDS)?;
         }
         Ok(())
     }
@@ -216,12 +212,12 @@ impl<'r> Summary<'r> {
             all - never.len()
         )?;
         if !never.is_empty() {
-            let more = if never.len() > MOST_UNHANDLED {
+            let more = if never.len() > MAX_UNHANDLED {
                 " · …"
             } else {
                 ""
             };
-            let named: Vec<&str> = never.into_iter().take(MOST_UNHANDLED).collect();
+            let named: Vec<&str> = never.into_iter().take(MAX_UNHANDLED).collect();
             write!(f, "; never {}{more}", named.join(" · "))?;
         }
         writeln!(f)
@@ -292,10 +288,10 @@ fn kinds<'r>(records: impl Iterator<Item = &'r Record>) -> Vec<Kind> {
 fn examples(worlds: &[u64]) -> String {
     let mut shown: Vec<String> = worlds
         .iter()
-        .take(MOST_EXAMPLES)
+        .take(MAX_EXAMPLES)
         .map(u64::to_string)
         .collect();
-    if worlds.len() > MOST_EXAMPLES {
+    if worlds.len() > MAX_EXAMPLES {
         shown.push("…".to_owned());
     }
     shown.join(" ")

@@ -9,11 +9,11 @@ use super::division::{Count, Division, Divisions, Test, rate};
 use super::draw::Draws;
 use super::feature::Feature;
 
-/// Most divisions above a leaf.
+/// Maximum number of divisions above a leaf.
 const DEPTH: usize = 3;
-/// Smallest share of the worlds in a leaf.
-const LEAST_SHARE: f64 = 0.05;
-/// Most bounds of a number that are tried.
+/// Minimum share of the worlds in a leaf.
+const MIN_SHARE: f64 = 0.05;
+/// Maximum number of bounds of a number that are tried.
 const BOUNDS: usize = 40;
 /// How often the outcomes are shuffled.
 const SHUFFLES: usize = 199;
@@ -44,7 +44,7 @@ impl Tree {
         let mut growing = Growing {
             features,
             fails,
-            least: (LEAST_SHARE * fails.len() as f64).ceil() as usize,
+            least: (MIN_SHARE * fails.len() as f64).ceil() as usize,
             numbers: Draws::new(0, 0, "tree"),
             leaves: Vec::new(),
         };

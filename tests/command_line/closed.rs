@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("planwright-closed-{name}-{}", std::process::id()));
+    let folder =
+        std::env::temp_dir().join(format!("planwright-closed-{name}-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     folder
 }

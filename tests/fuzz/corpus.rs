@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::transcript::Transcript;
 
-/// Greatest size (bytes) of a piece.
-const MOST_BYTES: usize = 2000;
+/// Maximum size (bytes) of a piece.
+const MAX_BYTES: usize = 2000;
 
 /// Texts of the files with that ending in a folder of the project, in order of their names.
 pub(super) fn files(folder: &str, ending: &str) -> Vec<(String, String)> {
@@ -54,7 +54,7 @@ pub(super) fn stretches(folder: &str, ending: &str) -> Vec<Vec<u8>> {
 
 pub(super) fn small(pieces: impl Iterator<Item = Vec<u8>>) -> Vec<Vec<u8>> {
     pieces
-        .filter(|piece| (1..=MOST_BYTES).contains(&piece.len()))
+        .filter(|piece| (1..=MAX_BYTES).contains(&piece.len()))
         .collect()
 }
 

@@ -10,7 +10,7 @@ use session::dialogue::{Converse, Evaluate, Event, Outcome, Repeat};
 use session::{LogLevel, Session, SessionOptions};
 
 /// What an image or a session takes before another is made: texts leave names and objects.
-const MOST_INPUTS: usize = 2000;
+const MAX_INPUTS: usize = 2000;
 
 const WORDS: &[&str] = &[
     "(",
@@ -199,7 +199,7 @@ const ARGUMENTS: &[&str] = &[
 ];
 
 /// Evaluations end at this poll at the latest.
-const MOST_POLLS: u64 = 60;
+const MAX_POLLS: u64 = 60;
 
 /// Names of what would touch files, open windows or wait: texts with them are left out.
 const LEFT_OUT: &[&str] = &[
@@ -261,7 +261,7 @@ fn reader() -> Taker {
     let mut taken = 0;
     Box::new(move |input| {
         taken += 1;
-        if taken % MOST_INPUTS == 0 {
+        if taken % MAX_INPUTS == 0 {
             image = Image::new();
         }
         let text = String::from_utf8_lossy(input);
@@ -332,7 +332,7 @@ fn session(definitions: &str) -> Session {
 /// an error.
 fn evaluate(session: &mut Session, text: &str, watched: &str) -> Result<(), String> {
     let mut problem = Ok(());
-    session.interrupt_next_at(MOST_POLLS);
+    session.interrupt_next_at(MAX_POLLS);
     session.evaluate("fuzz", text, &mut |event| {
         let abort = match &event {
             Event::Aborted(abort) => &**abort,
@@ -358,7 +358,7 @@ fn in_session(
     let mut taken = 0;
     Box::new(move |input| {
         taken += 1;
-        if taken % MOST_INPUTS == 0 {
+        if taken % MAX_INPUTS == 0 {
             current = session(definitions);
         }
         let text = String::from_utf8_lossy(input);

@@ -5,8 +5,8 @@ use std::ops::Range;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
-/// Greatest size (bytes) of an input.
-const MOST_BYTES: usize = 4096;
+/// Maximum size (bytes) of an input.
+const MAX_BYTES: usize = 4096;
 
 /// Numbers at which something begins or ends.
 const NUMBERS: &[&str] = &[
@@ -73,7 +73,7 @@ impl Mutation {
         for _ in 0..=self.below(8) {
             self.change(&mut input, corpus, words);
         }
-        input.truncate(MOST_BYTES);
+        input.truncate(MAX_BYTES);
         input
     }
 

@@ -67,8 +67,8 @@ pub(super) struct Found {
     input: String,
 }
 
-/// Most inputs that are kept for each target.
-const MOST_FOUND: usize = 20;
+/// Maximum number of inputs that are kept for each target.
+const MAX_FOUND: usize = 20;
 
 /// An input that takes longer is a finding, too: nothing that is read is large.
 const SLOW: Duration = Duration::from_secs(30);
@@ -154,7 +154,7 @@ fn one(target: &Target, plan: &Plan, count: u64, folder: &std::path::Path) -> Ve
             problem,
             input: String::from_utf8_lossy(&input).into_owned(),
         });
-        if found.len() == MOST_FOUND {
+        if found.len() == MAX_FOUND {
             break;
         }
     }

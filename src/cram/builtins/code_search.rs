@@ -35,7 +35,7 @@ fn mentions_function_builtin(name: &Value, form: &Value) -> Result<Value, Box<Ra
 }
 
 /// Maximum number of macro expansions in one search for tags.
-const MOST_EXPANSIONS: usize = 10_000;
+const MAX_EXPANSIONS: usize = 10_000;
 
 /// The names of the tags in the forms, in order.
 fn find_tags(image: &mut Image, body: &Value) -> Vec<Sym> {
@@ -78,7 +78,7 @@ fn find_tags(image: &mut Image, body: &Value) -> Vec<Sym> {
             head if head == names.with_tags => {}
             head => {
                 let is_macro = image.symbol(head).function.is_macro_of_program();
-                if is_macro && expansions < MOST_EXPANSIONS {
+                if is_macro && expansions < MAX_EXPANSIONS {
                     expansions += 1;
                     if let Ok(Some(expansion)) = compile::macroexpand_1(image, &form) {
                         pending.push(expansion);

@@ -18,7 +18,7 @@ use lisp::value::symbol::Sym;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Maximum depth of nested designators that are checked.
-const MOST_NESTED: usize = 16;
+const MAX_NESTED: usize = 16;
 
 /// Whether the value is of the kind. `name` is the key as written: `pose` takes poses where
 /// `target` takes locations.
@@ -185,7 +185,7 @@ pub(crate) fn check_row(image: &mut Image, designator: &Designator, row: &TypeRo
         if let Some(key) = row.key(&name) {
             check_value(image, designator.class, key, &name, &value)?;
         }
-        check_inside(image, &value, MOST_NESTED)?;
+        check_inside(image, &value, MAX_NESTED)?;
     }
     Ok(())
 }

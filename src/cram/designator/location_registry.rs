@@ -17,7 +17,7 @@ pub(super) const GENERATORS: &str = "*LOCATION-GENERATORS*";
 /// The variable with the validators, in the same form.
 pub(super) const VALIDATORS: &str = "*LOCATION-VALIDATION-FUNCTIONS*";
 /// The variable with the number of rejections in a row that ends a search.
-const MOST_RETRIES: &str = "*LOCATION-GENERATOR-MAX-RETRIES*";
+const MAX_RETRIES: &str = "*LOCATION-GENERATOR-MAX-RETRIES*";
 /// Its initial value.
 const RETRIES: i64 = 30;
 
@@ -124,7 +124,7 @@ pub(crate) fn define(image: &mut Image) {
     image.define_special(list, Value::list([grounding]));
     let list = variable(image, VALIDATORS);
     image.define_special(list, Value::NIL);
-    let sym = variable(image, MOST_RETRIES);
+    let sym = variable(image, MAX_RETRIES);
     image.define_special(sym, Value::Int(RETRIES));
 }
 
@@ -202,7 +202,7 @@ pub(super) fn enabled(image: &mut Image, list: &str) -> Vec<Value> {
 
 /// The number of rejections in a row that ends a search.
 pub(super) fn most_retries(image: &mut Image) -> i64 {
-    let most = variable(image, MOST_RETRIES);
+    let most = variable(image, MAX_RETRIES);
     match image.special(most) {
         Value::Int(most) => *most,
         _ => RETRIES,

@@ -27,7 +27,7 @@ use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 /// Maximum number of groundings of one designator that are searched for.
-const MOST_GROUNDINGS: usize = 64;
+const MAX_GROUNDINGS: usize = 64;
 
 /// What the designator stands for: an action's plan with its arguments, a motion's command, a
 /// location's pose, what is known of a perceived object.
@@ -118,7 +118,7 @@ pub(crate) async fn solutions_of(
     let Some((engine, variable)) = query.await? else {
         return Ok(Value::NIL);
     };
-    let solutions = solve(calls, engine, MOST_GROUNDINGS).await?;
+    let solutions = solve(calls, engine, MAX_GROUNDINGS).await?;
     let values: Vec<Value> = solutions
         .iter_list()
         .filter_map(|bindings| {

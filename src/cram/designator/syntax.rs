@@ -20,9 +20,9 @@ use lisp::value::symbol::{Sym, VariableKind};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Maximum depth of nested values.
-const MOST_NESTED: usize = 200;
+const MAX_NESTED: usize = 200;
 /// Maximum length of a chain of globals whose values name further globals.
-const LONGEST_CHAIN: usize = 32;
+const MAX_CHAIN_LENGTH: usize = 32;
 
 /// Macros of package `CRAM-DESIGNATORS`.
 pub(crate) static OPERATORS: &[Operator] = &[
@@ -250,7 +250,7 @@ fn keyword_of(image: &mut Image, sym: Sym) -> Sym {
 
 /// Code for a value.
 fn value_code(image: &mut Image, value: &Value, depth: usize) -> Result<Value> {
-    if depth > MOST_NESTED {
+    if depth > MAX_NESTED {
         return Err(Raise::program("A designator is nested too deeply."));
     }
     match value {
@@ -303,7 +303,7 @@ fn symbol_code(image: &mut Image, sym: Sym) -> Value {
         return sym.into();
     }
     let mut sym = sym;
-    for _ in 0..LONGEST_CHAIN {
+    for _ in 0..MAX_CHAIN_LENGTH {
         let data = image.symbol(sym);
         if data.value.is_unbound() || sym == known::NIL || sym == known::T {
             break;

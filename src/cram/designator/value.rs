@@ -299,13 +299,13 @@ thread_local! {
 
 /// Maximum depth of nested designators that are printed with their properties, so that printing one
 /// that contains itself ends.
-const MOST_LEVELS: usize = 32;
+const MAX_LEVELS: usize = 32;
 
 impl Level {
     fn enter() -> Option<Level> {
         LEVELS.with(|levels| {
             let level = levels.get();
-            (level < MOST_LEVELS).then(|| {
+            (level < MAX_LEVELS).then(|| {
                 levels.set(level + 1);
                 Level
             })

@@ -12,7 +12,7 @@ use lisp::value::symbol::Sym;
 use spatial;
 
 /// Quaternions shorter than this stand for no rotation.
-const SHORTEST_QUATERNION: f64 = 1e-9;
+const MIN_QUATERNION: f64 = 1e-9;
 
 /// A position or direction (m).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -30,7 +30,7 @@ impl Quaternion {
     pub fn is_rotation(&self) -> bool {
         let [x, y, z, w] = self.0;
         let norm = Hamilton::new(w, x, y, z).norm();
-        norm.is_finite() && norm > SHORTEST_QUATERNION
+        norm.is_finite() && norm > MIN_QUATERNION
     }
 
     /// As a rotation; a quaternion that is too short is no rotation.

@@ -23,9 +23,9 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// Steps between checks of the interrupt flag.
 const INTERRUPT_INTERVAL: u32 = 1024;
 /// Maximum number of open choice points.
-const MOST_CHOICES: usize = 200_000;
+const MAX_CHOICES: usize = 200_000;
 /// Maximum number of goals that are still to be proved.
-const MOST_GOALS: usize = 1_000_000;
+const MAX_GOALS: usize = 1_000_000;
 
 /// What to do with the value of a call.
 pub(super) enum Awaited {
@@ -224,12 +224,12 @@ impl Engine {
             if !holds && !self.backtrack(image)? {
                 return Ok(Progress::Failed);
             }
-            if self.choices.len() > MOST_CHOICES {
+            if self.choices.len() > MAX_CHOICES {
                 return Err(Raise::simple(
                     "A Prolog goal has too many open choices: does a rule prove itself?",
                 ));
             }
-            if self.goals.as_ref().is_some_and(|g| g.count > MOST_GOALS) {
+            if self.goals.as_ref().is_some_and(|g| g.count > MAX_GOALS) {
                 return Err(Raise::simple(
                     "A Prolog goal needs more and more goals to be proved: does a rule prove itself?",
                 ));

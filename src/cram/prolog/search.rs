@@ -18,7 +18,7 @@ use lisp::vm::machine::Machine;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Maximum number of proofs that are found before they are asked for.
-const MOST_AHEAD: usize = 1000;
+const MAX_AHEAD: usize = 1000;
 
 /// A search.
 pub(crate) struct Search {
@@ -162,7 +162,7 @@ impl Computation for NextProofs {
                     if !engine.has_choices() {
                         return Ok(self.done(search, false));
                     }
-                    if self.found.len() >= MOST_AHEAD {
+                    if self.found.len() >= MAX_AHEAD {
                         return Ok(self.done(search, true));
                     }
                 }

@@ -12,7 +12,7 @@ use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
 /// Maximum depth of nested terms.
-const MOST_NESTED: usize = 500;
+const MAX_NESTED: usize = 500;
 
 /// A variable of a proof.
 pub(crate) struct Variable {
@@ -120,7 +120,7 @@ impl Bindings {
         naming: &mut Naming,
         depth: usize,
     ) -> Result<Value, Box<Raise>> {
-        if depth > MOST_NESTED {
+        if depth > MAX_NESTED {
             return Err(too_deep());
         }
         match term {
@@ -166,7 +166,7 @@ impl Bindings {
     }
 
     fn resolve_at(&self, term: &Value, depth: usize) -> Result<Value, Box<Raise>> {
-        if depth > MOST_NESTED {
+        if depth > MAX_NESTED {
             return Err(too_deep());
         }
         let term = self.walk(term);

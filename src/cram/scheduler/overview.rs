@@ -83,7 +83,7 @@ impl<C: 'static> Scheduler<C> {
 
     /// Records a task that has ended.
     pub(super) fn note_ended(&mut self, info: TaskInfo) {
-        if self.ended.len() < MOST_ENDED {
+        if self.ended.len() < MAX_ENDED {
             self.ended.push(info);
         }
     }
@@ -118,7 +118,7 @@ impl<C: 'static> Scheduler<C> {
 }
 
 /// Maximum number of ended tasks that are remembered.
-const MOST_ENDED: usize = 200;
+const MAX_ENDED: usize = 200;
 
 fn line(image: &Image, task: &TaskInfo, depth: usize) -> String {
     let status = format!("{:?}", task.status).to_lowercase();

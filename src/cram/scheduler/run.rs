@@ -13,7 +13,7 @@ use lisp::vm::fiber::Fiber;
 use lisp::vm::machine::{Event, Machine};
 
 /// How many times cleanup code may escape from unwinding.
-const MOST_ESCAPES: u32 = 16;
+const MAX_ESCAPES: u32 = 16;
 
 /// Why an entry stopped running.
 #[derive(PartialEq, Eq, Debug)]
@@ -163,7 +163,7 @@ impl<C: 'static> Scheduler<C> {
     fn may_escape(&mut self, slot: Slot) -> bool {
         self.live_mut(slot).is_some_and(|live| {
             live.escapes += 1;
-            live.escapes <= MOST_ESCAPES
+            live.escapes <= MAX_ESCAPES
         })
     }
 

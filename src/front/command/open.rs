@@ -52,8 +52,8 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         ..SessionOptions::default()
     };
     set_stack_budget(COMPILER_STACK);
-    let mut session = Session::new(&session_options)
-        .map_err(|error| CommandError::Open(error.to_string()))?;
+    let mut session =
+        Session::new(&session_options).map_err(|error| CommandError::Open(error.to_string()))?;
     for file in &options.setup {
         let set_up = session.run_file(file);
         set_up.map_err(|failure| CommandError::Open(format!("{}: {failure}", file.display())))?;

@@ -112,15 +112,15 @@ pub(crate) enum LogLevel {
 /// A real time (s) that something may take.
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(seconds) if (0.001..=MOST_SECONDS).contains(&seconds) => Ok(seconds),
+        Ok(seconds) if (0.001..=MAX_SECONDS).contains(&seconds) => Ok(seconds),
         _ => Err(format!(
-            "expected a time in seconds, from 0.001 to {MOST_SECONDS}"
+            "expected a time in seconds, from 0.001 to {MAX_SECONDS}"
         )),
     }
 }
 
 /// Ten years.
-const MOST_SECONDS: f64 = 3.2e8;
+const MAX_SECONDS: f64 = 3.2e8;
 
 fn positive_factor(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

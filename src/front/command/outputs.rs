@@ -16,7 +16,7 @@ pub(super) struct Outputs {
 }
 
 /// How many links are followed to a file that does not exist yet.
-const MOST_LINKS: usize = 32;
+const MAX_LINKS: usize = 32;
 
 impl Outputs {
     /// A command reads these files.
@@ -117,7 +117,7 @@ fn is_same_file(_: &Metadata, _: &Metadata, one: &Path, other: &Path) -> bool {
 /// Where a file would be made: links to files that do not exist are followed.
 fn followed(path: &Path) -> PathBuf {
     let mut at = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         let Ok(target) = fs::read_link(&at) else {
             break;
         };

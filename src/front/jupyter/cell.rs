@@ -18,10 +18,10 @@ use session::dialogue::prompt_line::prompt_line;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop, Table};
 
-/// Least time between two lines of progress.
+/// Minimum time between two lines of progress.
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(250);
 /// How many frames an error shows.
-const MOST_FRAMES: usize = 12;
+const MAX_FRAMES: usize = 12;
 /// The last line of an error at which a plan stands still.
 const REMARK: &str = "; The plan stands still: the next cell answers. A number goes on with that restart, q abandons\n; the plan, :help tells the rest; other forms are evaluated where it stands.";
 
@@ -230,7 +230,7 @@ impl Cell<'_> {
         let abort = stop.abort.clone();
         let mut text = self.on_screen(true, &Event::Stopped(Box::new(stop)));
         text.push_str("Frames:\n");
-        text.push_str(&session.backtrace(MOST_FRAMES));
+        text.push_str(&session.backtrace(MAX_FRAMES));
         text.push_str(REMARK);
         shown.failure = Some(Failure::new(&abort, &text));
         outcome

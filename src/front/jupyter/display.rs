@@ -10,8 +10,8 @@ use session::dialogue::{Swept, Table};
 use view::picture::Image;
 use view::watch::base64;
 
-/// Most failing worlds in the table of a sweep.
-const MOST_LISTED: usize = 50;
+/// Maximum number of failing worlds in the table of a sweep.
+const MAX_LISTED: usize = 50;
 
 /// What shows a picture: its PNG, and a text for those who cannot show that.
 pub(crate) fn of_picture(picture: &Image) -> io::Result<Value> {
@@ -41,7 +41,7 @@ pub(crate) fn of_values(values: &Yielded) -> Value {
 /// What shows a sweep: a table, and where there are two numbers, a picture of where the plan works.
 pub(crate) fn of_sweep(swept: &Swept) -> Vec<Value> {
     let Swept { title, records } = swept;
-    let html = fragment(title, records, MOST_LISTED);
+    let html = fragment(title, records, MAX_LISTED);
     let text = format!("[table, {} worlds]", records.len());
     let table = json!({
         "data": {"text/html": html, "text/plain": text},

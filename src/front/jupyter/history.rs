@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use serde_json::{Value, json};
 
-/// Greatest number of inputs and of their bytes that are kept; the oldest are forgotten.
-const MOST_INPUTS: usize = 10_000;
-const MOST_BYTES: usize = 16 << 20;
+/// Maximum number of inputs and of their bytes that are kept; the oldest are forgotten.
+const MAX_INPUTS: usize = 10_000;
+const MAX_BYTES: usize = 16 << 20;
 
 /// The number by which this session goes; earlier ones are not known.
 const SESSION: i64 = 1;
@@ -40,7 +40,7 @@ impl History {
         };
         self.bytes += input.bytes();
         self.inputs.push_back(input);
-        while self.inputs.len() > MOST_INPUTS || self.bytes > MOST_BYTES {
+        while self.inputs.len() > MAX_INPUTS || self.bytes > MAX_BYTES {
             let Some(oldest) = self.inputs.pop_front() else {
                 return;
             };
@@ -162,10 +162,10 @@ mod tests {
     #[test]
     fn the_oldest_inputs_are_forgotten() {
         let mut history = History::default();
-        let large = "x".repeat(MOST_BYTES / 2);
+        let large = "x".repeat(MAX_BYTES / 2);
         (1..=3).for_each(|line| history.add(line, &large, None));
         assert_eq!(history.inputs.len(), 2);
-        assert_eq!(history.bytes, MOST_BYTES);
+        assert_eq!(history.bytes, MAX_BYTES);
     }
 
     #[test]

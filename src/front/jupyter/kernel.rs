@@ -27,7 +27,7 @@ use super::zmtp::{Kind, PeerNumber, Socket};
 use session::dialogue::Illustrate;
 
 /// How many requests may wait; whoever sends more waits.
-const MOST_WAITING: usize = 1024;
+const MAX_WAITING: usize = 1024;
 /// How long the ports of a kernel that is just ending may be in use.
 const PORTS_FREE: Duration = Duration::from_secs(3);
 /// How often the kernel looks whether it is to end.
@@ -81,8 +81,8 @@ impl Kernel {
         settings: Settings,
     ) -> Result<Kernel, KernelError> {
         let author = Arc::new(Author::new(Signer::new(connection.key())));
-        let (to_shell, requests) = mpsc::sync_channel(MOST_WAITING);
-        let (to_questions, replies) = mpsc::sync_channel(MOST_WAITING);
+        let (to_shell, requests) = mpsc::sync_channel(MAX_WAITING);
+        let (to_questions, replies) = mpsc::sync_channel(MAX_WAITING);
 
         let welcoming = Arc::clone(&author);
         let iopub = bind(connection, connection.iopub_port, Kind::Publisher, {

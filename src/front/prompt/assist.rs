@@ -59,7 +59,7 @@ impl Assist {
     /// The hint behind a text, of which so many bytes are before the cursor.
     fn hint_text(&self, line: &str, pos: usize) -> Option<String> {
         let rest = line.get(pos..)?;
-        if line.len() > LONGEST_HINTED || !rest.bytes().all(|b| b == b')') {
+        if line.len() > MAX_HINTED_LENGTH || !rest.bytes().all(|b| b == b')') {
             return None;
         }
         let shape = {
@@ -80,7 +80,7 @@ impl Assist {
 impl Helper for Assist {}
 
 /// Longer inputs get no hint: it would be too far from the cursor.
-const LONGEST_HINTED: usize = 4000;
+const MAX_HINTED_LENGTH: usize = 4000;
 
 impl Hinter for Assist {
     type Hint = Shape;
@@ -144,8 +144,8 @@ impl Candidate for Documented {
     }
 }
 
-/// Greatest width of the column of names in the list of candidates.
-const MOST_NAME_WIDTH: usize = 30;
+/// Maximum width of the column of names in the list of candidates.
+const MAX_NAME_WIDTH: usize = 30;
 
 impl Completer for Assist {
     type Candidate = Documented;
@@ -165,7 +165,7 @@ impl Completer for Assist {
         let is_at_end = line.get(pos..).is_none_or(str::is_empty);
         self.menu.opens(texts, typed, self.colored && !is_at_end);
         let widths = found.candidates.iter().map(|c| c.text.chars().count());
-        let width = widths.max().unwrap_or(0).min(MOST_NAME_WIDTH);
+        let width = widths.max().unwrap_or(0).min(MAX_NAME_WIDTH);
         let candidates = found.candidates.into_iter();
         let candidates = candidates.map(|c| Documented::new(c.text, &c.doc, width));
         Ok((found.start, candidates.collect()))

@@ -146,6 +146,11 @@ impl LineEditor {
         for (event, command) in [
             (with(KeyCode::Up, Modifiers::CTRL), Cmd::PreviousHistory),
             (with(KeyCode::Down, Modifiers::CTRL), Cmd::NextHistory),
+            // Terminals send the same for Alt-Backspace and Ctrl-Alt-Backspace.
+            (
+                with(KeyCode::Backspace, Modifiers::ALT),
+                Cmd::Kill(Movement::WholeBuffer),
+            ),
             (
                 with(KeyCode::Backspace, Modifiers::ALT | Modifiers::CTRL),
                 Cmd::Kill(Movement::WholeBuffer),

@@ -191,17 +191,17 @@ fn evaluate_again(
 
 /// The first lines of an input, to be shown.
 pub(crate) fn excerpt(text: &str) -> String {
-    const MOST_LINES: usize = 8;
-    const LONGEST_LINE: usize = 100;
+    const MAX_LINES: usize = 8;
+    const MAX_LINE_LENGTH: usize = 100;
     let mut lines: Vec<String> = text
         .lines()
-        .take(MOST_LINES)
-        .map(|line| match line.char_indices().nth(LONGEST_LINE) {
+        .take(MAX_LINES)
+        .map(|line| match line.char_indices().nth(MAX_LINE_LENGTH) {
             Some((end, _)) => format!(";   {} …", line.get(..end).unwrap_or(line)),
             None => format!(";   {line}"),
         })
         .collect();
-    if text.lines().count() > MOST_LINES {
+    if text.lines().count() > MAX_LINES {
         lines.push(";   …".to_owned());
     }
     lines.join("\n")

@@ -11,7 +11,7 @@ use super::sexp::Sexp;
 use session::dialogue::Finding;
 
 /// Lines and columns up to which a text is shifted to where it stands in its buffer.
-const MOST_SHIFT: usize = 1_000_000;
+const MAX_SHIFT: usize = 1_000_000;
 
 /// A form that loads a file as if it were compiled first: what it evaluates only then is
 /// evaluated, too.
@@ -105,7 +105,7 @@ fn shift(places: Option<&Sexp>) -> String {
         .find(|place| place.item(0).and_then(Sexp::as_name) == Some(":line"));
     let number = |at: usize| {
         let number = line.and_then(|line| line.item(at)).and_then(Sexp::as_index);
-        number.unwrap_or(1).saturating_sub(1).min(MOST_SHIFT)
+        number.unwrap_or(1).saturating_sub(1).min(MAX_SHIFT)
     };
     "\n".repeat(number(1)) + &" ".repeat(number(2))
 }
@@ -120,6 +120,6 @@ mod tests {
         assert_eq!(place("((:position 60) (:line 3 4))"), "\n\n   ");
         assert_eq!(place("((:position 60))"), "");
         assert_eq!(place("nil"), "");
-        assert_eq!(place("((:line 99999999999 1))").len(), MOST_SHIFT);
+        assert_eq!(place("((:line 99999999999 1))").len(), MAX_SHIFT);
     }
 }

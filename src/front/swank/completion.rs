@@ -10,7 +10,7 @@ use session::dialogue::{KnownSymbol, Names, parameters};
 /// Maximum number of completions.
 const MOST: usize = 500;
 /// Maximum number of fuzzy completions, unless the client says less.
-const MOST_FUZZY: usize = 300;
+const MAX_FUZZY: usize = 300;
 
 /// A possible completion.
 struct Candidate<'n> {
@@ -263,7 +263,7 @@ pub(super) fn fuzzy_completions(
         rest.find(|item| item.as_name() == Some(name))?;
         rest.next()?.as_index()
     };
-    let limit = keyword(":limit").unwrap_or(MOST_FUZZY).min(MOST_FUZZY);
+    let limit = keyword(":limit").unwrap_or(MAX_FUZZY).min(MAX_FUZZY);
     let typed = Typed::of(text);
     let wanted = typed.name.to_lowercase();
     let before = typed.prefix.chars().count();

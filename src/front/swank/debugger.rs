@@ -14,7 +14,7 @@ use session::dialogue::{Need, StackFrame, Stop};
 /// Number of frames that are shown at first.
 const FIRST_FRAMES: usize = 20;
 /// Number of frames in one answer.
-const MOST_FRAMES: usize = 500;
+const MAX_FRAMES: usize = 500;
 /// A choice for whose value a client has been asked.
 pub(super) struct Asked {
     /// The request by which it was chosen.
@@ -280,7 +280,7 @@ impl Engine<'_> {
     pub(super) fn backtrace(&mut self, request: &Request) {
         let from = request.argument(0).and_then(Sexp::as_index).unwrap_or(0);
         let to = request.argument(1).and_then(Sexp::as_index);
-        let count = to.map_or(MOST_FRAMES, |to| to.saturating_sub(from).min(MOST_FRAMES));
+        let count = to.map_or(MAX_FRAMES, |to| to.saturating_sub(from).min(MAX_FRAMES));
         let frames = self.session.stack();
         let frames = frames.iter().enumerate().skip(from).take(count);
         request.ok(Sexp::list(frames.map(|(number, told)| frame(number, told))));

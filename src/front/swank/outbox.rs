@@ -17,9 +17,9 @@ use super::sexp::Sexp;
 /// How long output is collected.
 const COLLECTING: Duration = Duration::from_millis(40);
 /// Bytes that may wait before output has to wait, too.
-const MOST_WAITING: usize = 256 << 10;
+const MAX_WAITING: usize = 256 << 10;
 /// Bytes of output in one message.
-const MOST_TOGETHER: usize = 32 << 10;
+const MAX_TOGETHER: usize = 32 << 10;
 /// How long a client may read nothing at all while something waits for it.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// How often somebody who waits for room looks whether that is still worthwhile.
@@ -79,7 +79,7 @@ impl Outbox {
     /// to be interrupted; then the output is left out.
     pub(super) fn write(&self, text: &str, interrupt: &AtomicBool) {
         let mut state = self.lock();
-        while state.bytes + state.text.len() > MOST_WAITING {
+        while state.bytes + state.text.len() > MAX_WAITING {
             if state.is_closed || interrupt.load(Ordering::Relaxed) {
                 return;
             }
@@ -91,7 +91,7 @@ impl Outbox {
         }
         state.since.get_or_insert_with(Instant::now);
         state.text.push_str(text);
-        if state.text.len() > MOST_TOGETHER {
+        if state.text.len() > MAX_TOGETHER {
             state.text_to_message();
         }
         self.changed.notify_all();

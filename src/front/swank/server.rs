@@ -18,7 +18,7 @@ use super::version::Version;
 use session::dialogue::Serve;
 
 /// Maximum number of connections at a time.
-const MOST_CONNECTIONS: usize = 32;
+const MAX_CONNECTIONS: usize = 32;
 /// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 2 << 20;
 
@@ -138,7 +138,7 @@ fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
             thread::sleep(Duration::from_millis(50));
             continue;
         };
-        if connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+        if connections.fetch_add(1, Ordering::Relaxed) >= MAX_CONNECTIONS {
             connections.fetch_sub(1, Ordering::Relaxed);
             continue;
         }

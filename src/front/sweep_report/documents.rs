@@ -4,8 +4,8 @@ use sweep::Record;
 use sweep::influence::Influence;
 use sweep::summary::{Summary, Title};
 
-/// Most failing worlds that the page lists.
-const MOST_LISTED: usize = 500;
+/// Maximum number of failing worlds that the page lists.
+const MAX_LISTED: usize = 500;
 
 /// The records as a table: a row for each world, a column for each draw, expectation and measure.
 pub(crate) fn csv(records: &[Record]) -> String {
@@ -176,7 +176,7 @@ pub(crate) fn html(title: &Title, records: &[Record]) -> String {
         escaped(&summary.to_string()),
         escaped(&Influence::of(records).to_string()),
     );
-    text.push_str(&table(records, MOST_LISTED));
+    text.push_str(&table(records, MAX_LISTED));
     text + "</body></html>\n"
 }
 

@@ -31,7 +31,7 @@ impl Row {
 
 /// Beyond this many pairs of lines, wildcards are taken literally: such outputs differ so
 /// much that the best alignment does not matter.
-const MOST_PAIRS: usize = 4_000_000;
+const MAX_PAIRS: usize = 4_000_000;
 
 /// Aligns the columns with the fewest differences.
 pub(crate) fn align(expected: &[String], actual: &[String]) -> Vec<Row> {
@@ -51,7 +51,7 @@ pub(crate) fn align(expected: &[String], actual: &[String]) -> Vec<Row> {
     rows.same(head);
     let has_wildcards = e_middle.iter().any(|line| line.contains(".."));
     let pairs = (e_middle.len() + 1).saturating_mul(a_middle.len() + 1);
-    if has_wildcards && pairs <= MOST_PAIRS {
+    if has_wildcards && pairs <= MAX_PAIRS {
         Costs::of(e_middle, a_middle).walk(&mut rows);
     } else {
         for op in capture_diff_slices(Algorithm::Myers, e_middle, a_middle) {

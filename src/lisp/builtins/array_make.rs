@@ -8,7 +8,7 @@ use super::arrays::{element_type, total_size};
 use super::lists::size;
 use super::settled_types;
 use crate::builtin::Builtin;
-use crate::guard::{MOST_ELEMENTS, reserve};
+use crate::guard::{MAX_ELEMENTS, reserve};
 use crate::image::Image;
 use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
@@ -156,7 +156,7 @@ pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let total = shape
         .iter()
         .try_fold(1_usize, |total, size| total.checked_mul(*size));
-    if total.is_none_or(|total| total > MOST_ELEMENTS) {
+    if total.is_none_or(|total| total > MAX_ELEMENTS) {
         return Err(Raise::new(
             known::HEAP_EXHAUSTED_ERROR,
             "An array of that size does not fit in memory.",

@@ -2,7 +2,7 @@
 
 use super::array_make::MAX_RANK;
 use crate::builtin::Builtin;
-use crate::guard::MOST_ELEMENTS;
+use crate::guard::MAX_ELEMENTS;
 use crate::image::Image;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
@@ -29,7 +29,7 @@ fn lisp_implementation_version() -> Result<Value, Box<Raise>> {
 
 /// Defines the constants that tell limits, and what lambda lists may contain.
 pub(crate) fn define_constants(image: &mut Image) {
-    let most_elements = i64::try_from(MOST_ELEMENTS).unwrap_or(i64::MAX);
+    let most_elements = i64::try_from(MAX_ELEMENTS).unwrap_or(i64::MAX);
     for (name, value) in [
         ("CHAR-CODE-LIMIT", i64::from(u32::from(char::MAX)) + 1),
         ("ARRAY-DIMENSION-LIMIT", most_elements + 1),

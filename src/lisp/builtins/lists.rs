@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::builtin::Builtin;
-use crate::guard::{MOST_ELEMENTS, Pace, reserve};
+use crate::guard::{MAX_ELEMENTS, Pace, reserve};
 use crate::image::Image;
 use crate::typed::FromValue;
 use crate::typed::{self, builtin, builtins};
@@ -61,7 +61,7 @@ impl FromValue<'_> for Size {
 /// A value as a number of elements that fits in memory.
 pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
-    if size > MOST_ELEMENTS {
+    if size > MAX_ELEMENTS {
         return Err(Raise::new(
             known::HEAP_EXHAUSTED_ERROR,
             format!("{size} elements do not fit in memory."),
@@ -170,7 +170,7 @@ fn copy_list(list: &Value) -> Outcome {
 }
 
 /// The number of pairs beyond which a tree is assumed to be circular.
-const MOST_PAIRS: usize = 10_000_000;
+const MAX_PAIRS: usize = 10_000_000;
 
 /// Counts the pairs of a tree during a walk.
 #[derive(Default)]
@@ -181,10 +181,10 @@ impl PairCount {
     fn add_one(&mut self) -> Result<(), Box<Raise>> {
         self.1.step();
         self.0 += 1;
-        if self.0 <= MOST_PAIRS {
+        if self.0 <= MAX_PAIRS {
             return Ok(());
         }
-        let text = format!("The tree has more than {MOST_PAIRS} pairs; it must be circular.");
+        let text = format!("The tree has more than {MAX_PAIRS} pairs; it must be circular.");
         Err(Raise::simple(text))
     }
 }

@@ -93,7 +93,7 @@ fn untestable(specifier: &Value) -> Option<Value> {
         .as_symbol()
         .is_some_and(|name| COMBINATIONS.contains(&name))
     {
-        let mut parts = specifier.iter_list().skip(1).take(MOST_PARTS);
+        let mut parts = specifier.iter_list().skip(1).take(MAX_PARTS);
         parts.find(is_for_declarations)
     } else {
         is_for_declarations(specifier).then(|| specifier.clone())
@@ -101,7 +101,7 @@ fn untestable(specifier: &Value) -> Option<Value> {
 }
 
 /// A list of parts may have no end.
-const MOST_PARTS: usize = 1000;
+const MAX_PARTS: usize = 1000;
 
 const COMBINATIONS: [Sym; 3] = [known::AND, known::OR, known::NOT];
 

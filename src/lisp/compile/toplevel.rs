@@ -30,7 +30,9 @@ impl Parts {
             let rest = form.cdr_or_nil();
             let parts = match form.car_or_nil().as_symbol() {
                 Some(known::PROGN) => rest,
-                Some(known::EVAL_WHEN) if is_executed(image, &rest.car_or_nil()) => rest.cdr_or_nil(),
+                Some(known::EVAL_WHEN) if is_executed(image, &rest.car_or_nil()) => {
+                    rest.cdr_or_nil()
+                }
                 _ => return super::compile_form(image, &form).map(Some),
             };
             let parts: Vec<Value> = parts.iter_list().collect();

@@ -12,7 +12,7 @@ use crate::vm::fiber::Fiber;
 use crate::vm::frames::{Frame, FrameKind};
 
 /// Frames that are shown at either end of the stack.
-const MOST_AT_AN_END: usize = 5_000;
+const MAX_AT_AN_END: usize = 5_000;
 
 /// A stack frame as the user sees it.
 pub struct FrameView {
@@ -85,10 +85,10 @@ impl VariablePlace {
 impl Fiber {
     /// The frames, innermost first; of very many, those at both ends.
     pub fn views(&self) -> Vec<FrameView> {
-        let inner = self.frames.len().saturating_sub(MOST_AT_AN_END);
+        let inner = self.frames.len().saturating_sub(MAX_AT_AN_END);
         let frames = self.frames.iter().enumerate().rev();
         frames
-            .filter(|(index, _)| *index < MOST_AT_AN_END || *index >= inner)
+            .filter(|(index, _)| *index < MAX_AT_AN_END || *index >= inner)
             .map(|(index, frame)| self.view(index, frame))
             .collect()
     }

@@ -19,7 +19,7 @@ use crate::vm::frames::{Frame, FrameKind};
 use crate::vm::machine::Machine;
 
 /// The most calls that may be open at once.
-pub(super) const MOST_FRAMES: usize = 1_000_000;
+pub(super) const MAX_FRAMES: usize = 1_000_000;
 /// Calls allowed beyond that limit for the handlers of the error that it causes.
 const SPARE_FRAMES: usize = 10_000;
 
@@ -88,7 +88,7 @@ impl Machine<'_> {
         multi: bool,
     ) -> Result<(), Box<Raise>> {
         let depth = self.fiber.frames.len();
-        if depth >= MOST_FRAMES {
+        if depth >= MAX_FRAMES {
             self.check_depth(depth)?;
         }
         match code.exact_count {
@@ -109,14 +109,14 @@ impl Machine<'_> {
             .dynamic
             .iter()
             .any(|d| matches!(d, Dynamic::HandlerMask { .. } | Dynamic::Unwind { .. }));
-        let limit = MOST_FRAMES + if handling { SPARE_FRAMES } else { 0 };
+        let limit = MAX_FRAMES + if handling { SPARE_FRAMES } else { 0 };
         if frames < limit {
             return Ok(());
         }
         Err(Raise::new(
             known::CONTROL_STACK_EXHAUSTED,
             format!(
-                "Control stack exhausted: {MOST_FRAMES} calls are open. Is there a recursion that never ends?"
+                "Control stack exhausted: {MAX_FRAMES} calls are open. Is there a recursion that never ends?"
             ),
         ))
     }

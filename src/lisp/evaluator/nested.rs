@@ -10,7 +10,7 @@ use crate::vm::fiber::Fiber;
 use crate::vm::machine::{Event, Machine};
 
 /// The deepest nesting of macro function runs.
-const MOST_NESTED: usize = 64;
+const MAX_NESTED: usize = 64;
 
 /// Calls a function and runs it to completion; returns the primary value.
 pub fn call_nested(
@@ -31,7 +31,7 @@ pub(crate) fn call_nested_values(
 }
 
 fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Value, Box<Raise>> {
-    if image.nesting >= MOST_NESTED {
+    if image.nesting >= MAX_NESTED {
         return Err(Raise::new(
             known::CONTROL_STACK_EXHAUSTED,
             "Macro expansion is nested too deeply. Does a macro expand into itself?",

@@ -7,12 +7,12 @@ use crate::vm::frames::FrameKind;
 use crate::vm::machine::Machine;
 
 /// The most frames that are examined.
-const MOST_FRAMES: usize = 256;
+const MAX_FRAMES: usize = 256;
 
 impl Machine<'_> {
     /// The open calls that can be shown to the user, innermost first.
     pub(super) fn calls(&self) -> Vec<OpenCall> {
-        let frames = self.fiber.frames.iter().rev().take(MOST_FRAMES);
+        let frames = self.fiber.frames.iter().rev().take(MAX_FRAMES);
         frames
             .filter_map(|frame| match &frame.kind {
                 FrameKind::Code { function, pc } => match &function.body {

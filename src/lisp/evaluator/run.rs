@@ -10,7 +10,7 @@
 
 use std::rc::Rc;
 
-use super::calling::MOST_FRAMES;
+use super::calling::MAX_FRAMES;
 use super::dynamic::{bind, undo};
 use super::entry::{INTERRUPT_INTERVAL, Next};
 use super::exits::{enter_block, enter_catch, enter_tagbody, enter_unwind};
@@ -341,7 +341,7 @@ impl Machine<'_> {
                             if let Value::Function(called) = &window.slots[start - 1]
                                 && let Body::Closure { code, .. } = &called.body
                                 && code.exact_count == Some(count)
-                                && fiber.frames.len() < MOST_FRAMES
+                                && fiber.frames.len() < MAX_FRAMES
                             {
                                 enter!(called, usize::from(count), 1, multi);
                             }
@@ -561,7 +561,7 @@ impl Machine<'_> {
                 };
                 let pure = match &called.body {
                     Body::Closure { code, .. }
-                        if code.exact_count == Some(count) && fiber.frames.len() < MOST_FRAMES =>
+                        if code.exact_count == Some(count) && fiber.frames.len() < MAX_FRAMES =>
                     {
                         enter!(called, usize::from(count), 0, multi)
                     }

@@ -23,7 +23,7 @@ pub struct HeapLimit {
 }
 
 /// What part of the limit has to be free after a collection.
-const LEAST_ROOM: usize = 32;
+const MIN_ROOM: usize = 32;
 
 /// By what part of the limit it is put up once it has been reached: for handlers, and for people
 /// who look around and let go of what they do not need. It is put up only once.
@@ -62,7 +62,7 @@ impl Heap {
     /// Is so much free that it is worth going on? A collection for each few bytes would take most of the
     /// time.
     pub(crate) fn has_room(&self) -> bool {
-        let least = self.limit.get().map_or(0, |limit| limit.bytes / LEAST_ROOM);
+        let least = self.limit.get().map_or(0, |limit| limit.bytes / MIN_ROOM);
         !self.lacks_room_for(least)
     }
 
@@ -100,14 +100,14 @@ impl Heap {
 
 /// The most elements that a sequence may have, so that nothing that is done with a sequence takes
 /// longer than people wait for Ctrl-C.
-pub const MOST_ELEMENTS: usize = 1 << 25;
+pub const MAX_ELEMENTS: usize = 1 << 25;
 
 /// Bytes from which on an allocation is worth a look: to fill them takes longer than that.
 const LARGE: usize = 1 << 16;
 
 /// Leaves the calling function by unwinding if a sequence may not have so many elements.
 pub(crate) fn permit_length(elements: usize) {
-    if elements > MOST_ELEMENTS && CURRENT.with_borrow(Option::is_some) {
+    if elements > MAX_ELEMENTS && CURRENT.with_borrow(Option::is_some) {
         leave(Stopped::TooLong);
     }
 }

@@ -17,7 +17,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
-pub use heap::{Heap, MOST_ELEMENTS};
+pub use heap::{Heap, MAX_ELEMENTS};
 pub(crate) use heap::{permit_length, reserve};
 use polls::Polls;
 
@@ -46,7 +46,7 @@ pub enum Stopped {
     Interrupted,
     /// More memory is in use than may be.
     HeapExhausted,
-    /// A sequence would have more than [`MOST_ELEMENTS`].
+    /// A sequence would have more than [`MAX_ELEMENTS`].
     TooLong,
 }
 

@@ -12,7 +12,7 @@ use crate::value::Value;
 const REMEMBERED: usize = 64;
 
 /// The most calls that are remembered for one condition.
-const MOST_CALLS: usize = 512;
+const MAX_CALLS: usize = 512;
 
 /// The calls in which the most recent conditions were signalled.
 #[derive(Default)]
@@ -89,7 +89,7 @@ impl Image {
         if let Some(inner) = self.signalled.calls(condition) {
             let mut inner = inner.borrow_mut();
             inner.extend(calls);
-            inner.truncate(MOST_CALLS);
+            inner.truncate(MAX_CALLS);
         }
     }
 

@@ -20,7 +20,7 @@ struct Block {
 }
 
 /// The most blanks of one tab.
-const MOST_BLANKS: usize = 10_000;
+const MAX_BLANKS: usize = 10_000;
 
 struct Layout<'d> {
     document: &'d Document,
@@ -179,7 +179,7 @@ impl Layout<'_> {
     fn blanks(&self, tab: Tab, column: usize, section_column: usize) -> usize {
         let origin = if tab.by_section { section_column } else { 0 };
         // No line is longer than what fits into it but for its last word.
-        tab.blanks(column.saturating_sub(origin)).min(MOST_BLANKS)
+        tab.blanks(column.saturating_sub(origin)).min(MAX_BLANKS)
     }
 
     /// How much longer the text from an instruction to a position gets by its tabs.

@@ -19,7 +19,7 @@ use crate::value::number;
 /// Longest vector that `#n(` fills up.
 const MAX_FILL: usize = 1 << 24;
 
-/// Most dimensions of an array.
+/// Maximum number of dimensions of an array.
 const MAX_RANK: u32 = 128;
 
 /// A string from the text between its quotation marks.

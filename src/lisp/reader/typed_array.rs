@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::error::ReadErrorKind;
 use super::literal::elements;
-use crate::guard::MOST_ELEMENTS;
+use crate::guard::MAX_ELEMENTS;
 use crate::value::Value;
 use crate::value::array::{Array, Vector};
 use crate::value::element_type::ElementType;
@@ -49,7 +49,7 @@ fn dimensions(list: &Value) -> Result<Vec<usize>, ReadErrorKind> {
     };
     let sizes = list.list_to_vec().ok_or_else(bad)?;
     let size = |value: &Value| match value {
-        Value::Int(n) => usize::try_from(*n).ok().filter(|n| *n <= MOST_ELEMENTS),
+        Value::Int(n) => usize::try_from(*n).ok().filter(|n| *n <= MAX_ELEMENTS),
         _ => None,
     };
     sizes

@@ -80,7 +80,7 @@ const LEFT_OUT: &[&str] = &[
 ];
 
 /// A call ends at this look at the interrupt flag at the latest.
-const MOST_POLLS: u64 = 1000;
+const MAX_POLLS: u64 = 1000;
 
 /// A small generator of numbers: the same ones on every run.
 struct Numbers(u64);
@@ -104,7 +104,7 @@ fn evaluate(image: &mut Image, text: &str) {
     };
     for (form, _) in forms {
         // Some functions of the library would count to a number that nobody lives to see.
-        image.polls().begin(Some(MOST_POLLS));
+        image.polls().begin(Some(MAX_POLLS));
         let mut fiber = Fiber::default();
         Machine::new(image, &mut fiber).start(known::EVAL.into(), vec![form]);
         Machine::new(image, &mut fiber).unwind_all();

@@ -14,7 +14,7 @@ use crate::value::known;
 use Verdict::{No, Unknown, Yes};
 
 /// The most intersections that are examined.
-const MOST_PARTS: usize = 256;
+const MAX_PARTS: usize = 256;
 /// Integer ranges of at most so many numbers are examined number by number.
 const SMALL_RANGE: i64 = 1000;
 
@@ -72,7 +72,7 @@ fn intersections(of: &Type, is_within: bool) -> Option<Vec<Intersection>> {
             let mut product = everything();
             for part in parts {
                 let others = intersections(part, is_within)?;
-                if product.len() * others.len() > MOST_PARTS {
+                if product.len() * others.len() > MAX_PARTS {
                     return None;
                 }
                 product = product

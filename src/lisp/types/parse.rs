@@ -21,7 +21,7 @@ use closest_name::closest_name;
 const MAX_DEPTH: usize = 200;
 
 /// More dimensions than an array has.
-const MOST_DIMENSIONS: usize = 129;
+const MAX_DIMENSIONS: usize = 129;
 /// Largest fixnum plus one, as in SBCL on 64-bit machines.
 const FIXNUM_LIMIT: i64 = 1 << 62;
 
@@ -466,7 +466,7 @@ fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<
         Some(star) if is_star(star) => Ok(None),
         Some(Value::Int(rank)) => Ok(usize::try_from(*rank)
             .ok()
-            .map(|r| vec![None; r.min(MOST_DIMENSIONS)])),
+            .map(|r| vec![None; r.min(MAX_DIMENSIONS)])),
         Some(list) => {
             let sizes = list.iter_list();
             let all: Result<Vec<Option<usize>>, Stop> =

@@ -75,12 +75,12 @@ pub struct Signature {
 }
 
 /// How deep and how long a list in a signature may be that is copied.
-const MOST_IN_SIGNATURE: usize = 1000;
+const MAX_IN_SIGNATURE: usize = 1000;
 
 impl Signature {
     /// A copy of the value, or the value itself if it has parts of other kinds.
     pub fn of(value: &Value) -> Signature {
-        let mut left = MOST_IN_SIGNATURE;
+        let mut left = MAX_IN_SIGNATURE;
         let copy = tree(value, &mut left);
         Signature {
             is_own: copy.is_some(),

@@ -63,7 +63,7 @@ pub struct Native {
     pub name: Sym,
     /// Fewest arguments.
     pub min: u16,
-    /// Most arguments; none if there is no limit.
+    /// Maximum number of arguments; none if there is no limit.
     pub max: Option<u16>,
     /// The Rust function.
     pub body: NativeBody,

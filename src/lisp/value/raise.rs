@@ -3,7 +3,7 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
-use crate::guard::{MOST_ELEMENTS, Stopped, TooDeep};
+use crate::guard::{MAX_ELEMENTS, Stopped, TooDeep};
 use crate::source::Place;
 use closest_name::closest_name;
 
@@ -194,7 +194,7 @@ impl From<Stopped> for Box<Raise> {
             ),
             Stopped::TooLong => Raise::new(
                 known::HEAP_EXHAUSTED_ERROR,
-                format!("A sequence has at most {MOST_ELEMENTS} elements."),
+                format!("A sequence has at most {MAX_ELEMENTS} elements."),
             ),
         }
     }

@@ -41,7 +41,7 @@ pub struct Target {
 pub struct Distances {
     /// Least and greatest distance of something to be reached.
     pub reach: [f64; 2],
-    /// Greatest distance of something to be seen.
+    /// Maximum distance of something to be seen.
     pub sight: f64,
 }
 

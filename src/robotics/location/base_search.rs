@@ -11,7 +11,7 @@ use super::reach::{Goal, NoReach, Reach, imagined};
 use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
-use crate::motion::{BaseChecker, Effort, LEAST_MARGIN, interruption};
+use crate::motion::{BaseChecker, Effort, MIN_MARGIN, interruption};
 use crate::world::{World, WorldError};
 use spatial::{Pose, pose};
 
@@ -24,13 +24,13 @@ const SIGHT_VARIANCE: f64 = 0.5;
 /// Distance (m) from where the robot is over which the preference for a place falls to 37 %.
 const NEAR: f64 = 0.8;
 /// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
-const MOST_CHECKS: u32 = 5000;
+const MAX_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again when all
 /// others have been tried.
-const MOST_AGAIN: usize = 1000;
+const MAX_AGAIN: usize = 1000;
 /// The search between the base poses of the first lattice ends when so many postures of the arms have
 /// been checked for collisions: most of the time goes there.
-const MOST_POSTURES: u32 = 100_000;
+const MAX_POSTURES: u32 = 100_000;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -133,7 +133,7 @@ impl BaseSearch {
                 *postures += count - counted;
             }
             counted = count;
-            if *postures >= MOST_POSTURES {
+            if *postures >= MAX_POSTURES {
                 tally.give_up();
                 return Ok(None);
             }
@@ -164,13 +164,13 @@ impl BaseSearch {
                     return Ok(Some(base));
                 }
                 Err(rejection) => {
-                    if rejection.may_pass && again.len() < MOST_AGAIN {
+                    if rejection.may_pass && again.len() < MAX_AGAIN {
                         again.push_back(base);
                     }
                     tally.add(rejection.cause);
                 }
             }
-            if *checks >= MOST_CHECKS {
+            if *checks >= MAX_CHECKS {
                 *is_second_look = true;
                 tally.give_up();
             }
@@ -240,7 +240,7 @@ impl<'a> Test<'a> {
         }
         let t = base.translation;
         let place = [t.x, t.y, pose::yaw(base)];
-        if let Some(hit) = self.checker.blocked(&place, LEAST_MARGIN) {
+        if let Some(hit) = self.checker.blocked(&place, MIN_MARGIN) {
             let cause = format!("in collision with {}", hit.other);
             return Ok(Err(Rejection::of(cause)));
         }

@@ -17,7 +17,7 @@ use spatial::pose::distance_between;
 /// Edge lengths (m) of the cells: finer ones are tried if the coarser ones yield nothing.
 const RESOLUTIONS: [f64; 3] = [0.04, 0.02, 0.01];
 /// A finer grid has no more cells than this.
-const MOST_CELLS: usize = 20_000;
+const MAX_CELLS: usize = 20_000;
 /// How far (m) what carries a thing may be above or below the upper face of the support.
 const SLACK: f64 = 0.02;
 /// What is less far (m) from a pose than this is at it.
@@ -248,7 +248,7 @@ impl PlaceSearch {
                     continue;
                 }
                 let finer = RESOLUTIONS.len() > self.level + 1 && !self.is_level_fruitful;
-                if !finer || self.map.cells.len() * 4 > MOST_CELLS {
+                if !finer || self.map.cells.len() * 4 > MAX_CELLS {
                     return None;
                 }
                 let level = self.level + 1;

@@ -42,7 +42,7 @@ pub use jobs::move_joints::MoveJoints;
 pub use jobs::move_tcp::{MoveTcp, PoseGoal, TcpPath};
 pub use jobs::put::Put;
 pub use planning::base_checker::BaseChecker;
-pub(crate) use planning::base_path::LEAST_MARGIN;
+pub(crate) use planning::base_path::MIN_MARGIN;
 pub use planning::drive_plan::plan_drive;
 pub use planning::interruption;
 pub use trajectories::axis_group::AxisGroup;

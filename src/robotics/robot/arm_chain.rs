@@ -88,7 +88,7 @@ pub(super) struct ArmChain {
 }
 
 impl ArmChain {
-    /// Greatest distance (m) of the wrist from the shoulder's pan axis, where that begins.
+    /// Maximum distance (m) of the wrist from the shoulder's pan axis, where that begins.
     pub(super) fn length(&self) -> f64 {
         self.shoulder_offset + self.upper_arm + self.forearm
     }

@@ -26,7 +26,7 @@ const LINK_RECORDS: &[&str] = &["touching", "wheels"];
 const JOINT_RECORDS: &[&str] = &["idle-joints", "speed"];
 
 /// Number of names listed of each kind; the rest are only counted.
-const MOST_TOLD: usize = 6;
+const MAX_TOLD: usize = 6;
 
 /// The names in a description that a robot lacks, each once, in order of appearance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -103,9 +103,9 @@ impl fmt::Display for MissingNames {
 
 fn write_names(f: &mut fmt::Formatter<'_>, kind: &str, names: &[String]) -> fmt::Result {
     let ending = if names.len() == 1 { "" } else { "s" };
-    let told: Vec<&str> = names.iter().take(MOST_TOLD).map(String::as_str).collect();
+    let told: Vec<&str> = names.iter().take(MAX_TOLD).map(String::as_str).collect();
     write!(f, "the {kind}{ending} {}", told.join(", "))?;
-    match names.len().saturating_sub(MOST_TOLD) {
+    match names.len().saturating_sub(MAX_TOLD) {
         0 => Ok(()),
         more => write!(f, " and {more} more"),
     }

@@ -77,7 +77,7 @@ pub struct CollisionChecker<'w> {
 type Keys = Rc<[(PartKey, PartKey)]>;
 
 /// How many lists of pairs are remembered by a checker: callers use the same few again and again.
-const MOST_KNOWN: usize = 4;
+const MAX_KNOWN: usize = 4;
 
 impl<'w> CollisionChecker<'w> {
     pub fn new(surroundings: Surroundings<'w>) -> Self {
@@ -319,7 +319,7 @@ impl<'w> CollisionChecker<'w> {
         let mut keys: Vec<_> = keys.collect();
         keys.sort_unstable();
         let keys = Keys::from(keys);
-        self.known.truncate(MOST_KNOWN - 1);
+        self.known.truncate(MAX_KNOWN - 1);
         self.known.insert(0, (pairs.clone(), keys.clone()));
         keys
     }

@@ -23,7 +23,7 @@ const ROTATION_SLACK: f64 = 0.01;
 
 /// Above all third components of the directions in which a hand approaches from above, 45 degrees off
 /// the vertical at most (-0.707).
-const LEAST_DOWN: f64 = -0.7;
+const MIN_DOWN: f64 = -0.7;
 
 /// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -225,7 +225,7 @@ impl GraspLibrary {
         let mut names: Vec<&str> = Vec::new();
         for ((kind, _, name), definition) in &self.grasps {
             // The hand approaches along the third column.
-            let is_downward = definition.rotation[2][2] < LEAST_DOWN;
+            let is_downward = definition.rotation[2][2] < MIN_DOWN;
             if kind == object_type && is_downward && !names.contains(&name.as_str()) {
                 names.push(name);
             }

@@ -32,7 +32,7 @@ pub(crate) const GREATEST_PIVOT: f64 = 0.75;
 /// How far (rad) a finger joint opens before its fingers count as pressing no more.
 const OPENED: f64 = 1e-4;
 /// How far (m) a bar sinks into both pads together, at most: they are of rubber.
-const MOST_GIVE: f64 = 0.002;
+const MAX_GIVE: f64 = 0.002;
 /// Coefficient of friction of the pads on a bar.
 const PAD_FRICTION: f64 = 1.0;
 /// The force (N) at the handle that it takes to move a drawer on its rails or a door in its
@@ -149,7 +149,7 @@ impl World {
             point: Point3::from(bar * tool.coords.dot(&bar)),
             bar,
             fingers,
-            give: give.max(-MOST_GIVE),
+            give: give.max(-MAX_GIVE),
             strength: 2.0 * PAD_FRICTION * effort,
             against: None,
             direction: 0,

@@ -50,7 +50,7 @@ const MARGIN: f64 = 0.005;
 /// falls would pass through a thin board.
 const MARGIN_FOR_FAST: f64 = 0.02;
 
-/// Greatest distance (m) of a part of a body from its centre, as far as its turning matters here.
+/// Maximum distance (m) of a part of a body from its centre, as far as its turning matters here.
 const EXTENT: f64 = 0.25;
 
 /// Number of parts into which the solver divides a step.

@@ -5,7 +5,7 @@ use lisp::files::Files;
 use crate::dialogue::{Candidate, Completions};
 
 /// Maximum number of files offered.
-const MOST_FILES: usize = 100;
+const MAX_FILES: usize = 100;
 
 /// The files whose names begin with the text, the contents so far of a string that starts
 /// at byte `start` of the input.
@@ -26,7 +26,7 @@ pub(super) fn completions(files: &dyn Files, text: &str, start: usize) -> Comple
         })
         .collect();
     candidates.sort();
-    candidates.truncate(MOST_FILES);
+    candidates.truncate(MAX_FILES);
     Completions {
         start: start + directory.len(),
         candidates,

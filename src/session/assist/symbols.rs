@@ -14,7 +14,7 @@ use lisp::value::package::{PackageId, PackageTable};
 use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// Maximum number of names offered.
-const MOST_NAMES: usize = 500;
+const MAX_NAMES: usize = 500;
 
 impl Assistant<'_> {
     /// The names that begin with the word at the cursor.
@@ -44,7 +44,7 @@ impl Assistant<'_> {
         let wanted = word.to_uppercase();
         let mut seen = HashSet::new();
         found.retain(|c| c.text.to_uppercase().starts_with(&wanted) && seen.insert(c.text.clone()));
-        found.truncate(MOST_NAMES);
+        found.truncate(MAX_NAMES);
         found
     }
 

@@ -10,7 +10,7 @@ use view::watch::live::{PaceControl, Speed};
 
 /// Longest lag (s) behind real time that is made up for; after longer pauses, such as at the
 /// prompt, time continues from the present.
-const MOST_LAG: f64 = 0.1;
+const MAX_LAG: f64 = 0.1;
 
 /// Longest wait between checks for an interrupt.
 const SLICE: Duration = Duration::from_millis(50);
@@ -65,7 +65,7 @@ impl Pace {
                     return;
                 }
             };
-            if now.saturating_sub(self.next).as_secs_f64() > MOST_LAG {
+            if now.saturating_sub(self.next).as_secs_f64() > MAX_LAG {
                 self.next = now;
             }
             // A long wait is divided into slices, between which the speed may change.

@@ -11,11 +11,11 @@ use lisp::source::Place;
 use lisp::value::Value;
 use view::watch::{About, TaskId, TaskNews, TaskState};
 
-/// Greatest number of characters shown of a value.
+/// Maximum number of characters shown of a value.
 const LONGEST: usize = 400;
 
-/// Greatest number of keys shown.
-const MOST_KEYS: usize = 24;
+/// Maximum number of keys shown.
+const MAX_KEYS: usize = 24;
 
 /// A change in the journal, with its simulated time (s).
 pub(super) fn of_change(image: &Image, change: Change) -> (f64, TaskNews) {
@@ -109,7 +109,7 @@ fn state(status: Status) -> TaskState {
 /// What the designator of an action or motion says, and where it is performed.
 pub(crate) fn about(image: &Image, designator: &Value, place: Place) -> About {
     let properties = as_designator(designator).map(|d| d.properties());
-    let keys = properties.unwrap_or_default().into_iter().take(MOST_KEYS);
+    let keys = properties.unwrap_or_default().into_iter().take(MAX_KEYS);
     let keys = keys.map(|(key, values)| {
         let name = key.as_symbol().map(|sym| image.name(sym).to_lowercase());
         let name = name.unwrap_or_else(|| text(image, &key));

@@ -15,7 +15,7 @@ use lisp::value::pathname::file_name;
 use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// How many files of a folder are looked at.
-const MOST_ENTRIES: usize = 10_000;
+const MAX_ENTRIES: usize = 10_000;
 
 /// What may be meant by a name.
 pub(super) enum Meant {
@@ -156,7 +156,7 @@ fn file_hint(image: &Image, path: &Value) -> Option<String> {
         .names(if is_here { "." } else { folder.to_str()? });
     let mut names = names.ok()?;
     names.sort();
-    names.truncate(MOST_ENTRIES);
+    names.truncate(MAX_ENTRIES);
     let near = closest_name(
         path.file_name()?.to_str()?,
         names.iter().map(|name| name.trim_end_matches('/')),

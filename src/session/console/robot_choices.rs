@@ -15,7 +15,7 @@ use lisp::value::Value;
 use lisp::value::known;
 
 /// Maximum number of actions for which a repetition is offered.
-const MOST_ACTIONS: usize = 3;
+const MAX_ACTIONS: usize = 3;
 
 /// An action being performed.
 struct Action {
@@ -37,7 +37,7 @@ impl Evaluator {
             motion,
         };
         let mut choices = Vec::new();
-        for action in actions.iter().take(MOST_ACTIONS) {
+        for action in actions.iter().take(MAX_ACTIONS) {
             let choice = again(action, &action.designator, None);
             choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
         }
@@ -62,7 +62,7 @@ impl Evaluator {
         }
         // A motion of another task would continue in a world that is not its own.
         if !self.scheduler.has_requests() {
-            for action in actions.iter().take(MOST_ACTIONS) {
+            for action in actions.iter().take(MAX_ACTIONS) {
                 let first = action.motions_before + 1;
                 if self.host.person.snapshots.has_motion_snapshot(first) {
                     let choice = again(action, &action.designator, Some(first));
@@ -170,10 +170,10 @@ impl Evaluator {
 }
 
 /// Maximum length of an action in a label, in characters.
-const LONGEST_ACTION: usize = 70;
+const MAX_ACTION_LENGTH: usize = 70;
 
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_ACTION) {
+    match text.char_indices().nth(MAX_ACTION_LENGTH) {
         Some((end, _)) => format!("{} …)", text.get(..end).unwrap_or(text)),
         None => text.to_owned(),
     }

@@ -11,9 +11,9 @@ use lisp::source::Place;
 use lisp::value::Value;
 
 /// Number of frames shown by default.
-const MOST_FRAMES: usize = 40;
+const MAX_FRAMES: usize = 40;
 /// Maximum number of enclosing actions shown with a condition.
-const MOST_ACTIONS: usize = 8;
+const MAX_ACTIONS: usize = 8;
 
 /// A frame with the index of its fiber.
 pub(super) struct Told {
@@ -101,7 +101,7 @@ impl Evaluator {
                     .next(),
             })
         });
-        actions.take(MOST_ACTIONS).collect()
+        actions.take(MAX_ACTIONS).collect()
     }
 
     /// `(PERFORM (AN ACTION …))`.
@@ -115,7 +115,7 @@ impl Evaluator {
         count: Option<usize>,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        let text = self.backtrace_text(count.unwrap_or(MOST_FRAMES));
+        let text = self.backtrace_text(count.unwrap_or(MAX_FRAMES));
         self.tell(&text, sink)
     }
 
@@ -198,10 +198,10 @@ fn is_hidden(view: &FrameView) -> bool {
 }
 
 /// Maximum length of a call as shown, in characters.
-const LONGEST_CALL: usize = 150;
+const MAX_CALL_LENGTH: usize = 150;
 
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_CALL) {
+    match text.char_indices().nth(MAX_CALL_LENGTH) {
         Some((end, _)) => format!("{} …", text.get(..end).unwrap_or(text)),
         None => text.to_owned(),
     }

@@ -163,7 +163,7 @@ impl<W: Write> Screen<W> {
 
     /// Shows a value; on a terminal, no more than the beginning of a very long one.
     fn value(&mut self, number: usize, value: &str) -> io::Result<()> {
-        let cut = value.char_indices().nth(LONGEST_VALUE);
+        let cut = value.char_indices().nth(MAX_VALUE_LENGTH);
         let Some((end, _)) = cut.filter(|_| self.is_terminal) else {
             return self.colored_line(value);
         };
@@ -286,7 +286,7 @@ const VALUE_COLOR: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
 /// How much of a value a terminal shows, in characters.
-const LONGEST_VALUE: usize = 8000;
+const MAX_VALUE_LENGTH: usize = 8000;
 
 /// The line in place of choices that the level below offers, too.
 fn folded(range: &Range<usize>, width: usize, below: usize) -> String {
@@ -344,7 +344,7 @@ mod tests {
 
     #[test]
     fn a_terminal_shows_the_beginning_of_a_long_value() {
-        let long = "é".repeat(LONGEST_VALUE + 5);
+        let long = "é".repeat(MAX_VALUE_LENGTH + 5);
         let mut screen = Screen::new(Vec::new());
         screen.set_terminal(true);
         screen.show(&values(&["1", &long])).unwrap();

@@ -15,9 +15,9 @@ use lisp::value::known;
 
 /// Maximum number of elements of a datum, all levels together; what exceeds it is cut off. Circular
 /// lists have no end.
-const MOST_ELEMENTS: usize = 1_000_000;
+const MAX_ELEMENTS: usize = 1_000_000;
 /// Maximum number of lists and vectors in one another.
-const MOST_LEVELS: usize = 100;
+const MAX_LEVELS: usize = 100;
 
 /// What stands for elements that are cut off.
 const CUT_OFF: &str = "…";
@@ -26,8 +26,8 @@ const CUT_OFF: &str = "…";
 pub(super) fn data(image: &Image, values: &[Value]) -> Vec<Datum> {
     let mut reading = Reading {
         image,
-        elements_left: MOST_ELEMENTS,
-        levels_left: MOST_LEVELS,
+        elements_left: MAX_ELEMENTS,
+        levels_left: MAX_LEVELS,
     };
     values.iter().map(|value| reading.datum(value)).collect()
 }
@@ -36,8 +36,8 @@ pub(super) fn data(image: &Image, values: &[Value]) -> Vec<Datum> {
 pub(super) fn datum(image: &Image, value: &Value) -> Datum {
     let mut reading = Reading {
         image,
-        elements_left: MOST_ELEMENTS,
-        levels_left: MOST_LEVELS,
+        elements_left: MAX_ELEMENTS,
+        levels_left: MAX_LEVELS,
     };
     reading.datum(value)
 }

@@ -8,7 +8,7 @@ use super::plan_event::{PlanEvent, PlanEventKind};
 use view::watch::{About, TaskId, TaskState};
 
 /// Maximum number of tasks, actions and motions that are kept.
-const MOST_NODES: usize = 100_000;
+const MAX_NODES: usize = 100_000;
 
 /// What has been done since it was made, or since it was cleared. See
 /// [`Session::log_tasks`](crate::Session::log_tasks).
@@ -75,7 +75,7 @@ impl TaskLog {
         let mut nodes = self.0.borrow_mut();
         let (id, state) = match &event.kind {
             PlanEventKind::Began(begin) => {
-                if nodes.len() < MOST_NODES {
+                if nodes.len() < MAX_NODES {
                     nodes.push(TaskNode {
                         id: begin.id,
                         parent: begin.parent,

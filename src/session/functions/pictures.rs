@@ -63,9 +63,7 @@ fn publish(
     usual: &str,
 ) -> Result<Reply> {
     let file = file.unwrap_or(usual);
-    let written = picture
-        .to_png()
-        .and_then(|png| files.write(file, &png));
+    let written = picture.to_png().and_then(|png| files.write(file, &png));
     written.map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),

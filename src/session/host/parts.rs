@@ -16,12 +16,12 @@ use lisp::value::symbol::{FunctionCell, Sym};
 use robotics::robot::Side;
 
 /// Maximum number of parts shown.
-const MOST_PARTS: usize = 60;
+const MAX_PARTS: usize = 60;
 /// Maximum length of a part in characters.
-const LONGEST_PART: usize = 100;
+const MAX_PART_LENGTH: usize = 100;
 
 /// Longest list whose parts are its elements.
-const LONGEST_LIST: usize = 100_000;
+const MAX_LIST_LENGTH: usize = 100_000;
 
 /// A value with its parts.
 pub(crate) struct View {
@@ -56,14 +56,14 @@ impl View {
             .map(|(name, _)| name.chars().count())
             .max();
         let width = width.unwrap_or(0).min(24);
-        for (number, (name, value)) in self.parts.iter().enumerate().take(MOST_PARTS) {
+        for (number, (name, value)) in self.parts.iter().enumerate().take(MAX_PARTS) {
             text.push_str(&format!(
                 "{number:>3}: {name:<width$}  {}\n",
                 shown(image, value)
             ));
         }
-        if self.parts.len() > MOST_PARTS {
-            text.push_str(&format!("     … {} more\n", self.parts.len() - MOST_PARTS));
+        if self.parts.len() > MAX_PARTS {
+            text.push_str(&format!("     … {} more\n", self.parts.len() - MAX_PARTS));
         }
         text
     }
@@ -75,7 +75,7 @@ fn shown(image: &Image, value: &Value) -> String {
     }
     let text = print::to_string(image, value, true);
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.char_indices().nth(LONGEST_PART) {
+    match line.char_indices().nth(MAX_PART_LENGTH) {
         Some((end, _)) => format!("{} …", line.get(..end).unwrap_or(&line)),
         None => line,
     }
@@ -213,7 +213,7 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
 /// Whether it is a proper list, and not too long.
 fn is_proper(value: &Value) -> bool {
     let mut rest = value.clone();
-    for _ in 0..LONGEST_LIST {
+    for _ in 0..MAX_LIST_LENGTH {
         match &rest {
             Value::Cons(cons) => {
                 let next = cons.cdr();

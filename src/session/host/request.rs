@@ -102,7 +102,9 @@ impl Host for SimulationHost {
 
 /// Why a closed session refuses an edit.
 fn closed() -> Box<Raise> {
-    Raise::simple("This session is closed: plans move the robot, but nothing edits the world, and no file is used.")
+    Raise::simple(
+        "This session is closed: plans move the robot, but nothing edits the world, and no file is used.",
+    )
 }
 
 impl SimulationHost {

@@ -16,9 +16,9 @@ use lisp::value::raise::Raise;
 use robotics::world;
 
 /// Maximum number of forms at top level that can be undone.
-const MOST_FORMS: usize = 100;
+const MAX_FORMS: usize = 100;
 /// Maximum number of motions of the running form that have snapshots.
-const MOST_MOTIONS: usize = 64;
+const MAX_MOTIONS: usize = 64;
 
 /// The state at one time.
 #[derive(Clone)]
@@ -147,7 +147,7 @@ impl Snapshots {
         if self.forms.back().is_some_and(|last| last.hash == hash) {
             self.forms.pop_back();
         }
-        if self.forms.len() == MOST_FORMS {
+        if self.forms.len() == MAX_FORMS {
             self.forms.pop_front();
         }
         self.is_touched = false;
@@ -182,7 +182,7 @@ impl Snapshots {
         if !self.keeps_motions {
             return;
         }
-        if self.motions.len() == MOST_MOTIONS {
+        if self.motions.len() == MAX_MOTIONS {
             self.motions.pop_front();
         }
         let snapshot = Snapshot::take(simulation);

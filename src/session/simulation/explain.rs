@@ -24,11 +24,11 @@ use spatial::{Pose, pose};
 /// A hand goal closer to an object than this (m) is taken to be meant for that object.
 const AT_THE_OBJECT: f64 = 0.4;
 /// A distance (m) from an object that is worth telling.
-const LEAST_MISS: f64 = 0.001;
+const MIN_MISS: f64 = 0.001;
 /// Number of headings tried where the robot cannot stand.
 const HEADINGS: u32 = 8;
 /// Maximum number of pairs of bodies listed.
-const MOST_PAIRS: usize = 6;
+const MAX_PAIRS: usize = 6;
 
 /// A failure with the world in which it occurred.
 pub(crate) struct Remembered {
@@ -110,7 +110,7 @@ impl Simulation {
         }
         let mut pairs: Vec<(String, f64)> = deepest.into_iter().collect();
         pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let lines = pairs.iter().take(MOST_PAIRS);
+        let lines = pairs.iter().take(MAX_PAIRS);
         lines
             .map(|(pair, depth)| format!("{pair} would overlap by {:.1} mm", depth * 1e3))
             .collect()
@@ -177,12 +177,12 @@ impl Simulation {
             .min_by(|(_, a), (_, b)| libm::hypot(a.0, a.1).total_cmp(&libm::hypot(b.0, b.1)))?;
         let mut places = Vec::new();
         let mm = |distance: f64| format!("{:.0} mm", distance.abs() * 1e3);
-        if higher > LEAST_MISS {
+        if higher > MIN_MISS {
             places.push(format!("{} above its top", mm(higher)));
-        } else if higher < -LEAST_MISS {
+        } else if higher < -MIN_MISS {
             places.push(format!("{} below its bottom", mm(higher)));
         }
-        if beside > LEAST_MISS {
+        if beside > MIN_MISS {
             places.push(format!("{} beside it", mm(beside)));
         }
         let [x, y] = extent.local([tips.x, tips.y]);

@@ -12,11 +12,11 @@ use robotics::world::World;
 use spatial::Pose;
 
 /// Maximum number of grasps for which a path is searched.
-const MOST_PATHS: usize = 6;
+const MAX_PATHS: usize = 6;
 
 /// How many base poses at which something is in the way of a few postures are examined again, with
 /// more postures, when no other will do.
-const MOST_AGAIN: usize = 20;
+const MAX_AGAIN: usize = 20;
 
 /// Where an object is to be put down.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl Simulation {
                 return Ok(());
             }
             paths += 1;
-            if paths > MOST_PATHS {
+            if paths > MAX_PATHS {
                 let report = "too many others have none".to_owned();
                 return Err(GraspObstacle::NoPath { report });
             }
@@ -153,7 +153,7 @@ impl TargetChecks {
                 }
             }
         }
-        let mut again = again.into_iter().take(MOST_AGAIN);
+        let mut again = again.into_iter().take(MAX_AGAIN);
         match again.any(|base| put.with_base_at(base, Effort::PATIENT).is_ok()) {
             true => Ok(()),
             false => Err(obstacle),

@@ -26,9 +26,9 @@ const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
 /// Number of directions from the object that are tried.
 const DIRECTIONS: u32 = 24;
 /// Maximum number of base poses for which a path is searched.
-const MOST_WAYS: usize = 2;
+const MAX_WAYS: usize = 2;
 /// Maximum number of grasps listed.
-const MOST_GRASPS: usize = 4;
+const MAX_GRASPS: usize = 4;
 
 /// An object to be grasped, with the requested arm and grasp.
 pub(crate) struct Wanted {
@@ -167,7 +167,7 @@ impl Simulation {
                 continue;
             }
             for grasp in self.defined_grasps(&wanted.kind, arm) {
-                if (arm == own_arm && tried == Some(&*grasp)) || found.len() == MOST_GRASPS {
+                if (arm == own_arm && tried == Some(&*grasp)) || found.len() == MAX_GRASPS {
                     continue;
                 }
                 if self.can_grasp_from(image, wanted, (arm, &grasp), &base) {
@@ -239,7 +239,7 @@ impl Simulation {
                 if way.is_ok_and(ends_there) {
                     return Some((*base, choice.side, choice.grasp));
                 }
-                if ways == MOST_WAYS {
+                if ways == MAX_WAYS {
                     return None;
                 }
             }

@@ -17,8 +17,8 @@ use robotics::world::{Object, PartKey, World};
 /// Width of the picture (pixels) by default.
 pub const WIDTH: usize = 960;
 
-/// Least width (pixels) that leaves room for three panels.
-pub(crate) const LEAST_WIDTH: usize = 240;
+/// Minimum width (pixels) that leaves room for three panels.
+pub(crate) const MIN_WIDTH: usize = 240;
 
 /// Colours of the background and the text of the strip below the panels.
 const PAPER: Rgb = [24, 26, 30];
@@ -78,7 +78,7 @@ impl CameraPicture {
         let sight = Sight::of_robot(world);
         let through = world.models().description.camera();
         let native = *sight.picture().camera();
-        let unit = width.max(LEAST_WIDTH) / 3;
+        let unit = width.max(MIN_WIDTH) / 3;
         let small = [unit, unit * native.height / native.width.max(1)];
         let large = [small[0] * 2, small[1] * 2];
         let seen: Vec<_> = sought

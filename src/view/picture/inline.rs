@@ -16,7 +16,7 @@ pub enum InlinePictures {
     Sixel,
 }
 
-/// Greatest number of base-64 bytes in one of Kitty's chunks.
+/// Maximum number of base-64 bytes in one of Kitty's chunks.
 const CHUNK: usize = 4096;
 
 /// Number of colours that every terminal with sixels has.

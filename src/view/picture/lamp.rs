@@ -40,7 +40,7 @@ pub(crate) struct LampPlan {
 const BORDER: f64 = 4.0;
 
 /// The most cells that are looked at to find out whether the light is the same on them all.
-const MOST_CELLS: usize = 10_000;
+const MAX_CELLS: usize = 10_000;
 
 /// Cells about a triangle up to which they are looked at one by one.
 const FEW: usize = 24;
@@ -275,7 +275,7 @@ impl Lamp {
         }
         let columns = xs[0] as usize..xs[1] as usize + COUNT;
         let rows = ys[0] as usize..ys[1] as usize + COUNT;
-        if columns.len() * rows.len() > MOST_CELLS {
+        if columns.len() * rows.len() > MAX_CELLS {
             return None;
         }
         // The height of the surface changes by this from one column, and row, to the next.

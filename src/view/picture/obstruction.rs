@@ -14,7 +14,7 @@ const SIZE: [usize; 2] = [48, 36];
 
 /// Bodies hide the view if they fill more than this share of the middle of the picture, and are
 /// nearer than this share of the distance to what the eye looks at.
-const LEAST_SHARE: f64 = 0.6;
+const MIN_SHARE: f64 = 0.6;
 const NEAR: f64 = 0.7;
 
 /// What keeps a picture from showing what it is meant to show.
@@ -74,7 +74,7 @@ impl Obstruction {
         let hidden: usize = counts.iter().map(|(_, count)| count).sum();
         let share = hidden as f64 / seen.len() as f64;
         let (key, _) = counts.into_iter().max_by_key(|(_, count)| *count)?;
-        if share < LEAST_SHARE {
+        if share < MIN_SHARE {
             return None;
         }
         let shown = seen.iter().filter(|(.., k)| *k == Some(key));

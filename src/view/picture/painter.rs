@@ -16,7 +16,7 @@ use super::shade::{Color, Foreknown, Lights, Reach, Shading, background, unit};
 pub(crate) const TILE: usize = 32;
 
 /// Edge length (pixels) of the squares that are coloured pixel by pixel.
-const LEAST_TILE: usize = 8;
+const MIN_TILE: usize = 8;
 
 /// Edge length (pixels) of a square in which a surface gets the same light from the sky.
 const BLOCK: usize = 2;
@@ -149,7 +149,7 @@ impl<'a> Painter<'a> {
             {
                 self.fill(band, tile, face, &corners[0], &foreknown);
             }
-            _ if size > LEAST_TILE => {
+            _ if size > MIN_TILE => {
                 let shown = shown.map(|(face, foreknown, _)| (face, foreknown));
                 for tile in tile.squares(size.div_ceil(2).next_power_of_two()) {
                     self.paint_tile(band, &tile, shown);

@@ -15,7 +15,7 @@ pub(crate) type Color = [f32; 3];
 /// Direction towards the lamp.
 pub(crate) const LAMP: [f64; 3] = [-0.55, -0.42, 1.25];
 const KEY_COLOR: Color = [0.80, 0.74, 0.65];
-/// Most cells along its shadow map, for each row of the picture and in all, and the least distance
+/// Maximum number of cells along its shadow map, for each row of the picture and in all, and the least distance
 /// between them (m). About as fine as the pixels: what is finer takes time and is not seen.
 const KEY_CELLS_PER_ROW: f64 = 2.1;
 const KEY_CELLS: f64 = 3000.0;

@@ -14,14 +14,14 @@ use robotics::robot::{JointId, JointKind, KinematicTree, LinkId};
 use robotics::world::{BodyName, CollisionHit, Object, World};
 use spatial::Pose;
 
-/// Least force (N) at which a contact is shown.
-const LEAST_FORCE: f64 = 0.5;
+/// Minimum force (N) at which a contact is shown.
+const MIN_FORCE: f64 = 0.5;
 
 /// How long (s) to show what stopped a motion.
 const HIT_SECONDS: f64 = 2.5;
 
 /// Maps of locations become nodes, which are kept; later ones are not shown.
-const MOST_MAPS: usize = 256;
+const MAX_MAPS: usize = 256;
 
 /// Name, type and colour of an object; objects that differ in any of these are distinct nodes.
 type ObjectKey = (String, String, [u32; 4]);
@@ -174,7 +174,7 @@ impl FrameBuilder {
                 });
             }
             let strong = world.presses(object).into_iter();
-            let strong = strong.filter(|press| press.force.norm() >= LEAST_FORCE);
+            let strong = strong.filter(|press| press.force.norm() >= MIN_FORCE);
             presses.extend(strong.map(|press| Press {
                 body: self.body_node(&press.body),
                 object: node,
@@ -299,7 +299,7 @@ impl FrameBuilder {
         if let Some((_, node)) = known {
             return Some(*node);
         }
-        if self.maps.len() == MOST_MAPS {
+        if self.maps.len() == MAX_MAPS {
             return None;
         }
         let mut scene = Scene::default();

@@ -8,7 +8,7 @@ use spatial::Pose;
 
 /// Time (s) between two points of a line, and greatest number of points.
 const EVERY: f64 = 0.08;
-const MOST_POINTS: usize = 90;
+const MAX_POINTS: usize = 90;
 
 /// Height (m) of the base's line above the floor.
 const ABOVE_FLOOR: f32 = 0.015;
@@ -86,7 +86,7 @@ fn points(
 ) -> Vec<[f32; 3]> {
     let duration = planned.trajectory.duration();
     // The cast saturates.
-    let count = ((duration / EVERY).ceil() as usize).clamp(1, MOST_POINTS);
+    let count = ((duration / EVERY).ceil() as usize).clamp(1, MAX_POINTS);
     (0..=count)
         .filter_map(|i| {
             point(

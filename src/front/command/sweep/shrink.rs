@@ -9,8 +9,8 @@ use crate::command::failure::CommandError;
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Record};
 
-/// Most worlds that are tried.
-const MOST_RUNS: usize = 300;
+/// Maximum number of worlds that are tried.
+const MAX_RUNS: usize = 300;
 
 /// A world that fails, with the draws that have been set in it.
 struct World {
@@ -101,7 +101,7 @@ fn simplified(worlds: &Worlds, number: u64, threads: usize, first: World) -> (Wo
         for changes in [faults_off, things_out, simplest, rounded] {
             let changes = changes(&world);
             let mut left = changes.as_slice();
-            while !left.is_empty() && runs < MOST_RUNS {
+            while !left.is_empty() && runs < MAX_RUNS {
                 let batch = left.get(..threads.min(left.len())).unwrap_or(left);
                 let ways: Vec<Vec<Change>> = batch
                     .iter()
@@ -132,7 +132,7 @@ fn simplified(worlds: &Worlds, number: u64, threads: usize, first: World) -> (Wo
                 }
             }
         }
-        if world.set == before || runs >= MOST_RUNS {
+        if world.set == before || runs >= MAX_RUNS {
             return (world, runs);
         }
     }

@@ -12,7 +12,7 @@ use crate::command::stack::COMPILER_STACK;
 use lisp::guard::set_stack_budget;
 use robotics::world::Models;
 use session::defect;
-use session::sweeping::{Known, MOST_POLLS};
+use session::sweeping::{Known, MAX_POLLS};
 use session::{Session, SessionOptions};
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Ending, Record};
@@ -94,7 +94,7 @@ impl Worlds {
         let mut session = self.session().map_err(CommandError::Sweep)?;
         session.begin_recording(path)?;
         let (name, limit) = (&self.name, self.time_limit);
-        session.run_sweep_world(name, self.seed, world, &[], MOST_POLLS, limit);
+        session.run_sweep_world(name, self.seed, world, &[], MAX_POLLS, limit);
         session.end_recording()?;
         Ok(())
     }
@@ -130,7 +130,7 @@ impl<'a> Sessions<'a> {
         let run = || match self.next() {
             Ok(mut session) => {
                 let limit = self.worlds.time_limit;
-                let record = session.run_sweep_world(name, *seed, world, set, MOST_POLLS, limit);
+                let record = session.run_sweep_world(name, *seed, world, set, MAX_POLLS, limit);
                 (record, session.simplest_draws())
             }
             Err(report) => (defective(world, report), Pairs::default()),

@@ -2,10 +2,10 @@
 
 use std::io::{self, Read};
 
-/// Greatest number of bytes in the frames of a message that a peer sends.
-pub(crate) const MOST_BYTES: u64 = 16 << 20;
-/// Greatest number of frames in a message that a peer sends.
-const MOST_FRAMES: usize = 256;
+/// Maximum number of bytes in the frames of a message that a peer sends.
+pub(crate) const MAX_BYTES: u64 = 16 << 20;
+/// Maximum number of frames in a message that a peer sends.
+const MAX_FRAMES: usize = 256;
 
 const MORE: u8 = 1;
 const LONG: u8 = 2;
@@ -59,7 +59,7 @@ pub(super) enum Received {
 /// Reads a message or a command.
 pub(super) fn read(from: &mut impl Read) -> io::Result<Received> {
     let mut frames = Vec::new();
-    let mut room = MOST_BYTES;
+    let mut room = MAX_BYTES;
     loop {
         let frame = read_frame(from, room)?;
         if frame.is_command {
@@ -73,7 +73,7 @@ pub(super) fn read(from: &mut impl Read) -> io::Result<Received> {
         if !frame.has_more {
             return Ok(Received::Message(frames));
         }
-        if frames.len() >= MOST_FRAMES {
+        if frames.len() >= MAX_FRAMES {
             return Err(malformed("a message has too many frames"));
         }
     }
@@ -142,14 +142,14 @@ mod tests {
         let announced = [&[LONG][..], &(1_u64 << 60).to_be_bytes()].concat();
         let error = frames(&announced).expect_err("it is too long");
         assert_eq!(error.kind(), io::ErrorKind::InvalidData);
-        let cut = [&[LONG][..], &MOST_BYTES.to_be_bytes(), b"abc"].concat();
+        let cut = [&[LONG][..], &MAX_BYTES.to_be_bytes(), b"abc"].concat();
         let error = frames(&cut).expect_err("most of it is missing");
         assert_eq!(error.kind(), io::ErrorKind::UnexpectedEof);
     }
 
     #[test]
     fn a_message_without_end_is_refused() {
-        let endless = [MORE, 0].repeat(2 * MOST_FRAMES);
+        let endless = [MORE, 0].repeat(2 * MAX_FRAMES);
         let error = frames(&endless).expect_err("it has too many frames");
         assert_eq!(error.kind(), io::ErrorKind::InvalidData);
     }

@@ -9,8 +9,8 @@ use super::socket::Kind;
 
 /// How long a peer may take.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Greatest number of bytes in a peer's command.
-const MOST_BYTES: u64 = 4096;
+/// Maximum number of bytes in a peer's command.
+const MAX_BYTES: u64 = 4096;
 /// Bytes of a greeting.
 const GREETING: usize = 64;
 
@@ -31,7 +31,7 @@ pub(super) fn greet(stream: &TcpStream, kind: Kind) -> io::Result<Vec<u8>> {
         ));
     }
     to.write_all(&encoded_command(&ready(kind)))?;
-    let frame = read_frame(&mut hurried, MOST_BYTES)?;
+    let frame = read_frame(&mut hurried, MAX_BYTES)?;
     let properties = frame.body.strip_prefix(b"\x05READY");
     let properties = properties.filter(|_| frame.is_command);
     let Some(properties) = properties.and_then(properties_of) else {

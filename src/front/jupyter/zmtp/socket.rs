@@ -12,10 +12,10 @@ use super::frame::{Received, encoded, encoded_command, read};
 use super::handshake::greet;
 use super::outbox::Outbox;
 
-/// Greatest number of peers; who comes when there are so many is turned away.
-const MOST_PEERS: usize = 64;
-/// Greatest number of subscriptions of a peer.
-const MOST_SUBSCRIPTIONS: usize = 64;
+/// Maximum number of peers; who comes when there are so many is turned away.
+const MAX_PEERS: usize = 64;
+/// Maximum number of subscriptions of a peer.
+const MAX_SUBSCRIPTIONS: usize = 64;
 /// Bytes that may wait for a peer before whoever produces them waits.
 const ROOM: usize = 4 << 20;
 /// How long a peer for which much waits may take nothing before it is disconnected.
@@ -212,7 +212,7 @@ impl Socket {
             };
             {
                 let mut peers = self.peers();
-                if peers.connected >= MOST_PEERS {
+                if peers.connected >= MAX_PEERS {
                     continue;
                 }
                 peers.connected += 1;
@@ -295,7 +295,7 @@ impl Socket {
             };
             let subscriptions = &mut peer.subscriptions;
             match what {
-                1 if subscriptions.len() < MOST_SUBSCRIPTIONS => subscriptions.push(topic.to_vec()),
+                1 if subscriptions.len() < MAX_SUBSCRIPTIONS => subscriptions.push(topic.to_vec()),
                 0 => {
                     if let Some(at) = subscriptions.iter().position(|s| s == topic) {
                         subscriptions.remove(at);

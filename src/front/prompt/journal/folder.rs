@@ -10,7 +10,7 @@ use super::writing::{Journal, lock};
 use super::{Beginning, Recorded};
 
 /// Number of journals that are always kept.
-const MOST_JOURNALS: usize = 20;
+const MAX_JOURNALS: usize = 20;
 /// Journals that were written to within this time are always kept: two weeks.
 const KEPT_FOR: Duration = Duration::from_secs(14 * 24 * 60 * 60);
 const EXTENSION: &str = "journal";
@@ -70,7 +70,7 @@ pub(super) fn begin(
 /// Removes old journals if there are too many, but none of a running session.
 pub(super) fn forget_old(folder: &Path, now: SystemTime) {
     let known = aged(folder);
-    let too_many = (known.len() + 1).saturating_sub(MOST_JOURNALS);
+    let too_many = (known.len() + 1).saturating_sub(MAX_JOURNALS);
     for (written, path) in known.into_iter().take(too_many) {
         let is_old = now.duration_since(written).is_ok_and(|age| age > KEPT_FOR);
         if !is_old {

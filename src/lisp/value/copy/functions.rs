@@ -9,7 +9,7 @@ use crate::value::function::{Body, Function, Native, NativeBody};
 use crate::value::generic::GenericFunction;
 
 /// How deep functions may hold each other: they cannot be filled later.
-const MOST_NESTED: usize = 500;
+const MAX_NESTED: usize = 500;
 
 impl Copier {
     /// The copy of a function.
@@ -18,7 +18,7 @@ impl Copier {
         if is_shared && let Some(Value::Function(copy)) = self.copies.get(&address(function)) {
             return copy.clone();
         }
-        if self.depth == MOST_NESTED {
+        if self.depth == MAX_NESTED {
             self.refuse("functions that hold functions that hold functions");
             return function.clone();
         }

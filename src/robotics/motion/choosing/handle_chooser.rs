@@ -32,7 +32,7 @@ const HEIGHT_STEP: f64 = 0.06;
 /// the hand from the middle of the bar.
 const TILTS: [f64; 5] = [0.0, 0.4, -0.4, 0.8, -0.8];
 const SHIFTS: [f64; 5] = [0.0, 0.12, -0.12, 0.24, -0.24];
-/// Least distance (m) of the middle of the hand from the ends of a bar.
+/// Minimum distance (m) of the middle of the hand from the ends of a bar.
 const END: f64 = 0.07;
 /// Distance (m or rad) of points of the way for one of many base poses, and by how much more the
 /// joints of the arm may change between them.

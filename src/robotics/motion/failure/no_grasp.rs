@@ -9,7 +9,7 @@ use super::grasp_obstacle::GraspObstacle;
 use crate::robot::{Side, Unreachable};
 
 /// How many causes the sentence lists.
-const MOST_CAUSES: usize = 3;
+const MAX_CAUSES: usize = 3;
 
 /// An object that no hand can grasp as wanted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -103,7 +103,7 @@ impl fmt::Display for NoGrasp {
         }
         write!(f, "no grasp of {object} works from here: ")?;
         let causes = self.by_cause();
-        for (i, (cause, tried)) in causes.iter().take(MOST_CAUSES).enumerate() {
+        for (i, (cause, tried)) in causes.iter().take(MAX_CAUSES).enumerate() {
             let separator = if i > 0 { "; " } else { "" };
             write!(
                 f,
@@ -112,7 +112,7 @@ impl fmt::Display for NoGrasp {
                 self.tried.len()
             )?;
         }
-        if causes.len() > MOST_CAUSES {
+        if causes.len() > MAX_CAUSES {
             f.write_str("; …")?;
         }
         Ok(())

@@ -35,7 +35,7 @@ const LOOK_SOMETIMES: u32 = 24;
 /// Clearance (m) that is kept ahead while the posture changes.
 const CHANGING_MARGIN: f64 = 0.10;
 /// How many times the base slows down for that reason.
-const MOST_YIELDS: u32 = 3;
+const MAX_YIELDS: u32 = 3;
 /// A posture is steady when it has not changed for this long (s).
 const STEADY: f64 = 0.05;
 /// How long (s) the robot may stand still without a path before the drive fails: if there has
@@ -44,7 +44,7 @@ const STEADY: f64 = 0.05;
 const FIRST_TIMEOUT: f64 = 0.1;
 const LATER_TIMEOUT: f64 = 1.0;
 /// How many paths are found, and then blocked, before giving up.
-const MOST_PLANS: u32 = 8;
+const MAX_PLANS: u32 = 8;
 
 /// Drives the base to a pose.
 pub type Drive = Job<BaseMotion>;
@@ -177,7 +177,7 @@ impl BaseMotion {
         };
         // Arms that wait for the base and a base that waits for the arms would creep along
         // together, so the base yields only a few times.
-        let yields = !self.is_steady() && self.yields < MOST_YIELDS;
+        let yields = !self.is_steady() && self.yields < MAX_YIELDS;
         let margin = if yields {
             CHANGING_MARGIN
         } else {
@@ -265,7 +265,7 @@ impl BaseMotion {
     fn give_up_trajectory(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
         self.follower = None;
         let (goal, hit) = (self.goal, Box::new(hit));
-        (self.plans >= MOST_PLANS)
+        (self.plans >= MAX_PLANS)
             .then(|| MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }))
     }
 }

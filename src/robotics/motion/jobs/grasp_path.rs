@@ -76,7 +76,7 @@ fn follow(
     poses[side.index()] = Some(PoseGoal::InBase(station.tool));
     let goal = HandGoal::new(poses, path, mode, Some(object.to_owned()));
     let mut goal = goal.without_error();
-    for plans in 0..HandGoal::MOST_PLANS {
+    for plans in 0..HandGoal::MAX_PLANS {
         let plan = goal.plan(world, plans)?;
         world.teleport_robot(&plan.end(world.robot_configuration()));
         let hand = tcp_in_base(world, side);

@@ -18,7 +18,7 @@ pub trait JointGoal: Clone + 'static {
     /// How long (s) planning or the trajectory may stay blocked while nothing moves.
     const BLOCKED_TIMEOUT: f64;
     /// How many trajectories are planned before giving up.
-    const MOST_PLANS: u32 = 1;
+    const MAX_PLANS: u32 = 1;
     /// Whether planning searches for a path, which may take seconds.
     const SEARCHES: bool = false;
 
@@ -104,7 +104,7 @@ impl<G: JointGoal> JointMotion<G> {
                 self.replanning.reset();
                 Ok(())
             }
-            Err(failure) if G::MOST_PLANS > 1 && failure.may_pass() => {
+            Err(failure) if G::MAX_PLANS > 1 && failure.may_pass() => {
                 self.replanning.failed(world, failure);
                 Ok(())
             }
@@ -114,7 +114,7 @@ impl<G: JointGoal> JointMotion<G> {
 
     /// Replans in the next step, unless that has been done often enough.
     fn plan_anew(&mut self, failure: MotionFailure) -> Result<(), MotionFailure> {
-        if self.plans >= G::MOST_PLANS {
+        if self.plans >= G::MAX_PLANS {
             return Err(failure);
         }
         self.follower = None;

@@ -79,7 +79,7 @@ impl ArmGoal {
 impl JointGoal for ArmGoal {
     const MODULE: ProcessModule = ProcessModule::Arms;
     const BLOCKED_TIMEOUT: f64 = 0.3;
-    const MOST_PLANS: u32 = 4;
+    const MAX_PLANS: u32 = 4;
     const SEARCHES: bool = true;
 
     fn what(&self) -> &'static str {

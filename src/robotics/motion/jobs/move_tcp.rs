@@ -115,7 +115,7 @@ impl HandGoal {
 impl JointGoal for HandGoal {
     const MODULE: ProcessModule = ProcessModule::Arms;
     const BLOCKED_TIMEOUT: f64 = 0.3;
-    const MOST_PLANS: u32 = 4;
+    const MAX_PLANS: u32 = 4;
     const SEARCHES: bool = true;
 
     fn what(&self) -> &'static str {

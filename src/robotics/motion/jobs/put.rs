@@ -74,7 +74,7 @@ impl PutGoal {
 impl JointGoal for PutGoal {
     const MODULE: ProcessModule = ProcessModule::Arms;
     const BLOCKED_TIMEOUT: f64 = 0.3;
-    const MOST_PLANS: u32 = 3;
+    const MAX_PLANS: u32 = 3;
     const SEARCHES: bool = true;
 
     fn what(&self) -> &'static str {

@@ -32,7 +32,7 @@ const TOUCH_COST: f64 = 2.0;
 /// Number of cells that are expanded before the goal's surroundings are explored, too.
 const ONE_SIDED: usize = 400;
 /// How many paths with a blocked edge are found before giving up.
-const MOST_PATHS: u32 = 40;
+const MAX_PATHS: u32 = 40;
 
 /// Number of a cell.
 type Cell = u32;
@@ -155,7 +155,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
 
     /// The cheapest path whose edges are free at full resolution.
     pub(super) fn path(mut self) -> Option<Vec<BasePlace>> {
-        for _ in 0..MOST_PATHS {
+        for _ in 0..MAX_PATHS {
             let cells = self.cheapest()?;
             let places = self.unwound(&cells);
             if self.through {

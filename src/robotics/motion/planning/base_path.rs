@@ -39,13 +39,13 @@ pub(crate) enum BasePathFailure<P> {
 pub(super) const MARGIN: f64 = 0.04;
 /// Clearance (m) that it keeps wherever else: with less than half the resolution, the robot could push
 /// something between two checked poses.
-pub(crate) const LEAST_MARGIN: f64 = RESOLUTION / 2.0;
+pub(crate) const MIN_MARGIN: f64 = RESOLUTION / 2.0;
 /// No margin is required this close (m) to the start, nor to the goal on the first lattice.
 const NO_MARGIN_WITHIN: f64 = 0.35;
 /// Between two checked poses no part of the robot moves by more than this (m).
 const RESOLUTION: f64 = 0.01;
 /// Lattice spacings (m) with the clearance (m) that is kept, in the order in which they are tried.
-const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, LEAST_MARGIN)];
+const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, MIN_MARGIN)];
 /// Cost of a radian of turning, in metres of driving.
 pub(super) const TURN_COST: f64 = 0.5;
 
@@ -122,7 +122,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
 
     /// Whether it may depend on the goal what blocks a pose.
     pub(super) fn spares_goal(&self) -> bool {
-        self.margin > LEAST_MARGIN
+        self.margin > MIN_MARGIN
     }
 
     /// Whether it depends on the goal what blocks the pose.

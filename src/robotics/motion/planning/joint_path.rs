@@ -95,7 +95,7 @@ const WIDENING: f64 = 1000.0;
 const FROM_ANYWHERE: usize = 3;
 
 /// A shortcut saves at least this share of the way that it replaces; others are not worth the checks.
-const LEAST_GAIN: f64 = 0.05;
+const MIN_GAIN: f64 = 0.05;
 
 /// How much coarser the edges are checked during the search than in the result.
 const COARSENESS: f64 = 2.5;
@@ -371,7 +371,7 @@ impl<P> Search<'_, P> {
             let is_shorter = || {
                 let corners = path[i + 1..=j].iter();
                 let way = std::iter::once(&from).chain(corners).chain([&to]);
-                self.straight(&from, &to) < (1.0 - LEAST_GAIN) * self.along(way)
+                self.straight(&from, &to) < (1.0 - MIN_GAIN) * self.along(way)
             };
             if i == j || !is_shorter() || self.edge(&from, &to).is_some() {
                 continue;

@@ -50,7 +50,7 @@ const LONG_SEARCHES: usize = 2;
 /// Number of final configurations at one height that are tried for a straight line.
 const LINE_ENDS: usize = 6;
 /// Number of heights at which the search for a path may fail before giving up.
-const MOST_HEIGHTS: usize = 4;
+const MAX_HEIGHTS: usize = 4;
 
 /// How far (m) before its goal a hand that is to touch something slows down.
 const TOUCH_STRETCH: f64 = 0.03;
@@ -240,7 +240,7 @@ impl PoseGoalTask<'_> {
                 Err(failure) => last_failure = Some(failure),
             }
             searched += 1;
-            if searched >= MOST_HEIGHTS {
+            if searched >= MAX_HEIGHTS {
                 break;
             }
         }

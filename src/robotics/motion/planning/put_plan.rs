@@ -27,7 +27,7 @@ const GREATEST_TILT: f64 = 0.0873;
 /// How far (m) above its goal the hand begins anew if it cannot move there from where it is.
 const ABOVE: f64 = 0.05;
 /// How many detours there may be: other jobs may move the torso or the base meanwhile.
-const MOST_DETOURS: u32 = 2;
+const MAX_DETOURS: u32 = 2;
 
 /// Plans the path of a hand with an object: straight to the task's only goal, and from there
 /// straight down.
@@ -71,7 +71,7 @@ impl PutPlan<'_> {
         }
         let sides = [self.side].into_iter();
         let careful = ExpectedContacts::of(self.task.world, sides, CollisionMode::AvoidAll, None);
-        if detours < MOST_DETOURS {
+        if detours < MAX_DETOURS {
             let above = Translation3::new(0.0, 0.0, ABOVE);
             let starts = [None, Some(above)].into_iter();
             let mut detours = starts.filter_map(|s| self.task.plan_to_start_of_line(s, &careful));

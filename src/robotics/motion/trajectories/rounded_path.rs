@@ -12,9 +12,9 @@
 use super::axis_group::AxisGroup;
 
 /// Legs that are shorter than this (s) are dropped.
-const SHORTEST_LEG: f64 = 1e-9;
+const MIN_LEG: f64 = 1e-9;
 /// Half of a parabola has at least this length (s).
-const SHORTEST_HALF: f64 = 1e-4;
+const MIN_HALF: f64 = 1e-4;
 /// A corner whose parabola could be shorter than this (s) is none.
 const STRAIGHT: f64 = 1e-9;
 /// How many times a parabola in the way of which there is something is halved.
@@ -96,7 +96,7 @@ pub(super) fn rounded_path(
             _ => (0.0, None),
         };
         let length = leg.length - begun - cut;
-        if length > SHORTEST_LEG {
+        if length > MIN_LEG {
             let mut piece = Piece {
                 start: leg.start.clone(),
                 direction: leg.direction.clone(),
@@ -125,7 +125,7 @@ fn legs(points: &[Vec<f64>], limits: &[AxisGroup]) -> Vec<Leg> {
             .iter()
             .map(|group| group.norm(&way) / group.velocity)
             .fold(0.0, f64::max);
-        if length > SHORTEST_LEG {
+        if length > MIN_LEG {
             legs.push(Leg {
                 start: start.clone(),
                 direction: way.iter().map(|x| x / length).collect(),
@@ -168,7 +168,7 @@ fn corner(
         return Corner::Stop;
     };
     let longest = leg.length.min(next.length) / 2.0;
-    let mut half = wanted.max(SHORTEST_HALF).min(longest);
+    let mut half = wanted.max(MIN_HALF).min(longest);
     let widest = turn.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     for _ in 0..=HALVINGS {
         let piece = parabola(leg, &turn, half);

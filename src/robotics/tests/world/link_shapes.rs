@@ -16,11 +16,11 @@ use crate::tests::world::fixture::models;
 use crate::world::solid::Solid;
 use spatial::{PlacedShape, Pose, Shape};
 
-/// Largest distance (m) of a point of the true surface from the shapes.
-const MOST_SHORT: f64 = 0.005;
+/// Maximum distance (m) of a point of the true surface from the shapes.
+const MAX_SHORT: f64 = 0.005;
 
-/// Largest distance (m) of 95 % of the shapes' surface from the true one.
-const MOST_OUT: f64 = 0.025;
+/// Maximum distance (m) of 95 % of the shapes' surface from the true one.
+const MAX_OUT: f64 = 0.025;
 
 /// Distance (m) between samples of the shapes' surface.
 const SPACING: f64 = 0.01;
@@ -108,7 +108,7 @@ fn distance(solid: &Solid, point: &Point3<f64>) -> f64 {
 
 /// How well shapes fit points of the true surface.
 struct Fit {
-    /// Largest distance (m) of a point from the shapes.
+    /// Maximum distance (m) of a point from the shapes.
     short: f64,
     /// Distance (m) from the points that 95 % of the shapes' surface keep.
     out: f64,
@@ -177,7 +177,7 @@ fn links_are_as_large_as_the_robot_s() {
             "{s:5.1} mm short, {o:5.1} mm out, {:2} shapes: {names:?}",
             shapes.len()
         );
-        if short > MOST_SHORT || out > MOST_OUT {
+        if short > MAX_SHORT || out > MAX_OUT {
             wrong.push(names);
         }
     }

@@ -15,7 +15,7 @@ use spatial::PlacedShape;
 /// The text of the built-in looks.
 use descriptions::LOOKS;
 
-/// Greatest width (m) of bevelled edges of objects without a record.
+/// Maximum width (m) of bevelled edges of objects without a record.
 const BEVEL: f64 = 0.006;
 
 /// The looks of a file.

@@ -22,7 +22,7 @@ use spatial::Pose;
 /// Half the edge length (m) of the drawn floor.
 const FLOOR_HALF: f64 = 30.0;
 
-/// Greatest width (m) of bevelled edges.
+/// Maximum width (m) of bevelled edges.
 const FURNITURE_BEVEL: f64 = 0.003;
 const ROBOT_BEVEL: f64 = 0.022;
 

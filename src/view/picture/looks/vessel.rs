@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 use crate::picture::surface::Surface;
 use spatial::{PlacedShape, Pose, Shape};
 
-/// Least number of boxes that count as a ring.
-const LEAST_COUNT: usize = 6;
+/// Minimum number of boxes that count as a ring.
+const MIN_COUNT: usize = 6;
 
 /// Tolerance (m) for the positions of a ring's boxes and for the axes of a vessel's rings.
 const RING_TOLERANCE: f64 = 1e-6;
@@ -124,7 +124,7 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
         |s: &&PlacedShape| (s.pose.translation.z - first.pose.translation.z).abs() < RING_TOLERANCE;
     let count = shapes.iter().take(same).take_while(level).count();
     let (staves, rest) = shapes.split_at(count);
-    if count < LEAST_COUNT {
+    if count < MIN_COUNT {
         return None;
     }
     let mean = |axis: usize| {

@@ -14,8 +14,8 @@ use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
 
-/// Greatest number of past frames in one answer.
-const MOST_FRAMES: usize = 120;
+/// Maximum number of past frames in one answer.
+const MAX_FRAMES: usize = 120;
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
@@ -139,7 +139,7 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
 fn past(shared: &Shared, request: &Request) -> String {
     let from = request.number("from").unwrap_or(0.0);
     let to = request.number("to").unwrap_or(from);
-    frames_json(&shared.history.past(from, to, MOST_FRAMES))
+    frames_json(&shared.history.past(from, to, MAX_FRAMES))
 }
 
 /// Carries out a viewer's request: `pause`, `go`, or `speed` and a speed. Returns whether the

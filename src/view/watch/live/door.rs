@@ -10,11 +10,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Greatest number of strangers.
-const MOST_STRANGERS: usize = 128;
+/// Maximum number of strangers.
+const MAX_STRANGERS: usize = 128;
 
-/// Greatest number of guests. A page has one lasting connection, and up to five short ones.
-const MOST_GUESTS: usize = 96;
+/// Maximum number of guests. A page has one lasting connection, and up to five short ones.
+const MAX_GUESTS: usize = 96;
 
 /// Who is connected.
 #[derive(Debug, Default)]
@@ -36,12 +36,12 @@ impl Door {
     /// Admits a stranger; the one that has been waiting longest may have to leave. Waits while
     /// those who have to leave have not left.
     pub(crate) fn admit(self: &Arc<Self>, stream: &TcpStream) -> io::Result<Stranger> {
-        while self.all.load(Ordering::Relaxed) >= 2 * MOST_STRANGERS + MOST_GUESTS {
+        while self.all.load(Ordering::Relaxed) >= 2 * MAX_STRANGERS + MAX_GUESTS {
             thread::sleep(Duration::from_millis(1));
         }
         let stream = stream.try_clone()?;
         let mut strangers = self.strangers();
-        if strangers.waiting.len() >= MOST_STRANGERS
+        if strangers.waiting.len() >= MAX_STRANGERS
             && let Some((_, oldest)) = strangers.waiting.pop_front()
         {
             // It may have left by itself.
@@ -78,7 +78,7 @@ impl Stranger {
         self.forget();
         let guest = Guest(Arc::clone(&self.door));
         let others = self.door.guests.fetch_add(1, Ordering::Relaxed);
-        (others < MOST_GUESTS).then_some(guest)
+        (others < MAX_GUESTS).then_some(guest)
     }
 
     fn forget(&self) {

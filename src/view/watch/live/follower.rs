@@ -7,7 +7,7 @@ use super::history::History;
 use crate::watch::{Cause, Follower, FrameBuilder, Observation, WatchEvent};
 use robotics::world::CollisionHit;
 
-/// Least real time between two frames for viewers; a screen could not show more.
+/// Minimum real time between two frames for viewers; a screen could not show more.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(14);
 
 /// Simulated time (s) between two frames of the past.

@@ -8,13 +8,13 @@ use super::timeline::Timeline;
 use crate::watch::{Frame, Halt, Kind, Node, WatchEvent};
 
 /// Number of news items that are kept; the oldest are forgotten first.
-const MOST_NEWS: usize = 40_000;
+const MAX_NEWS: usize = 40_000;
 
 /// Number of characters that are kept of a news item.
-const MOST_TEXT: usize = 4_000;
+const MAX_TEXT: usize = 4_000;
 
 /// Number of ways to continue that are kept.
-const MOST_CHOICES: usize = 60;
+const MAX_CHOICES: usize = 60;
 
 /// Where a history comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,7 +128,7 @@ impl History {
         };
         self.change(|state| {
             state.halt = halt.or(state.halt.take());
-            if state.news.len() >= MOST_NEWS {
+            if state.news.len() >= MAX_NEWS {
                 state.news.pop_front();
                 state.forgotten += 1;
             }
@@ -211,14 +211,14 @@ impl History {
 }
 
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(MOST_TEXT) {
+    match text.char_indices().nth(MAX_TEXT) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),
     }
 }
 
 fn shortened_halt(halt: &Halt) -> Halt {
-    let choices = halt.choices.iter().take(MOST_CHOICES);
+    let choices = halt.choices.iter().take(MAX_CHOICES);
     Halt {
         class: shortened(&halt.class),
         report: shortened(&halt.report),
@@ -268,10 +268,10 @@ mod tests {
                 .read(&mut ReadPosition::default(), 3, Duration::ZERO)
                 .halt
         };
-        let reported = Halt::new(HaltKind::Stopped, "x".repeat(10 * MOST_TEXT));
+        let reported = Halt::new(HaltKind::Stopped, "x".repeat(10 * MAX_TEXT));
         history.add_news(0.0, &WatchEvent::Halted(reported));
-        (0..MOST_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
-        assert!(halt().is_some_and(|halt| halt.report.len() < MOST_TEXT + 9));
+        (0..MAX_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
+        assert!(halt().is_some_and(|halt| halt.report.len() < MAX_TEXT + 9));
         history.add_news(0.0, &WatchEvent::Resumed);
         assert_eq!(halt(), None);
     }
@@ -280,11 +280,11 @@ mod tests {
     fn news_are_forgotten_but_those_that_come_are_read() {
         let history = History::new(Origin::Session);
         let mut mark = ReadPosition::default();
-        (0..MOST_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
+        (0..MAX_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
         assert_eq!(read(&history, &mut mark)[0], "5");
-        assert_eq!(history.state().news.len(), MOST_NEWS);
-        add_output(&history, &"x".repeat(10 * MOST_TEXT));
+        assert_eq!(history.state().news.len(), MAX_NEWS);
+        add_output(&history, &"x".repeat(10 * MAX_TEXT));
         let last = history.state().news.back().cloned();
-        assert!(matches!(&last.unwrap().1, WatchEvent::Output(t) if t.len() < MOST_TEXT + 9));
+        assert!(matches!(&last.unwrap().1, WatchEvent::Output(t) if t.len() < MAX_TEXT + 9));
     }
 }

@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-/// Greatest size (bytes) of a request's head and body.
-const MOST_HEAD: usize = 8 << 10;
-const MOST_BODY: usize = 256;
+/// Maximum size (bytes) of a request's head and body.
+const MAX_HEAD: usize = 8 << 10;
+const MAX_BODY: usize = 256;
 
 /// How long a client may take to send its request, and to receive an answer.
 const TIMEOUT: Duration = Duration::from_secs(3);
@@ -102,14 +102,14 @@ pub(crate) fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError>
         if let Some(end) = bytes.windows(4).position(|four| four == b"\r\n\r\n") {
             break end;
         }
-        if bytes.len() > MOST_HEAD {
+        if bytes.len() > MAX_HEAD {
             return Err(HttpError::TooLarge);
         }
         read_some(stream, &mut bytes, deadline)?;
     };
     let head = str::from_utf8(bytes.get(..end).unwrap_or_default());
     let mut request = Request::of_head(head.map_err(|_| HttpError::Malformed)?)?;
-    if request.length > MOST_BODY {
+    if request.length > MAX_BODY {
         return Err(HttpError::TooLarge);
     }
     let whole = end + 4 + request.length;

@@ -16,15 +16,15 @@ use super::pace_control::Speed;
 use super::server::Shared;
 use crate::watch::{Frame, Halt};
 
-/// Least time between two frames.
+/// Minimum time between two frames.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(15);
 
 /// How long to stay silent before sending a sign of life, by which each side notices that the
 /// other is gone.
 const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
 
-/// Greatest number of news items in one message.
-const MOST_NEWS: usize = 500;
+/// Maximum number of news items in one message.
+const MAX_NEWS: usize = 500;
 
 /// Sends what is new until the viewer or the session is gone. Sends only the newest frame, so a
 /// slow viewer misses some.
@@ -41,7 +41,7 @@ pub(super) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
     let mut text = message("hello", &hello.to_string());
     loop {
         let begin = Instant::now();
-        let pages = shared.history.read(&mut mark, MOST_NEWS, SIGN_OF_LIFE);
+        let pages = shared.history.read(&mut mark, MAX_NEWS, SIGN_OF_LIFE);
         if !pages.nodes.is_empty() {
             let nodes: Vec<_> = pages.nodes.iter().map(|n| event_json::node(n)).collect();
             text += &message("nodes", &json!(nodes).to_string());

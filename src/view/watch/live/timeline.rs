@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::watch::Frame;
 
 /// Approximate limit of the memory (bytes) for all frames.
-const MOST_BYTES: usize = 96 << 20;
+const MAX_BYTES: usize = 96 << 20;
 
 /// Frames in order of time. When they take too much memory, every other one of the older half
 /// is forgotten, so the past gets coarser with age.
@@ -19,7 +19,7 @@ pub(crate) struct Timeline {
 
 impl Default for Timeline {
     fn default() -> Self {
-        Self::new(MOST_BYTES)
+        Self::new(MAX_BYTES)
     }
 }
 

@@ -13,8 +13,8 @@ use ruzstd::decoding::StreamingDecoder;
 
 use super::RecordingError;
 
-/// Largest unpacked size (bytes) of a chunk. Recorders write chunks of some megabytes.
-const LARGEST_CHUNK: u64 = 1 << 30;
+/// Maximum unpacked size (bytes) of a chunk. Recorders write chunks of some megabytes.
+const MAX_CHUNK: u64 = 1 << 30;
 
 /// The file with all its chunks unpacked. A file without compressed chunks, or without records,
 /// is returned as it is; from the first malformed record on, so is the rest of any file.
@@ -94,7 +94,7 @@ impl<'a> Chunk<'a> {
 
     /// Appends this chunk as an uncompressed one.
     fn unpack(&self, to: &mut Vec<u8>) -> Result<(), RecordingError> {
-        if self.size > LARGEST_CHUNK {
+        if self.size > MAX_CHUNK {
             return Err(RecordingError::LargeChunk { size: self.size });
         }
         let mut content = Vec::new();

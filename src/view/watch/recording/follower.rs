@@ -19,7 +19,7 @@ const EPSILON: f64 = 1e-4;
 
 /// Number of items that may wait to be written: the session waits when there are more, so that
 /// nothing is lost.
-const MOST_WAITING: usize = 64;
+const MAX_WAITING: usize = 64;
 
 /// Records what happens in a session until it is dropped. A separate thread produces texts and
 /// pictures.
@@ -63,7 +63,7 @@ impl Recorder {
         let frame_builder = FrameBuilder::new(world);
         let names = frame_builder.joint_names(world);
         let writer = RecordingWriter::new(file, names)?;
-        let (to, from) = sync_channel(MOST_WAITING);
+        let (to, from) = sync_channel(MAX_WAITING);
         let result = RecordingResult::default();
         let shared_result = result.clone();
         let thread = thread::Builder::new()

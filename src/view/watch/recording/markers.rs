@@ -13,7 +13,7 @@ const LETTERS: f32 = 0.12;
 /// How long (s) a failure is shown.
 const FAILURE_SECONDS: u32 = 3;
 
-/// Greatest number of characters of a failure.
+/// Maximum number of characters of a failure.
 const LONGEST: usize = 120;
 
 /// The actions that are performed, outermost first.

@@ -82,8 +82,8 @@ fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError
     })
 }
 
-/// Greatest number of frames that carry each other.
-const MOST_CARRIERS: usize = 64;
+/// Maximum number of frames that carry each other.
+const MAX_CARRIERS: usize = 64;
 
 struct Reader<'a> {
     to: &'a History,
@@ -223,7 +223,7 @@ impl Reader<'_> {
     fn in_map(&self, id: u32) -> Option<Placed> {
         let (mut parent, mut placed) = *self.poses.get(&id)?;
         // Damage may have made a circle.
-        for _ in 0..MOST_CARRIERS {
+        for _ in 0..MAX_CARRIERS {
             let Some(carrier) = parent else {
                 return Some(placed);
             };
