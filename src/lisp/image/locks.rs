@@ -75,33 +75,26 @@ impl Image {
         let open: Vec<PackageId> = open.iter().filter_map(|p| self.packages.find(p)).collect();
         let mut locked = Names::default();
         let mut free = HashSet::new();
-        for package in self.packages.ids() {
-            if package == PackageTable::KEYWORD {
+        for (sym, data) in self.symbols.iter() {
+            let Some(package) = data.package.filter(|p| *p != PackageTable::KEYWORD) else {
+                continue;
+            };
+            let is_function = !matches!(data.function, FunctionCell::Unbound);
+            if open.contains(&package) {
+                if is_function {
+                    free.insert(sym);
+                }
                 continue;
             }
-            for (sym, _) in self.packages.get(package).symbols.values() {
-                let data = self.symbol(*sym);
-                if data.package != Some(package) {
-                    continue;
-                }
-                let is_function = !matches!(data.function, FunctionCell::Unbound);
-                if open.contains(&package) {
-                    if is_function {
-                        free.insert(*sym);
-                    }
-                    continue;
-                }
-                if is_function {
-                    locked.functions.insert(*sym);
-                }
-                if data.setf_function.is_some() || self.setf_expanders.contains_key(sym) {
-                    locked.setters.insert(*sym);
-                }
-                if self.types.contains_key(sym)
-                    || self.class(*sym).is_some_and(|class| class.is_defined.get())
-                {
-                    locked.types.insert(*sym);
-                }
+            if is_function {
+                locked.functions.insert(sym);
+            }
+            if data.setf_function.is_some() || self.setf_expanders.contains_key(&sym) {
+                locked.setters.insert(sym);
+            }
+            let is_class = self.class(sym).is_some_and(|class| class.is_defined.get());
+            if is_class || self.types.contains_key(&sym) {
+                locked.types.insert(sym);
             }
         }
         self.locks.locked = Some(Rc::new(locked));
