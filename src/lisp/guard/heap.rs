@@ -2,8 +2,7 @@
 
 use std::cell::Cell;
 
-use super::{CURRENT, Stopped, leave, look};
-use crate::value::{cycles, release};
+use super::{CURRENT, Stopped, leave, look, reclaim};
 
 /// A limit to the memory in use.
 #[derive(Default)]
@@ -74,8 +73,7 @@ impl Heap {
         if !self.exceeds(&limit, more) {
             return false;
         }
-        cycles::collect_all(None);
-        release::all();
+        reclaim::all();
         if self.has_room() && !self.exceeds(&limit, more) {
             return false;
         }

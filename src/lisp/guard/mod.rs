@@ -10,6 +10,7 @@
 
 pub mod heap;
 pub mod polls;
+pub(crate) mod reclaim;
 mod stack;
 
 use std::cell::RefCell;
@@ -21,7 +22,6 @@ pub use heap::{Heap, MAX_ELEMENTS};
 pub(crate) use heap::{permit_length, reserve};
 use polls::Polls;
 
-use crate::value::cycles;
 pub(crate) use stack::descend;
 pub use stack::{TooDeep, set_stack_budget};
 
@@ -87,7 +87,7 @@ pub fn reason() -> Option<Stopped> {
     // At the end of the thread, when values may still be dropped, nothing is in force.
     let limits = CURRENT.try_with(|limits| limits.borrow().clone());
     let limits = limits.ok().flatten()?;
-    cycles::collect_if_overdue(limits.heap.in_use());
+    reclaim::if_overdue(limits.heap.in_use());
     limits.reason()
 }
 

@@ -34,6 +34,7 @@ use super::builtin::{Builtin, Entry, Expander, Operator};
 use super::files::{Disk, Files};
 use super::guard::Limits;
 use super::guard::polls::Polls;
+use super::guard::reclaim::{self, Reclaim};
 use super::native::BuiltinCall;
 use super::source::{Place, Sources};
 use super::value::Value;
@@ -44,6 +45,7 @@ use super::value::number;
 use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
+use super::value::{cycles, release};
 
 pub struct Image {
     /// All symbols.
@@ -108,6 +110,15 @@ impl Drop for Image {
 impl Image {
     /// An image with the known symbols and standard packages, and nothing else.
     pub(super) fn bare() -> Image {
+        reclaim::provide(Reclaim {
+            all: || {
+                cycles::collect_all(None);
+                release::all();
+            },
+            if_overdue: |in_use| {
+                cycles::collect_if_overdue(in_use);
+            },
+        });
         let mut symbols = SymbolTable::new();
         let mut packages = PackageTable::default();
         packages.make("COMMON-LISP", &["CL"]);
