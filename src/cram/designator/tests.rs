@@ -225,7 +225,7 @@ fn malformed_designators_say_what_is_wrong() {
     ]);
     let shown = evaluate_in(&mut image(), "(a)");
     assert!(
-        shown.starts_with("!! Error while parsing arguments to DEFMACRO A: too few elements in ()"),
+        shown.starts_with("!! (A) is malformed: type is missing."),
         "{shown}"
     );
 }

@@ -79,7 +79,7 @@ fn failure_handling() {
         ),
         (
             "(handler-case (tl (with-failure-handling ((plan-failre (e) (return :handled))) (fail \"x\"))) (error (e) (princ-to-string e)))",
-            "\"unknown type specifier: PLAN-FAILRE. Did you mean PLAN-FAILURE?\"",
+            "\"unknown type specifier: DEMO::PLAN-FAILRE. Did you mean CRAM-LANGUAGE-IMPLEMENTATION:PLAN-FAILURE?\"",
         ),
         (
             "(with-failure-handling (((or f1 f3) (e) (return (type-of e)))) (fail 'f3))",
@@ -135,7 +135,7 @@ fn failure_handling() {
         ),
         (
             "(do-retry foo 1)",
-            "!! UNBOUND-VARIABLE The variable FOO is unbound.",
+            "!! SIMPLE-PROGRAM-ERROR DO-RETRY: there is no retry counter FOO here; WITH-RETRY-COUNTERS around it makes some.",
         ),
         (
             "(retry)",

@@ -151,7 +151,7 @@ fn an_action_is_defined_with_its_keys() {
         (
             "(def-action waving (arm) (:plan wave))
              (perform (an action (type waving) (arm left) (object (an object (type flag)))))",
-            "!! Designator #<A ACTION\n    (TYPE WAVING)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n    (TYPE FLAG)>)> could not be resolved.\nThe action WAVING cannot act on an object: it was given #<A OBJECT\n    (TYPE FLAG)>.",
+            "!! Designator #<A ACTION\n    (TYPE WAVING)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n                (TYPE FLAG)>)> could not be resolved.\nThe action WAVING cannot act on an object: it was given #<A OBJECT\n    (TYPE FLAG)>.",
         ),
     ]);
 }
