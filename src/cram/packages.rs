@@ -144,7 +144,12 @@ pub static PACKAGES: &[PackageRow] = &[
     row("ROSLISP", &[], "ROS-INFO ROS-WARN ROS-ERROR ROS-DEBUG"),
     row("ROSLISP-UTILITIES", &[], ""),
     row("ROS-LOAD", &["ROS-LOAD-MANIFEST"], ""),
-    row("ASDF", &[], "*CENTRAL-REGISTRY*"),
+    row(
+        "ASDF",
+        &[],
+        "*CENTRAL-REGISTRY* OPERATION LOAD-OP COMPILE-OP LOAD-SOURCE-OP PREPARE-OP TEST-OP PROGRAM-OP COMPONENT \
+         MODULE SYSTEM SOURCE-FILE CL-SOURCE-FILE STATIC-FILE",
+    ),
     // What the symbols in descriptions of systems belong to.
     row("ASDF-USER", &[], ""),
     row("UIOP", &["UIOP/DRIVER"], ""),

@@ -517,8 +517,7 @@
 (defun println (object &optional (stream *standard-output*))
   "Writes an object as by PRINC, and a line break.
   Examples:
-  (with-output-to-string (s) (uiop:println 1 s)) => \"1
-\""
+  (length (with-output-to-string (s) (uiop:println 1 s))) => 2"
   (princ object stream)
   (terpri stream)
   (values))

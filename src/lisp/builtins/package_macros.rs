@@ -12,7 +12,7 @@ use crate::image::Image;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
-use crate::value::package::{Access, PackageId};
+use crate::value::package::{Access, PackageId, PackageTable};
 use crate::value::raise::Raise;
 use crate::value::sequence::list_items;
 use crate::value::symbol::Sym;
@@ -74,6 +74,10 @@ fn define_package(image: &mut Image, name: String, options_value: &Value) -> Out
                     ));
                 }
                 image.packages.add_nickname(id, nickname);
+            }
+            // A package that uses others in place of COMMON-LISP has their symbols of those names.
+            if !used.is_empty() && !used.contains(&PackageTable::CL) {
+                image.packages.unuse_package(id, PackageTable::CL);
             }
             id
         }

@@ -7,12 +7,7 @@
   "Frees objects that hold each other and that nothing else refers to. Others are freed at once.
   Examples:
   (tg:gc :full t) => NIL
-  (let ((circle (list 1)))
-    (setf (cdr circle) circle)
-    (let ((pointer (tg:make-weak-pointer circle)))
-      (setf circle nil)
-      (tg:gc :full t)
-      (tg:weak-pointer-value pointer))) => NIL"
+  (let ((circle (list 1))) (setf (cdr circle) circle) (let ((pointer (tg:make-weak-pointer circle))) (setf circle nil) (tg:gc :full t) (tg:weak-pointer-value pointer))) => NIL"
   (declare (ignore full verbose))
   (system::%free-circles)
   nil)
