@@ -52,7 +52,7 @@ const LESSON: [(&str, &str, usize); 14] = [
     ("PP-TUT> (careful 5)", "(:FAILED 1)", 0),
     // Lines of a log behind a form, and a block that is nothing else.
     (
-        "PP-TUT> (park-arm :left) [(ARMS PARK) INFO] 1550504321.279: Moving [(ARMS PARK) WARN] 1550504321.9: #<POSE \"map\" #<3D-VECTOR (1.0d0 2.0d0)>> is far.",
+        "PP-TUT> (with-simulated-robot (park-arm :left)) [(ARMS PARK) INFO] 1550504321.279: Moving [(ARMS PARK) WARN] 1550504321.9: #<POSE \"map\" #<3D-VECTOR (1.0d0 2.0d0)>> is far.",
         "",
         1,
     ),
