@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
+use super::near_class::near_class;
 use super::precedence::precedence_list;
 use crate::image::Image;
 use crate::image::locks::Meaning;
-use crate::types::parse::near_class;
 use crate::value::class::{Class, ClassKind, Initform, OldSlot, SlotDefinition};
 use crate::value::known;
 use crate::value::raise::Raise;

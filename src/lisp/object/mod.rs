@@ -17,6 +17,7 @@ pub mod fill;
 pub mod instance;
 pub(crate) mod library_classes;
 pub mod method;
+pub(crate) mod near_class;
 pub mod parameters;
 pub(crate) mod precedence;
 pub(crate) mod slot_options;

@@ -7,6 +7,7 @@ use super::emptiness::is_subtype;
 use super::specifier::{Answers, Bound, RealKind, Stop, Type};
 use super::subtype::Verdict;
 use crate::image::Image;
+use crate::object::near_class::{defined_classes, nearest};
 use crate::types::sequence_types;
 use crate::value::Value;
 use crate::value::class::ClassKind;
@@ -15,7 +16,6 @@ use crate::value::known;
 use crate::value::number::{Rounding, add, divide, rational, sub};
 use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
-use closest_name::closest_name;
 
 /// How deeply specifiers may be nested, expansions of `deftype` included.
 const MAX_DEPTH: usize = 200;
@@ -511,23 +511,6 @@ const PLAIN_TYPES: &[Sym] = &[
 fn near_type(image: &Image, name: Sym) -> Option<Sym> {
     let names = image.types.keys().chain(PLAIN_TYPES).copied();
     nearest(image, name, names.chain(defined_classes(image)))
-}
-
-/// The name of a class that is nearest to one that is none.
-pub(crate) fn near_class(image: &Image, name: Sym) -> Option<Sym> {
-    nearest(image, name, defined_classes(image))
-}
-
-fn defined_classes(image: &Image) -> impl Iterator<Item = Sym> {
-    let classes = image.classes.iter();
-    let classes = classes.filter(|(_, class)| class.is_defined.get());
-    classes.map(|(name, _)| *name)
-}
-
-fn nearest(image: &Image, name: Sym, names: impl Iterator<Item = Sym>) -> Option<Sym> {
-    let names: Vec<Sym> = names.collect();
-    let near = closest_name(image.name(name), names.iter().map(|sym| image.name(*sym)))?;
-    names.into_iter().find(|sym| image.name(*sym) == near)
 }
 
 /// Is the symbol the name of a class that types alone describe?
