@@ -70,8 +70,10 @@ impl<C: 'static> Scheduler<C> {
         if inner.is_held.take() {
             live.told = Told::Suspend;
         }
-        let root = std::iter::successors(Some(parent), |slot| self.live(*slot)?.parent).last();
-        if let Some(root) = root.and_then(|root| self.live(root)).map(|live| live.id) {
+        let root = self.live(parent).and_then(|parent| parent.root);
+        let root = root.unwrap_or(parent);
+        live.root = Some(root);
+        if let Some(root) = self.live(root).map(|live| live.id) {
             self.note_begun(root);
         }
         let slot = self.add(live);

@@ -20,6 +20,8 @@ pub(super) struct Live {
     /// The task; `None` for a root.
     pub task: Option<TaskRef>,
     pub parent: Option<Slot>,
+    /// The root that it belongs to; `None` for a root itself.
+    pub(crate) root: Option<Slot>,
     /// Children that are alive, in order of creation.
     pub(crate) children: Vec<Slot>,
     /// What it waits for.
@@ -155,6 +157,7 @@ impl Live {
             fiber: Fiber::default(),
             task: None,
             parent: None,
+            root: None,
             children: Vec::new(),
             wait: Wait::Nothing,
             token: 0,
