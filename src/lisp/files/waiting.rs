@@ -9,7 +9,7 @@ use std::io;
 pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
     #[cfg(unix)]
     if keeps_waiting(path) {
-        return waiting::read(path);
+        return interruptible::read(path);
     }
     fs::read(path)
 }
@@ -18,7 +18,7 @@ pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
 pub(super) fn open(options: &OpenOptions, path: &str) -> io::Result<File> {
     #[cfg(unix)]
     if keeps_waiting(path) {
-        return waiting::open(options, path);
+        return interruptible::open(options, path);
     }
     options.open(path)
 }
@@ -29,7 +29,7 @@ fn keeps_waiting(path: &str) -> bool {
 }
 
 #[cfg(unix)]
-mod waiting {
+mod interruptible {
     use std::fs::{File, OpenOptions};
     use std::io::{self, ErrorKind, Read};
     use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
