@@ -119,24 +119,12 @@ fn ctrl_c_is_heard_while_the_session_waits_for_a_pipe() {
         terminal.line(&format!("(progn (print :waits) {form})"));
         terminal.wait_until("the form to wait", |text| text.ends_with(":WAITS"));
         terminal.keys(CTRL_C);
-        terminal.wait_for_last_line("CL-USER stopped>");
-        terminal.keys("1\r");
+        terminal.wait_for_last_line("CL-USER 1]>");
+        terminal.keys("q\r");
         terminal.wait_for_last_line("CL-USER>");
         terminal.keys("\x0c");
         terminal.wait_until("an empty screen", |text| text == "CL-USER>");
     }
-}
-
-#[test]
-fn a_question_about_completions_is_left_by_ctrl_c() {
-    let state = State::new("menu");
-    let terminal = Terminal::start(&state, &[]);
-    terminal.keys("(m");
-    terminal.keys(TAB);
-    terminal.wait_for("possibilities? (y or n)");
-    terminal.keys(CTRL_C);
-    terminal.keys("ax 1 2)\r");
-    terminal.wait_for("\n2\nCL-USER>");
 }
 
 #[test]

@@ -90,5 +90,5 @@ pub(super) fn reflows() -> bool {
         .iter()
         .any(|old| kind == *old || kind.starts_with(&format!("{}-", old.trim_end_matches('-'))));
     let is_within_tmux = !variable("TMUX").is_empty();
-    is_within_tmux || !(is_old || !variable("XTERM_VERSION").is_empty())
+    is_within_tmux || !is_old && variable("XTERM_VERSION").is_empty()
 }
