@@ -1,7 +1,7 @@
 //! Text that reaches the prompt in other ways than keys and bracketed paste: without its line breaks,
 //! without brackets, while a form runs; and keys at moments when nobody expects them.
 
-use super::pseudo_terminal::{CTRL_C, CTRL_D, ENTER, State, TAB, Terminal};
+use super::pseudo_terminal::{CTRL_C, CTRL_D, ENTER, State, Terminal};
 
 #[test]
 fn a_comment_that_has_swallowed_code_ends_and_says_so() {
