@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::builtins::{implementation, number_theory, numbers, reading, registry};
+use super::builtins::{implementation, number_constants, number_theory, reading, registry};
 use super::condition;
 use super::image::{Image, precompiled};
 use super::library;
@@ -40,7 +40,7 @@ impl Image {
         image.define_library_classes();
         registry::install(image);
         define_variables(image);
-        numbers::define_constants(image);
+        number_constants::define(image);
         number_theory::define_constants(image);
         implementation::define_constants(image);
         reading::define_variables(image);

@@ -25,6 +25,7 @@ pub mod lists;
 pub mod loading;
 pub(crate) mod mapping;
 pub(crate) mod metaobjects;
+pub(crate) mod number_constants;
 pub(crate) mod number_theory;
 pub mod numbers;
 pub(crate) mod object_printing;

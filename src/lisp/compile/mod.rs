@@ -5,6 +5,7 @@
 //! and which are assigned. The second emits code.
 
 mod analyze;
+mod binding_forms;
 mod body;
 mod compiled_macros;
 mod control_macros;
@@ -13,6 +14,7 @@ pub(crate) mod destructure;
 mod emit;
 mod environment;
 mod expand;
+mod function_forms;
 pub mod lambda_list;
 mod locks;
 mod node;
