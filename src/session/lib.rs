@@ -35,6 +35,7 @@ mod tabulated;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use crate::dialogue::{Evaluate, Event, Finding, Outcome};
 use console::Evaluator;
@@ -179,9 +180,9 @@ impl Session {
     }
 
     /// From now on, inputs are interrupted when so much real time has passed, all together.
-    pub fn set_time_limit(&mut self, limit: Option<std::time::Duration>) {
-        let begin = std::time::Instant::now();
-        self.evaluator.deadline = limit.and_then(|limit| begin.checked_add(limit));
+    pub fn set_time_limit(&mut self, limit: Option<Duration>) {
+        let now = self.evaluator.host.audience.outside().clock.now();
+        self.evaluator.deadline = limit.and_then(|limit| now.checked_add(limit));
     }
 
     /// What it began with.

@@ -1,7 +1,7 @@
 //! Evaluating inputs.
 
 use std::rc::Rc;
-use std::time::Instant;
+use std::time::Duration;
 
 use super::halt;
 use super::line_breaks;
@@ -35,8 +35,8 @@ pub(crate) struct Evaluator {
     pub(crate) objects: Rc<Objects>,
     /// The condition that has ended the evaluation of a form last.
     pub(crate) failed_with: Option<Value>,
-    /// When inputs have to have ended.
-    pub(crate) deadline: Option<Instant>,
+    /// When inputs have to have ended, by the session's clock.
+    pub(crate) deadline: Option<Duration>,
 }
 
 /// How the evaluation of one form ended.
@@ -108,7 +108,8 @@ impl Evaluator {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
-        let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
+        let clock = &self.host.audience.outside().clock;
+        let left = |deadline: Duration| deadline.saturating_sub(clock.now());
         let limits = Limits {
             wall_clock: self.deadline.map(left),
             ..Limits::NONE
