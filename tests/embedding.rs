@@ -1,6 +1,9 @@
 //! A program that embeds planwright, through nothing but what the library offers: it runs a
 //! plan, listens to what happens, and asks where things are in the end.
 
+#[path = "embedding/outside.rs"]
+mod outside;
+
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};

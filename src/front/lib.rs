@@ -65,10 +65,12 @@ mod transcript;
 
 #[doc(hidden)]
 pub use command::main;
+pub use lisp::files;
 pub use lisp::guard::heap::HeapLimit;
 pub use lisp::source::Location;
 pub use robotics::robot::Side;
 pub use session::dialogue::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
+pub use session::outside::{Clock, MachineClock, Outside};
 pub use session::{
     Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
     PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
