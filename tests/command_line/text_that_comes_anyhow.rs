@@ -1,7 +1,7 @@
 //! Text that reaches the prompt in other ways than keys and bracketed paste: without its line breaks,
 //! without brackets, while a form runs; and keys at moments when nobody expects them.
 
-use super::pseudo_terminal::{CTRL_C, CTRL_D, ENTER, State, Terminal};
+use super::pseudo_terminal::{CTRL_C, CTRL_D, ENTER, State, TAB, Terminal};
 
 #[test]
 fn a_comment_that_has_swallowed_code_ends_and_says_so() {
@@ -124,6 +124,30 @@ fn ctrl_c_is_heard_while_the_session_waits_for_a_pipe() {
         terminal.wait_for_last_line("CL-USER>");
         terminal.keys("\x0c");
         terminal.wait_until("an empty screen", |text| text == "CL-USER>");
+    }
+}
+
+#[test]
+fn a_question_about_completions_is_left_by_ctrl_c() {
+    let state = State::new("menu");
+    let terminal = Terminal::start(&state, &[]);
+    // So many candidates that it asks whether to show them, and so many that it asks for each page.
+    for (begun, question, rest, value) in [
+        (
+            "(c",
+            "possibilities? (y or n)",
+            "ar '(1))\r",
+            "\n1\nCL-USER>",
+        ),
+        ("(m", "--More--", "ax 1 2)\r", "\n2\nCL-USER>"),
+    ] {
+        terminal.keys(begun);
+        terminal.keys(TAB);
+        terminal.wait_for(question);
+        terminal.keys(CTRL_C);
+        terminal.wait_for_last_line(&format!("CL-USER> {begun}"));
+        terminal.keys(rest);
+        terminal.wait_for(value);
     }
 }
 
