@@ -229,7 +229,7 @@ fn milk_that_stands_askew_at_the_back_of_the_fridge_is_taken_over_its_edge() {
     assert_eq!(flaw(&mut cook, fridge, &form, "kitchen_island"), None);
 }
 
-/// Maximum number of headings at which it might stand there ask for a hand that comes from the back of the fridge.
+/// Most headings at which it might stand there ask for a hand that comes from the back of the fridge.
 #[test]
 fn milk_is_grasped_for_a_place_in_the_fridge_where_it_can_be_put_down() {
     let fridge = &STORES[1];

@@ -24,8 +24,8 @@ pub(super) enum State {
 const OLD: u32 = 1 << 31;
 const COUNTED: u32 = 1 << 30;
 const UNHELD: u32 = 1 << 29;
-/// The most references that are counted. An object that has more counts as held.
-const MOST: u32 = UNHELD - 1;
+/// Maximum number of references that are counted. An object that has more counts as held.
+const MAX_COUNT: u32 = UNHELD - 1;
 
 impl Mark {
     /// Has an earlier collection found the object alive?
@@ -49,20 +49,20 @@ impl Mark {
     /// Counts a reference.
     pub(super) fn count(&self) {
         let bits = self.0.get();
-        if bits & MOST < MOST {
+        if bits & MAX_COUNT < MAX_COUNT {
             self.0.set(bits + 1);
         }
     }
 
     /// The references that were found; none if they are too many.
     pub(super) fn found(&self) -> Option<usize> {
-        let found = self.0.get() & MOST;
-        (found < MOST).then_some(found as usize)
+        let found = self.0.get() & MAX_COUNT;
+        (found < MAX_COUNT).then_some(found as usize)
     }
 
     /// The object is not known to be held, for all that has been seen.
     pub(super) fn set_unheld(&self) {
-        self.0.set(self.0.get() & (OLD | MOST) | UNHELD);
+        self.0.set(self.0.get() & (OLD | MAX_COUNT) | UNHELD);
     }
 
     /// The object is alive, and the collection has done with it.
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn too_many_references_are_no_number() {
-        let mark = Mark(Cell::new(COUNTED | (MOST - 1)));
+        let mark = Mark(Cell::new(COUNTED | (MAX_COUNT - 1)));
         mark.count();
         mark.count();
         assert_eq!((mark.state(), mark.found()), (State::Counted, None));

@@ -8,7 +8,7 @@
 //! way are counted. An object with more references than that is held from elsewhere, and so is
 //! all that can be reached from it; the rest is freed. No roots need to be known for that.
 //!
-//! Maximum number of circles are short-lived. So a collection of the young looks only at what no earlier one has
+//! Most circles are short-lived. So a collection of the young looks only at what no earlier one has
 //! found alive; it is due when many objects have been noted. A full one looks at everything; it is due
 //! when much more memory is in use than after the last one, when much is held by few objects
 //! ([`press`]), and before memory is said to be exhausted ([`collect_all`]).
