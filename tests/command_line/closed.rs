@@ -75,6 +75,20 @@ fn a_closed_session_refuses_files_ports_and_edits() {
 }
 
 #[test]
+fn what_sets_a_session_up_is_not_overwritten() {
+    let folder = folder("overwritten");
+    let setup = folder.join("setup.plan");
+    fs::write(&setup, "(list 1)").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_planwright"));
+    command.args(["run", "--closed", "--setup"]).arg(&setup);
+    command.args(["--eval", "1", "--record"]).arg(&setup);
+    let output = command.stdin(Stdio::null()).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&setup).unwrap(), "(list 1)");
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
 fn plans_run_in_a_closed_session() {
     let (status, out, err) = closed(
         "plans",

@@ -90,7 +90,7 @@ impl Options {
             &self.robot,
             &self.robot_description,
         ];
-        files.into_iter().flatten()
+        files.into_iter().flatten().chain(&self.setup)
     }
 }
 
