@@ -86,7 +86,8 @@ impl Drawing {
         self.with(|drawn| (drawn.prompt.chars().count(), drawn.columns))
     }
 
-    /// A text is going to be drawn; returns whether that is because the terminal has changed.
+    /// A text is going to be drawn. If that is because the terminal has changed its width, what is wrong
+    /// on the screen is corrected first.
     pub(super) fn draws(&self, text: &str, at: usize) {
         let columns = tty::columns();
         let correction = self.with(|drawn| {
