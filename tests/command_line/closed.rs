@@ -1,7 +1,8 @@
 //! Sessions that are closed: plans move the robot, and that is all.
 
 use std::fs;
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 fn folder(name: &str) -> PathBuf {
@@ -85,6 +86,48 @@ fn what_sets_a_session_up_is_not_overwritten() {
     let output = command.stdin(Stdio::null()).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(fs::read_to_string(&setup).unwrap(), "(list 1)");
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+/// What a session prints whose inputs come from a pipe.
+fn piped(folder: &Path, arguments: &[&str], input: &str) -> String {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    stdin.write_all(input.as_bytes()).unwrap();
+    drop(stdin);
+    let output = child.wait_with_output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    format!("{printed}{}", String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn a_session_is_resumed_as_closed_as_it_was() {
+    let folder = folder("resumed");
+    fs::write(folder.join("setup.plan"), "(defparameter *set-up* :yes)").unwrap();
+    let edit = "(btr-utils:kill-all-objects)\n";
+    let closed = [
+        "--closed",
+        "--setup",
+        "setup.plan",
+        "--journal",
+        "closed.journal",
+    ];
+    let printed = piped(&folder, &closed, "*set-up*\n");
+    assert!(printed.contains(":YES"), "{printed}");
+    let printed = piped(&folder, &["--resume=closed.journal"], edit);
+    assert!(printed.contains("This session is closed"), "{printed}");
+    piped(&folder, &["--journal", "open.journal"], "(list 1)\n");
+    let printed = piped(&folder, &["--resume=open.journal"], edit);
+    assert!(!printed.contains("This session is closed"), "{printed}");
+    let printed = piped(&folder, &["--closed", "--resume=open.journal"], edit);
+    assert!(printed.contains("This session is closed"), "{printed}");
     fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -183,7 +183,9 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     ];
     let files = files.into_iter();
     let files = files.filter_map(|(name, path)| Some((name, path.as_ref()?)));
-    for (name, path) in files.chain(options.systems.iter().map(|path| ("systems", path))) {
+    let systems = options.systems.iter().map(|path| ("systems", path));
+    let setup = options.setup.iter().map(|path| ("setup", path));
+    for (name, path) in files.chain(systems).chain(setup) {
         add(
             name,
             std::path::absolute(path)?.to_string_lossy().into_owned(),
@@ -210,6 +212,9 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     }
     if let Some(bytes) = options.heap {
         add("heap", bytes.to_string());
+    }
+    if options.closed {
+        given.push("--closed".to_owned());
     }
     Ok(given)
 }

@@ -66,6 +66,8 @@ pub(super) fn open_journals(
         robot_description: options.robot_description.clone(),
         noise: options.noise.clone(),
         systems: options.systems.clone(),
+        setup: options.setup.clone(),
+        is_closed: options.closed,
     };
     let mut opened = prompt::open(journal, &beginning)?;
     if let Some(earlier) = &opened.earlier {
@@ -98,6 +100,12 @@ pub(super) fn open_journals(
                 !options.systems.is_empty() && absolute(&options.systems) != beginning.systems,
             ),
             (
+                "--setup",
+                !options.closed
+                    && !options.setup.is_empty()
+                    && absolute(&options.setup) != beginning.setup,
+            ),
+            (
                 "--noise",
                 options.noise.is_some() && options.noise != beginning.noise,
             ),
@@ -113,6 +121,11 @@ pub(super) fn open_journals(
         options.robot_description = beginning.robot_description;
         options.noise = beginning.noise;
         options.systems = beginning.systems;
+        // Who resumes a session as a closed one trusts neither its inputs nor the files that it names.
+        if !options.closed {
+            options.setup = beginning.setup;
+            options.closed = beginning.is_closed;
+        }
     }
     Ok(opened)
 }

@@ -2,8 +2,8 @@
 //! however it ended.
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
-//! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description` and `noise` say how
-//! the session began. `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
+//! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `noise`,
+//! `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
 //! when the record is on disk. `interrupted` says where it was interrupted, and `ended` that it
 //! has ended, with the hash of the world then. While a session is resumed, `again` says that
 //! the evaluation of that input begins once more, and `skipped` that it is left out. Replaying
@@ -47,6 +47,10 @@ pub(crate) struct Beginning {
     pub(crate) noise: Option<String>,
     /// Folders in which systems are looked for.
     pub(crate) systems: Vec<PathBuf>,
+    /// Files that were loaded first.
+    pub(crate) setup: Vec<PathBuf>,
+    /// Whether inputs could use no files and not edit the world.
+    pub(crate) is_closed: bool,
 }
 
 /// An input of an earlier session.

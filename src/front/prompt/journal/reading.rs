@@ -113,6 +113,8 @@ impl Earlier {
             }
             Record::Noise(settings) => self.beginning.noise = Some(settings),
             Record::Systems(folder) => self.beginning.systems.push(folder.into()),
+            Record::Setup(file) => self.beginning.setup.push(file.into()),
+            Record::Closed => self.beginning.is_closed = true,
             Record::Input { text, stops } => {
                 *current = Some(self.inputs.len());
                 self.inputs.push(Recorded {

@@ -28,6 +28,8 @@ pub(super) enum Record {
     RobotDescription(String),
     Noise(String),
     Systems(String),
+    Setup(String),
+    Closed,
     /// The evaluation of an input begins.
     Input {
         text: String,
@@ -58,11 +60,15 @@ impl Record {
         });
         let systems = beginning.systems.iter();
         let systems = systems.map(|folder| Record::Systems(absolute(folder)));
+        let setup = beginning.setup.iter();
+        let setup = setup.map(|file| Record::Setup(absolute(file)));
         let noise = beginning.noise.clone().map(Record::Noise);
         std::iter::once(Record::Seed(beginning.seed))
             .chain(given)
             .chain(noise)
             .chain(systems)
+            .chain(setup)
+            .chain(beginning.is_closed.then_some(Record::Closed))
             .collect()
     }
 
@@ -76,6 +82,8 @@ impl Record {
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
             Record::Systems(folder) => ("systems", escaped(folder)),
+            Record::Setup(file) => ("setup", escaped(file)),
+            Record::Closed => ("closed", "yes".to_owned()),
             Record::Input { text, stops: true } => ("input", escaped(text)),
             Record::Input { text, stops: false } => ("pasted", escaped(text)),
             Record::Interrupted(at) => ("interrupted", at.to_string()),
@@ -96,6 +104,8 @@ impl Record {
             "robot-description" => Record::RobotDescription(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),
             "systems" => Record::Systems(unescaped(value)),
+            "setup" => Record::Setup(unescaped(value)),
+            "closed" => Record::Closed,
             "input" | "pasted" => Record::Input {
                 text: unescaped(value),
                 stops: word == "input",

@@ -73,6 +73,8 @@ fn what_is_written_is_read_again() {
         robot_description: None,
         noise: Some("position=0.01".to_owned()),
         systems: vec!["/lisp a".into(), "/lisp b".into()],
+        setup: vec!["/a b.plan".into()],
+        is_closed: true,
     };
     let mut journal = Journal::create(&path, &beginning, &[]).unwrap();
     journal.begun("(a\n \"\\n\")\r", true).unwrap();
