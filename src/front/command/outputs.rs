@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::failure::CommandError;
+use session::WatchError;
 
 /// The files that a command reads and those that it is going to write.
 #[derive(Default)]
@@ -59,8 +60,14 @@ impl Outputs {
                 });
             }
         }
-        for (_, path) in &self.files {
-            try_file(path).map_err(|error| refused(path, error))?;
+        for (option, path) in &self.files {
+            try_file(path).map_err(|error| match *option {
+                "--record" => CommandError::Watch(WatchError::Record {
+                    path: path.clone(),
+                    error: error.into(),
+                }),
+                _ => refused(path, error),
+            })?;
         }
         for (_, folder) in &self.folders {
             fs::create_dir_all(folder).map_err(|error| refused(folder, error))?;
