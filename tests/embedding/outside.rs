@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use planwright::files::{Contents, FileFacts, Files, Opening, Output};
-use planwright::{Clock, Datum, Outside, Session, SessionOptions};
+use planwright::{Clock, Datum, Evaluate, Outside, Session, SessionOptions};
 
 type Texts = Arc<Mutex<BTreeMap<String, Vec<u8>>>>;
 
