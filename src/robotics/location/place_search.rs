@@ -333,19 +333,29 @@ impl PlaceSearch {
         let (What::Object(name), Some(load)) = (&query.what, &self.load) else {
             return false;
         };
-        let (Ok(now), Ok(supports)) = (world.object_pose(name), world.supports(name)) else {
+        let (Ok(now), Ok(carriers)) = (world.object_pose(name), world.carriers(name)) else {
             return false;
         };
-        let bottom = pose.translation.z - load.depth(pose);
         let heights = self.starts.iter();
         let mut heights = heights.map(|[start, below]| start - below..=*start);
-        let carries = |body: &BodyName| match &query.support {
+        let is_support = |body: &BodyName| match &query.support {
             Support::Furniture(_) => matches!(body, BodyName::Furniture(_)),
             Support::Object(name) => body.object() == Some(name),
         };
+        let Some(at) = carriers.iter().position(is_support) else {
+            return false;
+        };
+        // What stands on other things is where the lowest of them stands.
+        let lowest = at.checked_sub(1).and_then(|below| carriers[below].object());
+        let bottom = match lowest {
+            None => pose.translation.z - load.depth(pose),
+            Some(lowest) => match world.object_extent(lowest) {
+                Ok(extent) => extent.bottom(),
+                Err(_) => return false,
+            },
+        };
         distance_between(&now, pose) < SAME_PLACE
             && heights.any(|heights| heights.contains(&bottom))
-            && supports.iter().any(|support| carries(&support.body))
     }
 
     /// Why the pose is no such place, if it is none.

@@ -43,6 +43,11 @@ impl Extent {
         self.frame.translation.z + self.max[2]
     }
 
+    /// Height (m) of the lower face in the map frame.
+    pub(crate) fn bottom(&self) -> f64 {
+        self.frame.translation.z + self.min[2]
+    }
+
     /// The point (m) of the map in the frame of the box.
     pub fn local(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let z = self.frame.translation.z;

@@ -8,6 +8,7 @@
 
 pub(crate) mod allowed_pairs;
 pub mod body_name;
+mod carrying;
 pub mod collision;
 mod collision_search;
 pub mod contacts;

@@ -38,7 +38,10 @@ impl World {
         }
         let models = &self.models;
         let zones: Vec<Zone> = self.objects().map(|object| self.zone(object)).collect();
-        let carriers: Vec<usize> = self.objects().filter_map(|o| self.carrier(o)).collect();
+        let carriers: Vec<usize> = self
+            .objects()
+            .filter_map(|o| self.carrying_link(o))
+            .collect();
         let groups = models.robot_geometry.groups.iter();
         let bodies = self.robot_bodies.iter().zip(groups).zip(&models.hands);
         for (place, ((body, group), hand)) in bodies.enumerate() {
@@ -115,7 +118,7 @@ impl World {
     }
 
     /// The place in the list of bodies of the one to which the object is welded.
-    fn carrier(&self, object: &Object) -> Option<usize> {
+    fn carrying_link(&self, object: &Object) -> Option<usize> {
         let link = object.attachment()?.link;
         let groups = &self.models.robot_geometry.group_of;
         groups.get(link.index()).copied()

@@ -195,12 +195,10 @@ impl World {
         let [was_up, is_up] = [pose, &end].map(|pose| pose.rotation * Vector3::z());
         let tilt = trig::atan2(was_up.cross(&is_up).norm(), was_up.dot(&is_up));
         let can_tip = world.object(name)?.can_tip();
-        let supports = world.supports(name)?.into_iter();
-        let most = supports.max_by(|a, b| a.force.total_cmp(&b.force));
         Ok(StandTrial {
             moved: (end.translation.vector - pose.translation.vector).norm(),
             tilt: if can_tip { tilt } else { 0.0 },
-            support: most.map(|most| most.body),
+            support: world.carrier(name)?,
         })
     }
 }

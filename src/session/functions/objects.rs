@@ -151,7 +151,7 @@ impl Simulation {
                 Some(body) => format!("does not fit at {}, where {body} is", place(wanted)),
                 None => format!("did not stay at {}", place(wanted)),
             };
-            let support = self.support(name)?;
+            let support = self.world.carrier(name).map_err(world_error)?;
             let on = support.map_or_else(String::new, |support| format!(", on {support}"));
             let text = format!("{name} {why}. It is at {}{on}.", place(&now));
             self.log(image, LogLevel::Warn, SPAWN_TAGS, &text);

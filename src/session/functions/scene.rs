@@ -51,11 +51,20 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "SUPPORT-OF",
         "name",
-        "The name of what carries an object, except the robot: a string.",
+        "The name of what carries most of an object, except the robot: a string.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::support-of 'bottle-1)) => \"table_area_main\"",
         ],
         host!(support_of),
+    ),
+    control(
+        "CARRIERS-OF",
+        "name",
+        "The names of what carries an object, what carries that, and so on down to furniture or the floor: strings.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::carriers-of 'bottle-1)) => (\"table_area_main\")",
+        ],
+        host!(carriers_of),
     ),
 ];
 
@@ -63,16 +72,7 @@ fn world_error(error: WorldError) -> Box<Raise> {
     Raise::reporting(error)
 }
 
-impl Simulation {
-    /// The body that carries most of the object, except the robot.
-    pub(super) fn support(&self, name: &str) -> Result<Option<String>> {
-        let supports = self.world.supports(name).map_err(world_error)?;
-        let most = supports
-            .into_iter()
-            .max_by(|a, b| a.force.total_cmp(&b.force));
-        Ok(most.map(|most| most.body.to_string()))
-    }
-}
+impl Simulation {}
 
 fn scene_at_rest(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
     let world = &simulation.world;
@@ -153,7 +153,16 @@ fn object_lifted(simulation: &mut Simulation, image: &mut Image, args: &[Value])
 
 fn support_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
-    let support = simulation.support(&name)?;
-    let text = support.unwrap_or_else(|| "nothing".to_owned());
+    let carrier = simulation.world.carrier(&name).map_err(world_error)?;
+    let text = carrier.map_or_else(|| "nothing".to_owned(), |body| body.to_string());
     done(Value::from(text.as_str()))
+}
+
+fn carriers_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let carriers = simulation.world.carriers(&name).map_err(world_error)?;
+    let names = carriers
+        .iter()
+        .map(|body| Value::from(body.to_string().as_str()));
+    done(Value::list(names))
 }

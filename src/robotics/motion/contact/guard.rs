@@ -131,11 +131,9 @@ pub(crate) fn pinned(world: &World, object: &str) -> Option<PinnedObject> {
     if force <= GREATEST_FORCE.max(weight) {
         return None;
     }
-    let supports = world.supports(object).ok()?.into_iter();
-    let most = supports.max_by(|a, b| a.force.total_cmp(&b.force))?;
     Some(PinnedObject {
         object: object.to_owned(),
-        against: most.body,
+        against: world.carrier(object).ok()??,
         force,
     })
 }

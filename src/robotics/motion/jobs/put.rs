@@ -56,7 +56,7 @@ impl Put {
 impl PutGoal {
     /// What carries the object, if anything does.
     fn support(&self, world: &World) -> Option<BodyName> {
-        let forces = world.supports(&self.object).ok()?;
+        let forces = world.carrying_forces(&self.object).ok()?;
         let most = forces
             .into_iter()
             .max_by(|a, b| a.force.total_cmp(&b.force))?;

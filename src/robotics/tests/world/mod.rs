@@ -1,5 +1,6 @@
 //! The physical world.
 
+mod carrying;
 mod collisions;
 mod falling;
 pub(crate) mod fixture;
