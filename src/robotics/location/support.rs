@@ -21,8 +21,8 @@ impl Support {
         }
     }
 
-    /// The box around it.
-    pub(super) fn extent(&self, world: &World) -> Result<Extent, WorldError> {
+    /// The box around it; an error if it is not there, or has no shape.
+    pub fn extent(&self, world: &World) -> Result<Extent, WorldError> {
         match self {
             Self::Furniture(link) => {
                 let missing = || WorldError::UnknownObject {
@@ -35,7 +35,8 @@ impl Support {
         }
     }
 
-    pub(super) fn ground(&self, world: &World) -> Result<Ground, WorldError> {
+    /// What a thing on it stands on.
+    pub fn ground(&self, world: &World) -> Result<Ground, WorldError> {
         Ok(match self {
             Self::Furniture(_) => Ground::Furniture,
             Self::Object(name) => Ground::Object(world.object(name)?.key()),

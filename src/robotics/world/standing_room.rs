@@ -274,11 +274,18 @@ impl<'w> StandingRoom<'w> {
         Ok(())
     }
 
-    /// The first object that is nearer to the load at the pose than the gap (m).
-    pub fn too_near(&self, load: &Load, at: &Pose, gap: f64) -> Option<BodyName> {
+    /// The first object that is nearer to the load at the pose than the gap (m), but for the ground.
+    pub fn too_near(
+        &self,
+        load: &Load,
+        at: &Pose,
+        gap: f64,
+        ground: Ground,
+    ) -> Option<BodyName> {
         let at = to_parry(at);
         let objects = self.around.iter();
         let objects = objects.filter(|n| matches!(n.key, PartKey::Object(_)));
+        let objects = objects.filter(|n| !matches!(ground, Ground::Object(key) if key == n.key));
         for other in objects {
             let is_near = |solid: &Solid| {
                 separation(&(at * solid.pose), solid, &other.pose, &other.solid, gap).is_some()

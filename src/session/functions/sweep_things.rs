@@ -14,10 +14,10 @@ use lisp::typed::keywords::optional;
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::robot::LinkId;
+use robotics::location::Support;
 use robotics::world::body_name::BodyName;
 use robotics::world::object_library::ObjectType;
-use robotics::world::{AllowedPairs, Ground, Load, NoRoom, Object, StandingRoom, WorldError};
+use robotics::world::{AllowedPairs, Load, NoRoom, Object, StandingRoom, WorldError};
 use spatial::pose::from_xy_yaw;
 use spatial::{Pose, trig};
 
@@ -126,10 +126,13 @@ fn real(value: &Value) -> Result<f64> {
 }
 
 impl Simulation {
-    /// The surface with that name; an error suggests others.
-    fn surface_named(&self, image: &Image, name: &Value) -> Result<LinkId> {
+    /// The object or the piece of furniture that a value names; an error suggests others.
+    fn surface_named(&self, image: &Image, name: &Value) -> Result<Support> {
+        if let Some(object) = self.named_object(image, name) {
+            return Ok(Support::Object(object));
+        }
         if let Some(link) = self.furniture_of(image, name) {
-            return Ok(link);
+            return Ok(Support::Furniture(link));
         }
         let shown = print::to_string(image, name, false).to_lowercase();
         let wanted = shown.replace('-', "_");
@@ -149,8 +152,8 @@ impl Simulation {
 }
 
 fn surface_point(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let link = simulation.surface_named(image, &args[0])?;
-    let Some(extent) = simulation.world.furniture_extent(link) else {
+    let surface = simulation.surface_named(image, &args[0])?;
+    let Ok(extent) = surface.extent(&simulation.world) else {
         return done(Value::NIL);
     };
     let [u, v] = [real(&args[1])?, real(&args[2])?];
@@ -206,13 +209,13 @@ fn place_on_surface(
     args: &[Value],
 ) -> Result<Reply> {
     let (name, mut kind) = name_and_kind(simulation, image, &args[0], &args[1])?;
-    let link = simulation.surface_named(image, &args[2])?;
+    let surface = simulation.surface_named(image, &args[2])?;
     let [x, y, yaw, apart] = [&args[3], &args[4], &args[5], &args[6]].map(real);
     let (x, y, yaw, apart) = (x?, y?, yaw?, apart?);
     if let Some(mass) = optional(args, 8) {
         kind.mass = real(mass)?;
     }
-    match simulation.standing_place(&kind, link, [x, y, yaw], apart) {
+    match simulation.standing_place(&kind, &surface, [x, y, yaw], apart) {
         Err(why) => done(Value::from(why.as_str())),
         Ok(pose) => {
             let report = simulation
@@ -235,13 +238,12 @@ impl Simulation {
     fn standing_place(
         &self,
         kind: &ObjectType,
-        surface: LinkId,
+        surface: &Support,
         [x, y, yaw]: [f64; 3],
         apart: f64,
     ) -> std::result::Result<Pose, String> {
         let world = &self.world;
-        let extent = world.furniture_extent(surface);
-        let Some(extent) = extent else {
+        let (Ok(extent), Ok(ground)) = (surface.extent(world), surface.ground(world)) else {
             return Err("the surface has no shape".to_owned());
         };
         let load = Load::of_shapes(&kind.shapes);
@@ -254,19 +256,26 @@ impl Simulation {
             None,
         );
         let top = extent.top();
-        let levels = room.levels(surface, [x, y], [top + ABOVE, top - ABOVE]);
-        let Some(level) = levels.first() else {
+        let (level, lower) = match surface {
+            Support::Furniture(link) => {
+                let levels = room.levels(*link, [x, y], [top + ABOVE, top - ABOVE]);
+                (levels.first().copied(), LEVEL)
+            }
+            // In a bowl or on a tray, things stand lower than its rim.
+            Support::Object(_) => (Some(top), extent.size()[2]),
+        };
+        let Some(level) = level else {
             let mut here = at;
             here.translation.z = top + load.depth(&at);
-            return Err(match room.too_near(&load, &here, apart.max(TOLERANCE)) {
+            return Err(match room.too_near(&load, &here, apart.max(TOLERANCE), ground) {
                 Some(body) => format!("{body} is there"),
                 None => "it would stick out beyond the edge".to_owned(),
             });
         };
         let pose = room
-            .stand(&load, &at, level + ABOVE, ABOVE + LEVEL, Ground::Furniture)
+            .stand(&load, &at, level + ABOVE, ABOVE + lower, ground)
             .map_err(|reason| why_no_room(&reason))?;
-        match room.too_near(&load, &pose, apart) {
+        match room.too_near(&load, &pose, apart, ground) {
             Some(body) => Err(format!("{body} is too near")),
             None => Ok(pose),
         }

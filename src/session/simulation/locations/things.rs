@@ -19,7 +19,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 impl Simulation {
     /// The name in the world of the object that a value describes or names.
-    pub(super) fn named_object(&self, image: &Image, value: &Value) -> Option<String> {
+    pub(crate) fn named_object(&self, image: &Image, value: &Value) -> Option<String> {
         let name = match as_designator(value) {
             Some(_) => property(image, value, "NAME")?,
             None => value.clone(),
