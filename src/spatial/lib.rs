@@ -9,6 +9,9 @@ pub mod pose;
 pub mod shape;
 pub mod trig;
 
+// What dependencies call of the C library's mathematics is linked from there.
+use portable_math as _;
+
 pub use number::Shortest;
 pub use pose::Pose;
 pub use shape::{PlacedShape, Shape};

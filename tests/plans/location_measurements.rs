@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use nalgebra::Vector3;
 use robotics::location::{
-    BaseQuery, Constraint, Direction, Distances, Item, Orientation, PlaceQuery, Position, Query,
-    Relation, Scene, Stream, Support, Target, What, link_named,
+    BaseQuery, Constraint, Direction, Distances, Item, Orientation, OutOfReach, PlaceQuery,
+    Position, Query, Relation, Scene, Stream, Support, Target, What, link_named,
 };
 use robotics::robot::Side;
 use robotics::world::grasp_library::{GRASPS, GraspLibrary};
@@ -97,6 +97,7 @@ fn what_is_offered_on_surfaces_satisfies_the_description_and_stays() {
     let scene = Scene {
         world: &world,
         grasps: &grasps,
+        out_of_reach: &OutOfReach::default(),
     };
     let (mut offered, mut wrong, mut empty, mut placed, mut moved) = (0, 0, 0, 0, 0);
     for (i, (name, ..)) in SURFACES.iter().enumerate() {
@@ -201,6 +202,7 @@ fn base_poses_are_found_fast_and_none_is_missed() {
         let scene = Scene {
             world: &world,
             grasps: &grasps,
+            out_of_reach: &OutOfReach::default(),
         };
         let mut stream = Stream::new(Query::Base(reachable(&pose)), u64::from(number));
         let start = Instant::now();

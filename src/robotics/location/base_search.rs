@@ -28,9 +28,9 @@ const MAX_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again when all
 /// others have been tried.
 const MAX_AGAIN: usize = 1000;
-/// The search between the base poses of the first lattice ends when so many postures of the arms have
-/// been checked for collisions: most of the time goes there.
-const MAX_POSTURES: u32 = 100_000;
+/// A part of the search ends when so many postures of the arms have been checked for collisions: most
+/// of the time goes there, about 10 µs for each. Where there is a place at all, hundreds are enough.
+const MAX_POSTURES: [u32; 3] = [20_000, 10_000, 10_000];
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -45,8 +45,8 @@ pub(super) struct BaseSearch {
     goal: Goal,
     /// Number of base poses for which it was checked in vain whether the target can be reached.
     checks: u32,
-    /// Number of postures that have been checked between those of the first lattice.
-    postures: u32,
+    /// Number of postures that have been checked in each part, in the first one since it has found one.
+    postures: [u32; 3],
     walk: Walk,
     /// Base poses that are to be examined again.
     again: VecDeque<Pose>,
@@ -54,17 +54,33 @@ pub(super) struct BaseSearch {
     is_second_look: bool,
 }
 
+/// The parts of a search.
+#[derive(Clone, Copy)]
+enum Part {
+    /// The base poses of the first lattice.
+    First,
+    /// Base poses that are examined again.
+    Again,
+    /// The base poses between.
+    Between,
+}
+
 /// Why a base pose is no solution.
 struct Rejection {
     cause: String,
     /// Whether other postures might do.
     may_pass: bool,
+    /// Whether only sight is wanting.
+    is_unseen: bool,
 }
 
 impl Rejection {
     fn of(cause: String) -> Self {
-        let may_pass = false;
-        Self { cause, may_pass }
+        Self {
+            cause,
+            may_pass: false,
+            is_unseen: false,
+        }
     }
 }
 
@@ -91,7 +107,7 @@ impl BaseSearch {
             looking: imagined.clone(),
             imagined,
             checks: 0,
-            postures: 0,
+            postures: [0; 3],
             walk: Walk::first(query, map.cells.clone(), draw),
             map,
             again: VecDeque::new(),
@@ -129,13 +145,20 @@ impl BaseSearch {
         loop {
             interruption::look();
             let count = test.reach.postures();
-            if !walk.is_first() {
-                *postures += count - counted;
-            }
+            let part = match (*is_second_look, walk.is_first()) {
+                (true, _) => Part::Again,
+                (false, true) => Part::First,
+                (false, false) => Part::Between,
+            };
+            postures[part as usize] += count - counted;
             counted = count;
-            if *postures >= MAX_POSTURES {
+            if postures[part as usize] >= MAX_POSTURES[part as usize] {
                 tally.give_up();
-                return Ok(None);
+                match part {
+                    Part::First => *is_second_look = true,
+                    Part::Again => again.clear(),
+                    Part::Between => return Ok(None),
+                }
             }
             if *is_second_look {
                 let Some(base) = again.pop_front() else {
@@ -145,9 +168,13 @@ impl BaseSearch {
                     (*walk, *is_second_look, *checks) = (between, false, 0);
                     continue;
                 };
-                let is_new = !offered.has(&base);
-                if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
-                    return Ok(Some(base));
+                if offered.has(&base) {
+                    continue;
+                }
+                match test.run(&base, Effort::PATIENT, checks)? {
+                    Ok(()) => return Ok(Some(base)),
+                    Err(rejection) if rejection.is_unseen => tally.note_unseen(),
+                    Err(_) => {}
                 }
                 continue;
             }
@@ -161,11 +188,15 @@ impl BaseSearch {
             match test.run(&base, Effort::QUICK, checks)? {
                 Ok(()) => {
                     *checks = 0;
+                    postures[Part::First as usize] = 0;
                     return Ok(Some(base));
                 }
                 Err(rejection) => {
                     if rejection.may_pass && again.len() < MAX_AGAIN {
                         again.push_back(base);
+                    }
+                    if rejection.is_unseen {
+                        tally.note_unseen();
                     }
                     tally.add(rejection.cause);
                 }
@@ -249,6 +280,7 @@ impl<'a> Test<'a> {
             return Ok(Err(Rejection {
                 cause: self.cause(&cause),
                 may_pass: cause == NoReach::InTheWay,
+                is_unseen: false,
             }));
         }
         if self.query.sees {
@@ -256,7 +288,10 @@ impl<'a> Test<'a> {
             robot.base = *base;
             self.looking.teleport_robot(&robot);
             if let Some(cause) = hidden(self.looking, self.query)? {
-                return Ok(Err(Rejection::of(cause)));
+                return Ok(Err(Rejection {
+                    is_unseen: true,
+                    ..Rejection::of(cause)
+                }));
             }
         }
         Ok(Ok(()))

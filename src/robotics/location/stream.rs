@@ -5,6 +5,7 @@ use super::base_search::BaseSearch;
 use super::costmap::Costmap;
 use super::draw::Draw;
 use super::offered::Offered;
+use super::out_of_reach::OutOfReach;
 use super::place_query::{PlaceQuery, What};
 use super::place_search::PlaceSearch;
 use super::tally::Tally;
@@ -29,6 +30,8 @@ pub struct Scene<'a> {
     pub world: &'a World,
     /// How things are grasped.
     pub grasps: &'a GraspLibrary,
+    /// What has been found to be out of reach.
+    pub out_of_reach: &'a OutOfReach,
 }
 
 /// A search in one state of the world.
@@ -113,8 +116,16 @@ impl Stream {
             (Some((_, Search::Place(search))), Query::Place(query)) => {
                 search.next(query, scene, draw, offered, tally)
             }
-            (Some((_, Search::Base(search))), Query::Base(query)) => {
-                search.next(query, scene, draw, offered, tally)?
+            (Some((state, Search::Base(search))), Query::Base(query)) => {
+                if let Some(known) = scene.out_of_reach.known(*state, query) {
+                    *tally = known;
+                    return Ok(None);
+                }
+                let found = search.next(query, scene, draw, offered, tally)?;
+                if found.is_none() && offered.count() == 0 && query.sees && !tally.was_unseen() {
+                    scene.out_of_reach.note(*state, query, tally);
+                }
+                found
             }
             _ => None,
         };

@@ -9,6 +9,8 @@ use indexmap::IndexMap;
 pub(super) struct Tally {
     causes: IndexMap<String, u32>,
     has_given_up: bool,
+    /// Whether any would have done but for want of sight.
+    was_unseen: bool,
 }
 
 impl Tally {
@@ -20,6 +22,16 @@ impl Tally {
     /// Notes that there are candidates that have not been tried.
     pub(super) fn give_up(&mut self) {
         self.has_given_up = true;
+    }
+
+    /// Notes that a candidate would have done if the target were in sight from there.
+    pub(super) fn note_unseen(&mut self) {
+        self.was_unseen = true;
+    }
+
+    /// Whether any would have done if the target were in sight from there.
+    pub(super) fn was_unseen(&self) -> bool {
+        self.was_unseen
     }
 
     /// Number of candidates.

@@ -300,6 +300,25 @@ impl Physics {
         }
     }
 
+    /// Centre of mass (m) in the body's frame, inverse principal moments of inertia (1/(kg m²)) and
+    /// axes of a body, as the engine uses them: the bits of all numbers.
+    #[cfg(test)]
+    pub(crate) fn mass_properties_bits(&self, body: BodyHandle) -> Vec<u64> {
+        let mut body = self.sets.bodies[body.0].clone();
+        body.recompute_mass_properties_from_colliders(&self.sets.colliders);
+        let properties = &body.mass_properties().local_mprops;
+        let numbers = [
+            properties.local_com.to_array().as_slice(),
+            properties.inv_principal_inertia.to_array().as_slice(),
+            properties
+                .principal_inertia_local_frame
+                .to_array()
+                .as_slice(),
+        ]
+        .concat();
+        numbers.into_iter().map(f64::to_bits).collect()
+    }
+
     /// Removes the body and its welds; what rested on it wakes up.
     pub(crate) fn remove_body(&mut self, body: BodyHandle) {
         let s = self.edit();

@@ -403,3 +403,12 @@ fn group_parts(
     }
     parts
 }
+
+#[cfg(test)]
+impl World {
+    /// The bits of an object's mass properties, as the engine uses them.
+    pub(crate) fn mass_properties_bits(&self, name: &str) -> Vec<u64> {
+        let body = self.object(name).expect("the object is there").body;
+        self.physics.mass_properties_bits(body)
+    }
+}

@@ -275,13 +275,7 @@ impl<'w> StandingRoom<'w> {
     }
 
     /// The first object that is nearer to the load at the pose than the gap (m), but for the ground.
-    pub fn too_near(
-        &self,
-        load: &Load,
-        at: &Pose,
-        gap: f64,
-        ground: Ground,
-    ) -> Option<BodyName> {
+    pub fn too_near(&self, load: &Load, at: &Pose, gap: f64, ground: Ground) -> Option<BodyName> {
         let at = to_parry(at);
         let objects = self.around.iter();
         let objects = objects.filter(|n| matches!(n.key, PartKey::Object(_)));

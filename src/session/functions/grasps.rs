@@ -149,5 +149,6 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
                 .map_err(Raise::reporting)?;
         }
     }
+    simulation.forget_what_is_out_of_reach();
     done(args[2].clone())
 }

@@ -267,10 +267,12 @@ impl Simulation {
         let Some(level) = level else {
             let mut here = at;
             here.translation.z = top + load.depth(&at);
-            return Err(match room.too_near(&load, &here, apart.max(TOLERANCE), ground) {
-                Some(body) => format!("{body} is there"),
-                None => "it would stick out beyond the edge".to_owned(),
-            });
+            return Err(
+                match room.too_near(&load, &here, apart.max(TOLERANCE), ground) {
+                    Some(body) => format!("{body} is there"),
+                    None => "it would stick out beyond the edge".to_owned(),
+                },
+            );
         };
         let pose = room
             .stand(&load, &at, level + ABOVE, ABOVE + lower, ground)

@@ -32,6 +32,7 @@ use indexmap::IndexMap;
 use super::log_level::LogLevel;
 use lisp::value::Value;
 use lisp::value::copy::Copier;
+use robotics::location::OutOfReach;
 use robotics::motion::DetectQuery;
 use robotics::world::grasp_library::GraspLibrary;
 use robotics::world::noise::{Noise, NoiseLevels};
@@ -69,6 +70,7 @@ pub struct Simulation {
     /// The faults that may strike motions.
     pub(super) injection: SharedInjection,
     begun_searches: locations::Searches,
+    out_of_reach: OutOfReach,
     /// The world as it is at the start; copies of the session share it.
     start: Rc<OnceCell<World>>,
     pub(super) world: World,
@@ -122,6 +124,7 @@ impl Simulation {
             tally: Tally::default(),
             injection: SharedInjection::default(),
             begun_searches: locations::Searches::default(),
+            out_of_reach: OutOfReach::default(),
             start: Rc::default(),
         }
     }
@@ -149,6 +152,7 @@ impl Simulation {
             tally: self.tally.clone(),
             injection: Rc::new(RefCell::new(self.injection.borrow().clone())),
             begun_searches: locations::Searches::default(),
+            out_of_reach: OutOfReach::default(),
             start: Rc::clone(&self.start),
             world: self.world.clone(),
             names: names.collect(),

@@ -23,7 +23,7 @@ use lisp::value::symbol::Sym;
 use properties::{metres, one_of, raised};
 use references::References;
 use robotics::location::{
-    Beside, Level, Orientation, PlaceQuery, Position, Query, Scene, Stream, Support,
+    Beside, Level, Orientation, OutOfReach, PlaceQuery, Position, Query, Scene, Stream, Support,
 };
 use robotics::motion::interruption::interruptible;
 use robotics::world::{BodyName, WorldError};
@@ -88,7 +88,13 @@ impl Simulation {
         Scene {
             world: &self.world,
             grasps: &self.grasps,
+            out_of_reach: &self.out_of_reach,
         }
+    }
+
+    /// Drops what has been found to be out of reach: there are other grasps.
+    pub(crate) fn forget_what_is_out_of_reach(&mut self) {
+        self.out_of_reach = OutOfReach::default();
     }
 
     /// The poses of a location as its chain of designators keeps them, begun if necessary; `None`
