@@ -78,12 +78,14 @@
 ; Grippers. One joint moves both fingers. The faces of the pads are :pad-face away from the
 ; tip frames, towards each other. :left-finger and :right-finger close from the left and the
 ; right. For an opening in metres, CRAM sets the joint to :joint-per-metre times the opening.
-; :effort is the greatest force of a finger (N), also the greatest that CRAM asks for.
+; :effort is the greatest force of a finger (N), also the greatest that CRAM asks for. :pad-size is
+; how long and wide the face of a pad is.
 (gripper left
          :palm l_gripper_palm_link
          :joint l_gripper_l_finger_joint
          :tip-joint l_gripper_l_finger_tip_joint
          :pad-face 0.0158
+         :pad-size (0.031 0.02)
          :joint-per-metre 5
          :effort 100
          :left-finger (l_gripper_l_finger_link l_gripper_l_finger_tip_link)
@@ -93,6 +95,7 @@
          :joint r_gripper_l_finger_joint
          :tip-joint r_gripper_l_finger_tip_joint
          :pad-face 0.0158
+         :pad-size (0.031 0.02)
          :joint-per-metre 5
          :effort 100
          :left-finger (r_gripper_l_finger_link r_gripper_l_finger_tip_link)

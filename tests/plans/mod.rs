@@ -29,6 +29,7 @@ mod session_copies;
 mod spawning;
 mod sweeps;
 mod systems;
+mod things_on_things;
 mod transporting;
 mod types;
 mod whole_plan;

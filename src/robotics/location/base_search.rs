@@ -301,6 +301,7 @@ impl<'a> Test<'a> {
         let name = &self.query.target.name;
         match cause {
             NoReach::NoGrasp => format!("without a known grasp of {name}"),
+            NoReach::TooHeavy => format!("with {name} too heavy for the fingers by any grasp"),
             NoReach::TooFar => format!("out of reach of {name}"),
             NoReach::InTheWay => format!("with something in the way to {name}"),
         }

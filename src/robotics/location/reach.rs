@@ -20,6 +20,8 @@ const IMAGINED: &str = "the object that is to be there";
 pub(super) enum NoReach {
     /// No wanted grasp of such an object is known.
     NoGrasp,
+    /// Its weight is more than fingers transmit by any grasp.
+    TooHeavy,
     /// Too far away, or at an impossible angle.
     TooFar,
     /// Something is in the way.
@@ -153,6 +155,7 @@ impl<'a> Reach<'a> {
     pub(super) fn is_near(&self, base: &Pose) -> Result<(), NoReach> {
         let is_near = match self {
             Self::Grasp(_, candidates) if candidates.is_empty() => return Err(NoReach::NoGrasp),
+            Self::Grasp(chooser, _) if chooser.is_too_heavy() => return Err(NoReach::TooHeavy),
             Self::Grasp(chooser, _) => chooser.is_near(base),
             Self::Put(put) => put.is_near(base),
             Self::Open(chooser) => chooser.is_near(base),

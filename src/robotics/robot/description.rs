@@ -161,6 +161,8 @@ pub struct Gripper {
     pub joint_per_metre: f64,
     /// Greatest force (N) with which each finger presses.
     pub effort: f64,
+    /// Length along the finger and width (m) of the face of a pad, if they are known.
+    pub pad_size: Option<[f64; 2]>,
     /// From a finger's joint to its tip, along the closed finger and across it (m).
     pub(super) tip: [f64; 2],
     /// From the middle of the palm to a finger's joint, minus from the tip to the face of

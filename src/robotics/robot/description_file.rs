@@ -62,6 +62,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "joint",
             "tip-joint",
             "pad-face",
+            "pad-size",
             "joint-per-metre",
             "effort",
             "left-finger",
@@ -353,6 +354,7 @@ impl<'a> Reader<'a> {
             effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
             tip: [tip.x, tip.y.abs()],
             pad: finger.y.abs() - record.required("pad-face")?.number()?,
+            pad_size: record.optional("pad-size").map(pad_size).transpose()?,
         })
     }
 
@@ -446,4 +448,12 @@ fn rotation(node: Node<'_>) -> Result<UnitQuaternion<f64>, DataError> {
     }
     let rotation = Rotation3::from_matrix_unchecked(matrix);
     Ok(UnitQuaternion::from_rotation_matrix(&rotation))
+}
+
+/// Length and width (m) of a pad.
+fn pad_size(node: Node<'_>) -> Result<[f64; 2], DataError> {
+    match node.list()?.as_slice() {
+        [length, width] => Ok([length.positive()?, width.positive()?]),
+        _ => Err(node.expected("the length and the width of a pad")),
+    }
 }

@@ -31,6 +31,8 @@ pub struct Hold {
     side: Side,
     /// Position of the finger joint (rad) at which both fingers press.
     fingers: f64,
+    /// The force (N) with which each finger presses.
+    press: f64,
     /// The greatest force (N) that friction transmits.
     strength: f64,
     /// For how many steps the force has been greater.
@@ -43,6 +45,11 @@ impl Hold {
     /// Whether the object has left what it stood on.
     pub fn is_lifted(&self) -> bool {
         self.free >= LIFTED_STEPS
+    }
+
+    /// The force (N) with which each finger presses.
+    pub(crate) fn press(&self) -> f64 {
+        self.press
     }
 
     /// The hand.
@@ -86,6 +93,7 @@ impl World {
             attachment.hold = Some(Hold {
                 side,
                 fingers,
+                press: effort,
                 // Each of the two pads transmits its share.
                 strength: 2.0 * object.friction * effort,
                 slipping: 0,

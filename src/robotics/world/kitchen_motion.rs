@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
+use super::collision::CollisionHit;
 use super::error::WorldError;
 use super::obstacles::Obstacles;
 use super::scene::{World, pose_of};
 use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
 use closest_name::closest_name;
 use spatial::Pose;
+
+/// Steps (m, rad) in which the way of a drawer or door is looked at.
+const WAY_STEP: f64 = 0.02;
 
 impl World {
     /// Pose of a link of the kitchen in the map frame.
@@ -24,6 +28,37 @@ impl World {
     pub fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
         let joint = self.moving_kitchen_joint(name)?;
         Ok(self.models.kitchen.position(&self.state.kitchen, joint))
+    }
+
+    /// What is in the way of a drawer or door to a position (rad or m), which is clamped to the joint's
+    /// limits: where on the way the joint then is, and what the part, or what rides in it, would run
+    /// into. What it is in already does not count.
+    pub fn way_of_kitchen_joint(
+        &self,
+        name: &str,
+        position: f64,
+    ) -> Result<Option<(f64, CollisionHit)>, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        let limits = self.models.kitchen.joint(joint).limits;
+        let goal = limits.map_or(position, |l| l.clamp(position));
+        let now = self.models.kitchen.position(&self.state.kitchen, joint);
+        let part = self.part(joint);
+        let before = self.moved(&part, now).hits();
+        let steps = ((goal - now).abs() / WAY_STEP).ceil().max(1.0);
+        if !steps.is_finite() {
+            return Ok(None);
+        }
+        for step in 1..=steps as u32 {
+            let at = now + (goal - now) * f64::from(step) / steps;
+            let is_new = |hit: &CollisionHit| {
+                let mut known = before.iter();
+                !known.any(|known| known.moving == hit.moving && known.other == hit.other)
+            };
+            if let Some(hit) = self.moved(&part, at).hits().into_iter().find(is_new) {
+                return Ok(Some((at, hit)));
+            }
+        }
+        Ok(None)
     }
 
     /// Makes a drawer or door move to the position (rad or m) during the next step, taking

@@ -6,6 +6,7 @@
 
 use nalgebra::Point3;
 
+use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
 use super::collision::{CollisionChecker, CollisionHit};
 use super::collision_search::ObjectAt;
@@ -255,6 +256,22 @@ impl MovedPart<'_> {
             let mut solids = rider.solids.iter();
             solids.find_map(|s| self.against_furniture(rider.key, &(rider.pose * s.pose), s))
         })
+    }
+
+    /// What the part, or something that rides in it, would be in there: what [`Self::hit`] tells, and
+    /// the robot with what it holds.
+    pub(super) fn hits(&self) -> Vec<CollisionHit> {
+        let mut hits: Vec<CollisionHit> = self.hit().into_iter().collect();
+        let robot = self.world.robot_configuration();
+        let of_robot = self.checker().all_hits(robot, &AllowedPairs::none(), 0.0);
+        let moves = |body: &BodyName| match body {
+            BodyName::Furniture(link) => self.part.links.contains(&link.id),
+            BodyName::Object(name) => self.part.riders.contains(name),
+            _ => false,
+        };
+        let of_part = of_robot.into_iter().filter(|hit| moves(&hit.other));
+        hits.extend(of_part.filter(|hit| hit.depth > SLACK));
+        hits
     }
 
     fn own_obstacles(&self) -> impl Iterator<Item = &Obstacle> {

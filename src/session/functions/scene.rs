@@ -13,7 +13,7 @@ use lisp::print;
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::world::{Object, WorldError};
+use robotics::world::{BodyName, Object, WorldError};
 use spatial::{Pose, trig};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -65,6 +65,15 @@ pub(super) static TABLE: &[Builtin] = &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::carriers-of 'bottle-1)) => (\"table_area_main\")",
         ],
         host!(carriers_of),
+    ),
+    control(
+        "DROP-BELOW",
+        "name pose",
+        "How far (m) an object would fall from a pose, and the name of what it would fall onto: a list; NIL if nothing is below.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (second (pp-plans::drop-below 'bottle-1 (pp-tut:make-pose \"map\" '((-1.6 -0.9 1.2) (0 0 0 1)))))) => \"table_area_main\"",
+        ],
+        host!(drop_below),
     ),
 ];
 
@@ -156,6 +165,16 @@ fn support_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     let carrier = simulation.world.carrier(&name).map_err(world_error)?;
     let text = carrier.map_or_else(|| "nothing".to_owned(), |body| body.to_string());
     done(Value::from(text.as_str()))
+}
+
+fn drop_below(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let pose = simulation.pose_in_map(image, &args[1])?;
+    let below = simulation.world.below(&name, &pose).map_err(world_error)?;
+    let shown = |(drop, body): (f64, BodyName)| {
+        Value::list([Value::Double(drop), Value::from(body.to_string().as_str())])
+    };
+    done(below.map_or(Value::NIL, shown))
 }
 
 fn carriers_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -81,7 +81,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "MOVE-KITCHEN-JOINT",
         "&key joint-name joint-angle kitchen-name",
-        "Opens or closes a drawer or a door.",
+        "Opens or closes a drawer or a door, with what is in it; an error if anything is in the way.",
         &["(pp-tut:move-kitchen-joint) => NIL"],
         edit!(move_kitchen_joint),
     ),
@@ -318,6 +318,13 @@ fn move_kitchen_joint(
         return Err(Raise::simple(format!(
             "The kitchen has no joint {name:?}{near}{}",
             if near.is_empty() { "." } else { "" }
+        )));
+    }
+    let in_the_way = simulation.world.way_of_kitchen_joint(&name, angle);
+    if let Some((at, hit)) = in_the_way.map_err(Raise::reporting)? {
+        return Err(Raise::simple(format!(
+            "{name} is not moved to {angle:.2}: at {at:.2}, {} and {} would be in each other.",
+            hit.moving, hit.other
         )));
     }
     simulation

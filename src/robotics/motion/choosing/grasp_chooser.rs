@@ -17,11 +17,13 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
 use super::overhead::Overhead;
 use super::shoulder::Shoulder;
+use crate::motion::contact::grip_torque::{ExcessTorque, Pads};
 use crate::motion::contact::holding::held_objects;
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::failure::no_grasp::{NoGrasp, TriedGrasp};
 use crate::robot::Side;
 use crate::world::grasp_library::{GraspDefinition, GraspLibrary, ToolPoses};
+use crate::world::physics::GRAVITY;
 use crate::world::{BodyName, Models, World};
 use spatial::{Pose, pose};
 
@@ -80,6 +82,8 @@ struct Candidate {
     definition: GraspDefinition,
     /// How wide (m) the hand opens for it.
     opening: f64,
+    /// The force (N) with which each finger presses.
+    press: f64,
     /// Place in the list of grasps.
     place: usize,
     has_failed: bool,
@@ -136,6 +140,7 @@ impl<'w> GraspChooser<'w> {
             let wrist = arm.wrist_for_tool(&poses.ok()?.grasp);
             Some(wrist.translation.vector.norm())
         });
+        bar_too_heavy(world, question, candidates);
         Self {
             world,
             question,
@@ -146,6 +151,14 @@ impl<'w> GraspChooser<'w> {
             span: spans.fold(0.0, f64::max),
             overhead: Overhead::of(world, &question.object, &question.in_map).ok(),
         }
+    }
+
+    /// Whether the object is too heavy for every grasp, wherever the base is.
+    pub(crate) fn is_too_heavy(&self) -> bool {
+        let barred = self.candidates.barred.borrow();
+        let is_heavy =
+            |one: &Option<GraspObstacle>| matches!(one, Some(GraspObstacle::TooHeavy { .. }));
+        !barred.is_empty() && barred.iter().all(is_heavy)
     }
 
     /// Number of postures that have been checked for collisions.
@@ -323,6 +336,36 @@ impl<'w> GraspChooser<'w> {
     }
 }
 
+/// Rules the candidates out whose fingers would not transmit the torque of the object's weight as it
+/// stands.
+fn bar_too_heavy(world: &World, question: &GraspQuestion, candidates: &Candidates) {
+    let Ok(object) = world.object(&question.object) else {
+        return;
+    };
+    let mut barred = candidates.barred.borrow_mut();
+    for (candidate, barred) in candidates.all.iter().zip(barred.iter_mut()) {
+        let arm = world.models().description.arm(candidate.side);
+        let turned = question.in_map * about_z(candidate.turn);
+        let Ok(poses) = candidate.definition.tool_poses(&turned, &arm.tool_axes) else {
+            continue;
+        };
+        let pads = Pads::closing(
+            &arm.gripper,
+            object,
+            &question.in_map,
+            &poses.grasp,
+            candidate.opening,
+            candidate.press.min(arm.gripper.effort),
+        );
+        let weight = object.mass() * GRAVITY;
+        let at = question.in_map.translation.vector;
+        if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
+            let ExcessTorque { torque, limit } = excess;
+            *barred = Some(GraspObstacle::TooHeavy { torque, limit });
+        }
+    }
+}
+
 /// A candidate that is not ruled out: its cost, its index, and the poses of the tool.
 type Free = (f64, usize, ToolPoses);
 
@@ -422,6 +465,7 @@ fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) 
                     turn,
                     definition: (*definition).clone(),
                     opening: grasps.opening(&question.kind, definition),
+                    press: grasps.grip(&question.kind).effort,
                     place,
                 });
             }

@@ -2,6 +2,7 @@
 //! guard over every step.
 
 pub(crate) mod expected_contacts;
+pub(crate) mod grip_torque;
 pub(crate) mod guard;
 pub(crate) mod hand;
 pub(crate) mod holding;

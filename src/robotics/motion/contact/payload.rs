@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use super::grip_torque::{ExcessTorque, Pads};
 use crate::motion::failure::overload::{Overload, PayloadLimit};
 use crate::robot::{JointKind, LinkId, Side};
 use crate::world::physics::GRAVITY;
@@ -47,6 +48,15 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
         return Some(PayloadLimit::Maker(payload));
     }
     let at = world.object_pose(object.name()).ok()?.translation.vector;
+    let gripper = &arm.gripper;
+    let tool = arm.tool_for_wrist(&world.link_pose(arm.wrist));
+    let gap = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
+    let press = object.hold()?.press();
+    let pads = Pads::new(gripper, object, &tool, gap.max(0.0), press);
+    if let Some(excess) = pads.and_then(|pads| pads.excess(carried, &at)) {
+        let ExcessTorque { torque, limit } = excess;
+        return Some(PayloadLimit::Grip { torque, limit });
+    }
     let force = Vector3::new(0.0, 0.0, -carried);
     let tree = &world.models().robot;
     arm.joints().iter().find_map(|id| {

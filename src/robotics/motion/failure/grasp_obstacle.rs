@@ -39,6 +39,13 @@ pub enum GraspObstacle {
     },
     /// It has been tried in earnest, and has failed.
     HasFailed,
+    /// The object's weight is too far from where it would be held.
+    TooHeavy {
+        /// The torque (Nm) that the weight exerts.
+        torque: f64,
+        /// The torque (Nm) that the pads of the fingers transmit.
+        limit: f64,
+    },
     /// Too many others were in collision for this one to be tried.
     NotTried,
     /// The open hand does not fit around the object.
@@ -77,6 +84,10 @@ impl fmt::Display for GraspObstacle {
                 write!(f, "{} would touch {} {part}", hit.moving, hit.other)
             }
             Self::HasFailed => f.write_str("has failed already"),
+            Self::TooHeavy { torque, limit } => write!(
+                f,
+                "its weight takes {torque:.1} Nm there, and the pads of the fingers transmit {limit:.1} Nm"
+            ),
             Self::NotTried => f.write_str("not tried after too many others"),
             Self::NoFit { hit } => write!(
                 f,

@@ -24,6 +24,13 @@ pub struct Overload {
 pub enum PayloadLimit {
     /// The mass (kg) that its maker allows.
     Maker(f64),
+    /// The torque that the pads of the fingers transmit in the present posture.
+    Grip {
+        /// The torque (Nm) that the load exerts.
+        torque: f64,
+        /// The greatest torque (Nm) that they transmit.
+        limit: f64,
+    },
     /// The torque of a joint in the present posture.
     Joint {
         /// Name of the joint.
@@ -51,6 +58,11 @@ impl fmt::Display for Overload {
             PayloadLimit::Maker(payload) => {
                 write!(f, "and the maker of the arm allows {payload} kg")
             }
+            PayloadLimit::Grip { torque, limit } => write!(
+                f,
+                "which where it is held takes {torque:.1} Nm, and the pads of the fingers transmit \
+                 {limit:.1} Nm"
+            ),
             PayloadLimit::Joint {
                 joint,
                 torque,
