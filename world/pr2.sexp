@@ -85,7 +85,7 @@
          :joint l_gripper_l_finger_joint
          :tip-joint l_gripper_l_finger_tip_joint
          :pad-face 0.0158
-         :pad-size (0.031 0.02)
+         :pad-size (0.031 0.022)
          :joint-per-metre 5
          :effort 100
          :left-finger (l_gripper_l_finger_link l_gripper_l_finger_tip_link)
@@ -95,7 +95,7 @@
          :joint r_gripper_l_finger_joint
          :tip-joint r_gripper_l_finger_tip_joint
          :pad-face 0.0158
-         :pad-size (0.031 0.02)
+         :pad-size (0.031 0.022)
          :joint-per-metre 5
          :effort 100
          :left-finger (r_gripper_l_finger_link r_gripper_l_finger_tip_link)

@@ -1,5 +1,7 @@
 //! The torque that the pads of two fingers transmit.
 
+use std::f64::consts::PI;
+
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::Ray;
@@ -20,7 +22,7 @@ pub(crate) struct Pads {
     axis: Vector3<f64>,
     /// The gap between them (m).
     gap: f64,
-    /// The radius (m) of the disc on which each presses.
+    /// The radius (m) of the disc on which each presses, as large as the pad.
     radius: f64,
     /// The force (N) with which each presses.
     press: f64,
@@ -47,12 +49,12 @@ impl Pads {
         gap: f64,
         press: f64,
     ) -> Option<Self> {
-        let [_, width] = gripper.pad_size?;
+        let [length, width] = gripper.pad_size?;
         Some(Self {
             at: tool.translation.vector - tool.rotation * Vector3::x() * BEHIND,
             axis: tool.rotation * Vector3::y(),
             gap,
-            radius: width / 2.0,
+            radius: (length * width / PI).sqrt(),
             press,
             strength: 2.0 * object.friction * press,
         })
@@ -94,10 +96,14 @@ impl Pads {
     /// acts at the gap's width, and the middle of a disc's pressure can move by a quarter of its radius
     /// before its edge lifts off.
     pub(crate) fn excess(&self, load: f64, at: &Vector3<f64>) -> Option<ExcessTorque> {
+        // It would slip out before it turns.
+        if load >= self.strength {
+            return None;
+        }
         let torque = (at - self.at).cross(&Vector3::new(0.0, 0.0, -load));
         let about = torque.dot(&self.axis);
         let across = (torque - self.axis * about).norm();
-        let share = (load / self.strength).min(1.0);
+        let share = load / self.strength;
         let free = (1.0 - share * share).sqrt();
         let about_limit = 2.0 / 3.0 * self.strength * self.radius * free;
         let across_limit = self.strength / 2.0 * self.gap + self.press * self.radius / 2.0;

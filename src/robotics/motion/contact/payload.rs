@@ -53,7 +53,8 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
     let gap = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
     let press = object.hold()?.press();
     let pads = Pads::new(gripper, object, &tool, gap.max(0.0), press);
-    if let Some(excess) = pads.and_then(|pads| pads.excess(carried, &at)) {
+    let pads = pads.filter(|_| carried > weight / 2.0);
+    if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
         let ExcessTorque { torque, limit } = excess;
         return Some(PayloadLimit::Grip { torque, limit });
     }
