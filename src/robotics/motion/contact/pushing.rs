@@ -14,6 +14,11 @@ use spatial::pose::distance_between;
 /// How long (s) the robot may press what it is to touch onto something. In 0.05 s a finger can press a
 /// thing more than 2 mm into what it stands on.
 const PINNED: f64 = 0.03;
+/// The same for a motion that begins while the object is pressed, as long as it presses no harder: a hand
+/// that goes back needs that long until it moves.
+const PINNED_BEFORE: f64 = 0.5;
+/// How much harder (as a factor) counts as harder.
+const HARDER: f64 = 1.05;
 /// How far (m) the robot may push what it is not to touch.
 const PUSHED: f64 = 0.005;
 
@@ -22,6 +27,8 @@ const PUSHED: f64 = 0.005;
 pub(crate) struct Pushing {
     /// How long (s) an object has been pressed onto something.
     pinned: f64,
+    /// The force (N) with which it was pressed when the motion began.
+    before: Option<f64>,
     /// Where objects were when the robot began to touch them.
     touched: Vec<(String, Pose)>,
 }
@@ -35,12 +42,21 @@ impl Pushing {
             pairs.any(|(_, other)| other.object() == Some(object.name()))
         };
         let mut touchable = guard::loose(world).filter(may_be_touched);
-        let Some(pinned) = touchable.find_map(|object| guard::pinned(world, object.name())) else {
+        let pinned = touchable.find_map(|object| guard::pinned(world, object.name()));
+        let force = pinned.as_ref().map_or(0.0, |pinned| pinned.force);
+        let before = *self.before.get_or_insert(force);
+        let Some(pinned) = pinned else {
             self.pinned = 0.0;
+            self.before = Some(0.0);
             return None;
         };
         self.pinned += STEP_SECONDS;
-        (self.pinned > PINNED).then_some(pinned)
+        let longest = if force <= before * HARDER {
+            PINNED_BEFORE
+        } else {
+            PINNED
+        };
+        (self.pinned > longest).then_some(pinned)
     }
 
     /// An object that has been pushed too far by parts of the robot that may not touch it; call in
