@@ -120,6 +120,7 @@ fn define_variables(image: &mut Image) {
         (known::V_LOAD_PATHNAME, Value::NIL),
         (known::V_LOAD_TRUENAME, Value::NIL),
         (known::V_LOCKS_IGNORED, Value::NIL),
+        (known::V_IN_REPORT, Value::NIL),
         (known::V_STANDARD_FIRST, Value::NIL),
         (known::V_AS_COMPILED, Value::NIL),
     ] {

@@ -19,7 +19,7 @@ impl Place {
 }
 
 /// Handle of a source text.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct SourceId(pub u32);
 
 /// One text that forms were read from: a file, or an input at the prompt.
@@ -180,8 +180,14 @@ impl Sources {
         Some(self.place(source, first + start, first + end))
     }
 
+    /// Has the text of a place several lines?
+    pub fn has_lines(&self, place: Place) -> bool {
+        let source = self.span(place).and_then(|span| self.get(span.source));
+        source.is_some_and(|source| source.text.trim_end().contains('\n'))
+    }
+
     /// The source of a place, and its first byte there and the byte after it.
-    pub(crate) fn bytes_of(&self, place: Place) -> Option<(SourceId, u32, u32)> {
+    pub fn bytes_of(&self, place: Place) -> Option<(SourceId, u32, u32)> {
         let span = self.span(place)?;
         Some((span.source, span.start, span.end))
     }

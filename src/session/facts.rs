@@ -1,10 +1,13 @@
 //! What the descriptions of robot and kitchen say, as variables for plans.
 
+use crate::simulation::known_grasps::KnownGrasps;
 use crate::simulation::transforms::MAP;
+use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::packages::symbol;
 use lisp::image::Image;
 use lisp::value::Value;
-use robotics::robot::Side;
+use robotics::location::{Direction, Orientation};
+use robotics::robot::{KinematicTree, Side};
 use robotics::world::Models;
 use robotics::world::kitchen_description::{
     KitchenDescription, PlaceProperty, PlaceRule, PlaceValue,
@@ -24,9 +27,38 @@ pub(super) fn install(image: &mut Image, models: &Models) {
     let robot = robot(image, models);
     let sym = symbol(image, PACKAGE, "*ROBOT*");
     image.define_special(sym, robot);
+    name_things(image, models);
     let kitchen = kitchen(image, &models.kitchen_description);
     let sym = symbol(image, PACKAGE, "*KITCHEN*");
     image.define_special(sym, kitchen);
+}
+
+/// Makes known what names there are, so that programs can be checked before they run.
+fn name_things(image: &mut Image, models: &Models) {
+    let vocabulary = Vocabulary::of(image);
+    let kitchen = &models.kitchen;
+    let links = |tree: &KinematicTree| -> Vec<String> {
+        let links = tree.links().map(|(_, link)| link.name.clone());
+        let aliases = tree.aliases().iter().map(|alias| alias.name.clone());
+        links.chain(aliases).collect()
+    };
+    let joints = kitchen.joints().map(|(_, joint)| joint.name.as_str());
+    let odometry = models.description.base.odometry.as_deref();
+    vocabulary.add(Domain::Arm, Side::BOTH.map(Side::name));
+    vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
+    vocabulary.add(Domain::ObjectType, models.objects.names());
+    vocabulary.add(Domain::Furniture, links(kitchen));
+    vocabulary.add(Domain::KitchenJoint, joints);
+    vocabulary.add(Domain::Frame, links(&models.robot));
+    vocabulary.add(Domain::Frame, links(kitchen));
+    vocabulary.add(Domain::Frame, [MAP, "world"].into_iter().chain(odometry));
+    vocabulary.add(
+        Domain::Direction,
+        ["forward", "left", "right", "up", "down"],
+    );
+    vocabulary.add(Domain::Side, Direction::ALL.map(Direction::name));
+    vocabulary.add(Domain::Level, ["topmost", "middle", "bottommost"]);
+    vocabulary.add(Domain::Orientation, Orientation::ALL.map(Orientation::name));
 }
 
 /// CRAM's variables that hold names of the robot's frames.

@@ -137,6 +137,7 @@ impl Session {
         session.evaluator.image.output.set_shown(true);
         plans::load(&mut session.evaluator)?;
         session.evaluator.image.lock_packages(plans::OPEN_PACKAGES);
+        check::install(&mut session.evaluator.image);
         // Nobody takes the world back to before the built-in plans.
         session.evaluator.host.person.snapshots = person::Snapshots::default();
         Ok(session)

@@ -70,12 +70,26 @@ pub(super) fn describe(image: &mut Image, condition: &Value) -> Abort {
         condition: if is_interrupt {
             INTERRUPT.to_owned()
         } else {
-            printed(image, condition)
+            without_message(&printed(image, condition))
         },
         hint: check::hint(image, condition),
         place,
         user_place,
         actions: actions(image, &calls),
+    }
+}
+
+/// The printed form of a condition, `#<CLASS "message" {identity}>`, without the message, which is shown
+/// above it.
+fn without_message(printed: &str) -> String {
+    let parts = printed.split_once(" \"").zip(printed.rsplit_once("\" {"));
+    match parts {
+        Some(((class, _), (_, identity)))
+            if class.starts_with("#<") && identity.ends_with("}>") =>
+        {
+            format!("{class} {{{identity}")
+        }
+        _ => printed.to_owned(),
     }
 }
 

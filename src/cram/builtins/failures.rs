@@ -9,6 +9,7 @@ use lisp::evaluator::signal::Declined;
 use lisp::image::Image;
 use lisp::print;
 use lisp::typed::{self, builtin, builtins};
+use lisp::types::parse::near_type;
 use lisp::value::Value;
 use lisp::value::class::ClassKind;
 use lisp::value::known;
@@ -82,13 +83,15 @@ fn fail(machine: &mut Machine<'_>, failure: Vec<Value>) -> Result<Step> {
 }
 
 fn no_condition_class(image: &Image, name: &Value) -> Box<Raise> {
-    let shown = print::to_string(image, name, true);
-    Raise::new(
-        known::SIMPLE_TYPE_ERROR,
-        format!("{shown} does not designate a condition class."),
-    )
-    .with(known::K_DATUM, name.clone())
-    .with(known::K_EXPECTED_TYPE, known::CONDITION.into())
+    let shown = |value: &Value| print::to_string(image, value, true);
+    let mut text = format!("{} does not designate a condition class", shown(name));
+    match name.as_symbol().and_then(|name| near_type(image, name)) {
+        Some(near) => text.push_str(&format!("; did you mean {}?", shown(&near.into()))),
+        None => text.push('.'),
+    }
+    Raise::new(known::SIMPLE_TYPE_ERROR, text)
+        .with(known::K_DATUM, name.clone())
+        .with(known::K_EXPECTED_TYPE, known::CONDITION.into())
 }
 
 fn no_failure(image: &Image, value: &Value) -> Box<Raise> {

@@ -1,6 +1,8 @@
-//! Checks designators as written: unknown types, keys that a type does not take. Mistakes become
-//! compiler notes; nothing is refused here, because a program may define types of its own.
+//! Checks designators as written: unknown types, keys that a type does not take, values that a key does
+//! not take. Mistakes become compiler notes; nothing is refused here, because a program may define
+//! types of its own.
 
+use super::literal_values;
 use super::schema;
 use super::schema::TypeRow;
 use super::value::Class;
@@ -22,13 +24,16 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
     let is_whole = written.len() == properties.len();
     let mut mistakes = match class {
         Class::Action | Class::Motion if is_whole => of_type(image, class, &written),
-        Class::Location => misspelt_keys(&written),
+        Class::Location => misspelt_keys(&written, "A location", schema::LOCATION_KEYS),
+        Class::Object => misspelt_keys(&written, "An object", schema::OBJECT_KEYS),
         _ => Vec::new(),
     };
-    mistakes.extend(written.iter().filter_map(|(key, value)| {
-        let text = not_evaluated(image, key, value)?;
-        Some((key.clone(), text))
-    }));
+    for (key, value) in &written {
+        match not_evaluated(image, key, value) {
+            Some(text) => mistakes.push((key.clone(), text)),
+            None => mistakes.extend(literal_values::mistake(image, class, &written, key, value)),
+        }
+    }
     for (name, text) in mistakes {
         image.note(place, || NoteKind::Mistake { name, text });
     }
@@ -88,23 +93,36 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
     mistakes
 }
 
-/// Keys of a location that nearly are known ones. Others may be those of a user's generators.
-fn misspelt_keys(written: &[(String, Value)]) -> Vec<(String, String)> {
-    let names = || schema::LOCATION_KEYS.iter().map(|key| &*key.name);
+/// Notes the name of a kind of designators that there is not.
+pub(crate) fn note_unknown_class(image: &mut Image, name: &str, place: Place) {
+    let names = Class::ALL.map(Class::name);
+    let near = closest_name(name, names);
+    let text = asking(format!("There are no designators of kind {name}"), near);
+    let name = name.to_owned();
+    image.note(place, || NoteKind::Mistake { name, text });
+}
+
+/// Keys of a class that nearly are known ones. Others may be those of a user's own rules.
+fn misspelt_keys(
+    written: &[(String, Value)],
+    what: &str,
+    keys: &[schema::Key],
+) -> Vec<(String, String)> {
+    let names = || keys.iter().map(|key| &*key.name);
     let unknown = written.iter().filter(|(key, _)| {
         !schema::COMMON_KEYS.contains(&key.as_str()) && !names().any(|name| name == key)
     });
     unknown
         .filter_map(|(key, _)| {
             let near = closest_name(key, names())?;
-            let text = asking(format!("A location has no key {key}"), Some(near));
+            let text = asking(format!("{what} has no key {key}"), Some(near));
             Some((key.clone(), text))
         })
         .collect()
 }
 
 /// The name that a plain symbol stands for, unless it is a `?variable` or a global.
-fn literal_name(image: &Image, value: &Value) -> Option<String> {
+pub(super) fn literal_name(image: &Image, value: &Value) -> Option<String> {
     let sym = value.as_symbol()?;
     if image.is_keyword(sym) {
         return Some(image.name(sym).to_owned());

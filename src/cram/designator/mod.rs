@@ -10,6 +10,7 @@ pub mod failure;
 mod functors;
 pub(crate) mod ground;
 pub mod literal;
+mod literal_values;
 pub mod location;
 mod location_registry;
 pub mod names;
@@ -20,6 +21,7 @@ pub mod request;
 pub mod schema;
 pub(crate) mod syntax;
 pub mod value;
+pub mod vocabulary;
 
 pub use request::MotionRequest;
 

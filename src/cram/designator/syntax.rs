@@ -99,10 +99,12 @@ fn designator_form(
     if quantifier == Quantifier::All {
         name = name.trim_end_matches(['S', 's']).to_owned();
     }
-    if image.notes.is_some()
-        && let Some(class) = Class::named(&name.to_uppercase())
-    {
-        literal::note_mistakes(image, class, properties, place_of(form));
+    if image.notes.is_some() {
+        let name = name.to_uppercase();
+        match Class::named(&name) {
+            Some(class) => literal::note_mistakes(image, class, properties, place_of(form)),
+            None => literal::note_unknown_class(image, &name, place_of(form)),
+        }
     }
     let mut code = vec![Value::from(known::LIST)];
     for property in properties {
@@ -279,7 +281,7 @@ fn list_code(image: &mut Image, value: &Value, depth: usize) -> Result<Value> {
 }
 
 /// The quantifier (a, an, all, some, the) if this is the start of a nested designator.
-fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quantifier> {
+pub(super) fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quantifier> {
     let quantifier = match image.name(head.as_symbol()?) {
         "A" | "AN" | "SOME" | "THE" => Quantifier::A,
         "ALL" => Quantifier::All,

@@ -7,6 +7,7 @@ use crate::compile::{self, is_executed};
 use crate::guard::{descend, look};
 use crate::image::Image;
 use crate::image::locks::Meaning;
+use crate::image::warnings::Warning;
 use crate::source::Place;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
@@ -14,7 +15,7 @@ use crate::value::function::{Body, Function};
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::symbol::FunctionCell;
-use crate::vm::calls::{Args, run};
+use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
@@ -76,20 +77,26 @@ fn functionp(object: &Value) -> Result<Value> {
     Ok(matches!(object, Value::Function(_)).into())
 }
 
-/// Evaluates forms one after the other, so that each sees what the ones before defined.
-fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
+/// Evaluates forms one after the other, so that each sees what the ones before defined; they are judged
+/// if that is wanted.
+fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value, is_judged: bool) -> Result<Step> {
     let mut forms: Vec<Value> = forms.iter_list().collect();
     let Some(last) = forms.pop() else {
         return Ok(Step::Return(Value::NIL));
     };
     if forms.is_empty() {
-        return evaluate(machine, &last);
+        return evaluate_form(machine, &last, is_judged);
     }
     run(machine, "EVAL", |calls| async move {
         for form in forms {
+            calls
+                .with(move |machine| machine.image.want_warnings(is_judged))
+                .await;
             calls.call1(&known::EVAL.into(), form).await;
         }
-        calls.with(move |machine| evaluate(machine, &last)).await
+        calls
+            .with(move |machine| evaluate_form(machine, &last, is_judged))
+            .await
     })
 }
 
@@ -115,26 +122,49 @@ fn expanded(image: &mut Image, form: &Value) -> Result<Value> {
 
 /// Evaluates a form at top level.
 pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+    let is_judged = machine.image.take_wanted();
+    evaluate_form(machine, form, is_judged)
+}
+
+fn evaluate_form(machine: &mut Machine<'_>, form: &Value, is_judged: bool) -> Result<Step> {
     descend()?;
     let form = expanded(machine.image, form)?;
     if let Value::Cons(cons) = &form {
         match cons.car().as_symbol() {
-            Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr()),
+            Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr(), is_judged),
             Some(known::EVAL_WHEN) => {
                 let inner = Value::cons(known::PROGN.into(), cons.cdr().cdr_or_nil());
                 if is_executed(machine.image, &cons.cdr().car_or_nil()) {
-                    return evaluate(machine, &inner);
+                    return evaluate_form(machine, &inner, is_judged);
                 }
             }
             _ => {}
         }
     }
-    let code = compile::compile_form(machine.image, &form)?;
+    let (code, warnings) = match is_judged {
+        true => machine.image.compile_judged(&form)?,
+        false => (compile::compile_form(machine.image, &form)?, Vec::new()),
+    };
     let function = Value::Function(Rc::new(Function::closure(code, Vec::new())));
-    Ok(Step::TailCall {
+    let start = Step::TailCall {
         function,
         args: Vec::new(),
+    };
+    if warnings.is_empty() {
+        return Ok(start);
+    }
+    run(machine, "EVAL", |calls| async move {
+        signal_warnings(&calls, warnings).await;
+        Ok(start)
     })
+}
+
+/// Signals warnings, one after the other.
+pub(super) async fn signal_warnings(calls: &Calls, warnings: Vec<Warning>) {
+    for warning in warnings {
+        let arguments = Args::Many(warning.arguments());
+        calls.call(&known::WARN.into(), arguments).await;
+    }
 }
 
 /// Evaluates a form.
@@ -249,37 +279,55 @@ fn macroexpand_1(image: &mut Image, form: &Value, environment: Option<&Value>) -
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
-/// The function: everything is compiled.
+/// The function: everything is compiled. Was there any warning? Was there one that is not only about
+/// style?
 ///
 /// `(funcall (compile nil '(lambda (x) (* x x))) 3)` => `9`
 #[builtin("COMPILE", "name &optional definition")]
 fn compile_function(
-    image: &mut Image,
-    name_value: &Value,
-    definition_value: Option<&Value>,
-) -> Result<Value> {
-    match definition_value {
-        Some(definition @ Value::Cons(_)) => {
-            let function = Value::Function(compile::compile_lambda(image, definition)?);
-            if let Some(name) = name_value.as_symbol().filter(|_| name_value.is_true())
-                && let Value::Function(f) = &function
-            {
-                image.check_lock(name, Meaning::Function)?;
-                image.set_function(name, f.clone());
-                return Ok(Value::values(vec![
-                    name_value.clone(),
-                    Value::NIL,
-                    Value::NIL,
-                ]));
-            }
-            Ok(Value::values(vec![function, Value::NIL, Value::NIL]))
-        }
-        _ => Ok(Value::values(vec![
-            name_value.clone(),
-            Value::NIL,
-            Value::NIL,
-        ])),
+    machine: &mut Machine<'_>,
+    name: Value,
+    definition: Option<Value>,
+) -> Result<Step> {
+    let image = &mut *machine.image;
+    let Some(definition @ Value::Cons(_)) = definition else {
+        return Ok(Step::Return(with_outcome(name, &[])));
+    };
+    let function_name = name.as_symbol().filter(|_| name.is_true());
+    if let Some(name) = function_name {
+        image.check_lock(name, Meaning::Function)?;
     }
+    if let Value::Cons(lambda) = &definition {
+        image.noted_form = lambda.place();
+    }
+    let (function, notes) = image.noting(|image| compile::compile_lambda(image, &definition));
+    let function = function?;
+    let compiled = match function_name {
+        Some(sym) => {
+            image.set_function(sym, function);
+            name
+        }
+        None => Value::Function(function),
+    };
+    let warnings = image.judged(&notes);
+    let values = with_outcome(compiled, &warnings);
+    if warnings.is_empty() {
+        return Ok(Step::Return(values));
+    }
+    run(machine, "COMPILE", |calls| async move {
+        signal_warnings(&calls, warnings).await;
+        Ok(values)
+    })
+}
+
+/// The values of COMPILE.
+fn with_outcome(compiled: Value, warnings: &[Warning]) -> Value {
+    let fails = warnings.iter().any(|warning| !warning.is_style);
+    Value::values(vec![
+        compiled,
+        Value::bool(!warnings.is_empty()),
+        Value::bool(fails),
+    ])
 }
 
 /// Does the symbol name a special operator?

@@ -3,6 +3,7 @@
 use std::io::{Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
+use super::evaluation::signal_warnings;
 use super::files::reason;
 use crate::builtin::Builtin;
 use crate::image::Image;
@@ -46,13 +47,18 @@ fn load_and_tell(
             .as_symbol()
             .is_some_and(|sym| machine.image.name(sym) == "NEXT")
     };
-    let as_compiled = Value::bool(is_next(machine.image.special(known::V_AS_COMPILED)));
-    machine.image.set_special(known::V_AS_COMPILED, as_compiled);
+    let as_compiled = is_next(machine.image.special(known::V_AS_COMPILED));
+    machine
+        .image
+        .set_special(known::V_AS_COMPILED, Value::bool(as_compiled));
+    // Those who have written a system have seen what there is to warn of.
+    let is_judged = !as_compiled;
     let file = Value::foreign(Pathname::parse(name));
     machine.image.set_special(known::V_LOAD_PATHNAME, file);
     let absolute = machine.image.files.true_name(name).ok();
     let truename = absolute.map_or(Value::NIL, |path| Value::foreign(Pathname::parse(&path)));
     machine.image.set_special(known::V_LOAD_TRUENAME, truename);
+    let outer_notes = machine.image.take_pending_notes();
     run(machine, "LOAD", |calls| async move {
         let eval = Value::from(known::EVAL);
         let mut supplied = None;
@@ -68,7 +74,10 @@ fn load_and_tell(
                 })
                 .await;
             supplied = match outcome.map_err(|error| error.raise())? {
-                Outcome::Form(form, _) => {
+                Outcome::Form(form, place) => {
+                    calls
+                        .with(move |machine| machine.image.begin_noted_form(place, is_judged))
+                        .await;
                     let value = calls.call1(&eval, form).await;
                     if shows_values {
                         let arguments = vec![Value::T, Value::string("~&; ~s~%"), value];
@@ -79,6 +88,14 @@ fn load_and_tell(
                 }
                 Outcome::Evaluate(form) => Some(calls.call1(&eval, form).await),
                 Outcome::End => {
+                    let warnings = calls
+                        .with(|machine| {
+                            let notes = machine.image.take_pending_notes();
+                            machine.image.restore_pending_notes(outer_notes);
+                            machine.image.judged(&notes)
+                        })
+                        .await;
+                    signal_warnings(&calls, warnings).await;
                     calls.with(restore).await;
                     return Ok(Value::T);
                 }

@@ -37,6 +37,8 @@ pub(super) struct Compiler<'a> {
     stopped: Option<Stopped>,
     /// The place of the innermost enclosing form that has one.
     pub place: Place,
+    /// The macro call that the next form is the expansion of.
+    pub(super) expanded_from: Option<Value>,
 }
 
 impl<'a> Compiler<'a> {
@@ -48,6 +50,7 @@ impl<'a> Compiler<'a> {
             pace: Pace::default(),
             stopped: None,
             place: Place::NONE,
+            expanded_from: None,
         }
     }
 
@@ -159,6 +162,7 @@ impl<'a> Compiler<'a> {
             assigned: Cell::new(false),
             slot: Cell::new(0),
             used: Cell::new(false),
+            read: Cell::new(false),
         })
     }
 
@@ -259,6 +263,7 @@ impl<'a> Compiler<'a> {
         match scope.variable(name) {
             Some(VariableMeaning::Lexical(var)) => {
                 self.refer(var);
+                var.read.set(true);
                 return Ok(Node::Local(var.clone()));
             }
             Some(VariableMeaning::SymbolMacro(expansion)) => {
@@ -306,6 +311,7 @@ impl<'a> Compiler<'a> {
         rest: &Value,
         scope: &Scope,
     ) -> Compiled<Node> {
+        let expanded_from = self.expanded_from.take();
         let name = match head {
             Value::Symbol(name, ..) => *name,
             Value::Cons(c) if c.car().as_symbol() == Some(known::LAMBDA) => {
@@ -338,7 +344,7 @@ impl<'a> Compiler<'a> {
             Some(FunctionMeaning::Macro(function)) => {
                 let function = function.clone();
                 let expansion = self.expand_with(&function, form, scope)?;
-                return self.analyze(&expansion, scope);
+                return self.analyze_expansion(form, &expansion, scope);
             }
             None => {}
         }
@@ -358,7 +364,7 @@ impl<'a> Compiler<'a> {
                     }
                     expansion => expansion,
                 }?;
-                self.analyze(&expansion, scope)
+                self.analyze_expansion(form, &expansion, scope)
             }
             FunctionCell::Builtin => {
                 if let Some(operator) = self.image.operator(name) {
@@ -366,6 +372,7 @@ impl<'a> Compiler<'a> {
                         .map_err(|r| r.at(self.place))?;
                 }
                 if let Some(special) = special_forms::lookup(name) {
+                    self.expanded_from = expanded_from;
                     return special(self, rest, scope);
                 }
                 self.note_definition(name, form);
@@ -377,7 +384,7 @@ impl<'a> Compiler<'a> {
                             .image
                             .expand_with(expand, form, environment)
                             .map_err(|r| r.at(self.place))?;
-                        self.analyze(&expansion, scope)
+                        self.analyze_expansion(form, &expansion, scope)
                     }
                     None => {
                         Err(self
@@ -387,13 +394,26 @@ impl<'a> Compiler<'a> {
             }
             FunctionCell::Function(_) | FunctionCell::Unbound => {
                 let place = self.place;
-                let count = rest.iter_list().count();
                 self.image
-                    .note(place, || NoteKind::Function(name, Some(count)));
+                    .note(place, || NoteKind::Call(name, form.clone()));
+                self.note_failing_call(name, scope);
                 let args = self.analyze_list(rest, scope)?;
                 Ok(Node::Call(Target::Global(name), args, self.place))
             }
         }
+    }
+
+    /// Analyses the expansion of a macro call.
+    fn analyze_expansion(
+        &mut self,
+        call: &Value,
+        expansion: &Value,
+        scope: &Scope,
+    ) -> Compiled<Node> {
+        self.expanded_from = Some(call.clone());
+        let node = self.analyze(expansion, scope);
+        self.expanded_from = None;
+        node
     }
 
     /// Takes a note of a form with an operator of the language that defines something.
@@ -431,6 +451,7 @@ impl<'a> Compiler<'a> {
     /// Analyses forms as a `progn`.
     pub(crate) fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
         let mut nodes = self.analyze_list(forms, scope)?;
+        self.note_unreachable(forms, &nodes);
         Ok(match nodes.len() {
             0 => Node::NIL,
             1 => nodes.pop().unwrap_or(Node::NIL),

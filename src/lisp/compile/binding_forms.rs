@@ -52,6 +52,10 @@ pub(super) fn let_form(
     }
     let node = c.analyze_body(&body, &bound, &inner);
     c.close_dynamic(depth);
+    let list = rest.car_or_nil();
+    for (spec, (binding, _)) in specs.iter().zip(&bindings) {
+        c.note_unread(binding, &[spec, &list], &body);
+    }
     Ok(Node::Let {
         bindings,
         sequential,
@@ -119,7 +123,8 @@ pub(super) fn multiple_value_bind(
     rest: &Value,
     scope: &Scope,
 ) -> Compiled<Node> {
-    let Some(names) = rest.car_or_nil().list_to_vec() else {
+    let list = rest.car_or_nil();
+    let Some(names) = list.list_to_vec() else {
         return Err(c.program_error("MULTIPLE-VALUE-BIND takes a list of variables first."));
     };
     let rest = rest.cdr_or_nil();
@@ -146,6 +151,9 @@ pub(super) fn multiple_value_bind(
     }
     let node = c.analyze_body(&body, &bound, &inner);
     c.close_dynamic(depth);
+    for binding in &bindings {
+        c.note_unread(binding, &[&list], &body);
+    }
     Ok(Node::MultipleValueBind {
         bindings,
         values: Box::new(values),

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::analyze::{Compiled, Compiler};
+use super::exits::Exits;
 use super::lambda_list::{LambdaList, Optional};
 use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
@@ -16,6 +17,8 @@ pub(super) struct Body {
     pub forms: Value,
     /// Names declared special.
     pub(crate) specials: Vec<Sym>,
+    /// Names that need not be read.
+    pub(super) ignored: Vec<Sym>,
     /// The documentation string.
     pub doc: Option<Rc<str>>,
 }
@@ -24,6 +27,7 @@ pub(super) struct Body {
 pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
     let mut forms = body.clone();
     let mut specials = Vec::new();
+    let mut ignored = Vec::new();
     let mut doc = None;
     while let Value::Cons(cons) = &forms {
         let first = cons.car();
@@ -32,7 +36,8 @@ pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
                 doc = Some(text.text().into());
             }
             Value::Cons(c) if c.car().as_symbol() == Some(known::DECLARE) => {
-                specials.extend(declared_special(&c.cdr()));
+                specials.extend(declared(&c.cdr(), &[known::SPECIAL]));
+                ignored.extend(declared(&c.cdr(), &[known::IGNORE, known::IGNORABLE]));
             }
             _ => break,
         }
@@ -42,14 +47,20 @@ pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
     Body {
         forms,
         specials,
+        ignored,
         doc,
     }
 }
 
-fn declared_special(specifiers: &Value) -> Vec<Sym> {
+/// The names that declarations of some kinds name.
+fn declared(specifiers: &Value, kinds: &[Sym]) -> Vec<Sym> {
+    let is_one = |s: &Value| {
+        let kind = s.car_or_nil().as_symbol();
+        kind.is_some_and(|kind| kinds.contains(&kind))
+    };
     specifiers
         .iter_list()
-        .filter(|s| s.car_or_nil().as_symbol() == Some(known::SPECIAL))
+        .filter(is_one)
         .flat_map(|s| s.cdr_or_nil().iter_list())
         .filter_map(|name| name.as_symbol())
         .collect()
@@ -84,7 +95,7 @@ impl Compiler<'_> {
             LambdaList::parse(self.image, lambda_list, false).map_err(|r| r.at(self.place))?;
         let body = parse_body(body, true);
         let id = self.enter_function();
-        let result = self.analyze_lambda_parts(&parsed, &body, block, scope);
+        let result = self.analyze_lambda_parts(lambda_list, &parsed, &body, block, scope);
         let free = self.leave_function(id);
         let (parameters, slots, prologue, node) = result?;
         Ok(Rc::new(LambdaNode {
@@ -103,6 +114,7 @@ impl Compiler<'_> {
     #[allow(clippy::type_complexity)]
     fn analyze_lambda_parts(
         &mut self,
+        list: &Value,
         parsed: &LambdaList,
         body: &Body,
         block: Option<Sym>,
@@ -174,6 +186,7 @@ impl Compiler<'_> {
             }
             None => self.analyze_body(body, &parts.bound, &parts.scope)?,
         };
+        self.note_unread_parameters(list, &parts.scope, body);
         Ok((parameters, parts.slots, parts.prologue, node))
     }
 
@@ -233,6 +246,7 @@ impl Compiler<'_> {
             identity: self.new_var(name),
             dynamic: false.into(),
             used: false.into(),
+            exits: Exits::default(),
         })
     }
 }

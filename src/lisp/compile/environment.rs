@@ -39,6 +39,12 @@ pub(crate) fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
     })
 }
 
+/// Is the name that of a lexical variable at the macro call that is being expanded?
+pub fn is_visible_variable(image: &Image, name: Sym) -> bool {
+    let environment = image.environment.as_foreign::<Environment>();
+    environment.is_some_and(|Environment(scope)| scope.variable(name).is_some())
+}
+
 /// Expands a form with the local definitions of an environment: the expansion for a local macro,
 /// `Some(None)` if the name is that of a local function or variable, `None` if the environment does
 /// not know the name.

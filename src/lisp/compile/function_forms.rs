@@ -25,7 +25,7 @@ pub(super) fn function(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Com
             }
             None => {
                 let place = c.place;
-                c.image.note(place, || NoteKind::Function(sym, None));
+                c.image.note(place, || NoteKind::Function(sym));
                 Ok(Node::Function(sym, place))
             }
         };

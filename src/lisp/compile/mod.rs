@@ -13,6 +13,7 @@ mod define_macros;
 pub(crate) mod destructure;
 mod emit;
 mod environment;
+mod exits;
 mod expand;
 mod function_forms;
 pub mod lambda_list;
@@ -25,6 +26,7 @@ pub mod setf;
 mod shape;
 mod special_forms;
 mod toplevel;
+mod unread;
 
 use std::rc::Rc;
 
@@ -37,6 +39,7 @@ use super::value::raise::Raise;
 
 pub(crate) use analyze::keep_place;
 pub use emit::is_inlined;
+pub use environment::is_visible_variable;
 pub(crate) use environment::local_macro;
 pub use expand::{macroexpand, macroexpand_1};
 pub(crate) use expand::{macroexpand_1_in, macroexpand_in};

@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
+use super::exits::Exits;
 use crate::value::Value;
 use crate::value::function::Function;
 use crate::value::symbol::Sym;
@@ -18,8 +19,10 @@ pub(crate) struct Var {
     pub assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
     pub slot: Cell<u32>,
-    /// Does the program read it?
+    /// Does the program refer to it?
     pub used: Cell<bool>,
+    /// Does the program read it?
+    pub read: Cell<bool>,
 }
 
 impl Var {
@@ -70,6 +73,8 @@ pub(crate) struct Block {
     pub dynamic: Cell<bool>,
     /// Is it ever left by `return-from`?
     pub used: Cell<bool>,
+    /// What it is noticed for.
+    pub(super) exits: Exits,
 }
 
 pub(crate) struct Tagbody {
@@ -158,7 +163,7 @@ impl Scope {
             .fold(scope, |scope, entry| scope.with(entry))
     }
 
-    fn entries(&self) -> impl Iterator<Item = &Entry> {
+    pub(super) fn entries(&self) -> impl Iterator<Item = &Entry> {
         let mut scope = self;
         std::iter::from_fn(move || {
             let link = scope.0.as_ref()?;
@@ -187,6 +192,14 @@ impl Scope {
     pub(crate) fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Function(n, s, meaning) if *n == name && *s == is_setf => Some(meaning),
+            _ => None,
+        })
+    }
+
+    /// The blocks, innermost first.
+    pub(super) fn blocks(&self) -> impl Iterator<Item = &Rc<Block>> {
+        self.entries().filter_map(|e| match e {
+            Entry::Block(block) => Some(block),
             _ => None,
         })
     }

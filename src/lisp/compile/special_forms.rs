@@ -157,9 +157,10 @@ fn block(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     let Some(name) = rest.car_or_nil().as_symbol() else {
         return Err(c.program_error("The block name is not a symbol."));
     };
-    let info = c.new_block(name);
+    let info = c.new_block_of_macro(name);
     let inner = scope.with(Entry::Block(info.clone()));
     let body = c.analyze_progn(&rest.cdr_or_nil(), &inner)?;
+    c.note_caught_returns(&info);
     Ok(if info.used.get() {
         Node::Block(info, Box::new(body))
     } else {
@@ -176,6 +177,7 @@ fn return_from(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<No
         return Err(c.program_error(text));
     };
     info.used.set(true);
+    c.note_exit_to(&info, scope);
     let value = c.analyze(&rest.cdr_or_nil().car_or_nil(), scope)?;
     let value = Box::new(value);
     if info.owner == c.function_id() && !c.crosses_cleanup(info.depth) {
@@ -218,6 +220,7 @@ fn tagbody(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> 
             statements.push(c.analyze(item, &inner)?);
         }
     }
+    c.note_unreachable_statements(&items, is_tag, &statements);
     Ok(Node::Tagbody(info, statements, positions))
 }
 
@@ -227,6 +230,7 @@ fn go(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
         let shown = print::to_string(c.image, &tag, true);
         return Err(c.program_error(format!("attempt to GO to nonexistent tag: {shown}")));
     };
+    c.note_jump_to(&info, scope);
     if info.owner == c.function_id() && !c.crosses_cleanup(info.depth) {
         return Ok(Node::LocalGo(info, index));
     }
@@ -247,6 +251,7 @@ fn throw(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     if rest.iter_list().count() != 2 {
         return Err(c.program_error("THROW takes a tag and a form."));
     }
+    c.note_exit_of_all(scope);
     let tag = c.analyze(&rest.car_or_nil(), scope)?;
     let value = c.analyze(&rest.cdr_or_nil().car_or_nil(), scope)?;
     Ok(Node::Throw(Box::new(tag), Box::new(value), c.place))
@@ -301,6 +306,9 @@ fn handler_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
     let mut functions = Vec::new();
     for clause in rest.car_or_nil().iter_list() {
         super::compiled_macros::check_binding(c.image, &clause).map_err(|r| r.at(c.place))?;
+        let place = c.place;
+        c.image
+            .note(place, || NoteKind::Handled(clause.car_or_nil()));
         types.push(clause.car_or_nil());
         functions.push(c.analyze(&clause.cdr_or_nil().car_or_nil(), scope)?);
     }

@@ -42,6 +42,8 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
         return Err(reason.into());
     }
     image.nesting += 1;
+    // What a macro function compiles is not part of the program that is noted.
+    let notes = image.notes.take();
     // Nobody can show what is written before the call has ended.
     let was_shown = image.output.set_shown(false);
     let mut fiber = Fiber::default();
@@ -68,6 +70,7 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
         }
     };
     image.nesting -= 1;
+    image.notes = notes;
     image.output.set_shown(was_shown);
     result
 }

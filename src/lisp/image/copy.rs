@@ -12,6 +12,8 @@ use super::input::Input;
 use super::output::Output;
 use super::setf_expander::SetfExpander;
 use super::signalled::Signalled;
+use super::warnings::Warnings;
+use crate::source::Place;
 use crate::value::Value;
 use crate::value::copy::{Copied, Copier};
 use crate::value::symbol::Sym;
@@ -54,6 +56,8 @@ impl Image {
             setf_expanders: named(&self.setf_expanders, copier),
             limits: Rc::new(self.limits.copied()),
             notes: None,
+            noted_form: Place::NONE,
+            warnings: Warnings::default(),
             environment: Value::NIL,
             nesting: 0,
             wants_all: true,

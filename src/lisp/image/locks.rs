@@ -136,6 +136,13 @@ impl Image {
         }
     }
 
+    /// Is it a function that is built in and that no program has redefined?
+    pub fn is_built_in_function(&self, name: Sym) -> bool {
+        let locked = self.locks.locked.as_ref();
+        locked.is_some_and(|names| names.functions.contains(&name))
+            || self.locks.open.contains(&name)
+    }
+
     /// Signals an error if a program may not give a name this meaning. The forms that define ask
     /// before, with restarts; this is for functions that do.
     pub(crate) fn check_lock(&self, name: Sym, meaning: Meaning) -> Result<(), Box<Raise>> {

@@ -13,6 +13,7 @@ mod output;
 pub mod precompiled;
 pub(crate) mod setf_expander;
 pub mod signalled;
+pub mod warnings;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -30,6 +31,7 @@ use self::notes::{Note, NoteKind};
 pub use self::output::Output;
 use self::setf_expander::SetfExpander;
 use self::signalled::Signalled;
+use self::warnings::Warnings;
 use super::builtin::{Builtin, Entry, Expander, Operator};
 use super::files::{Disk, Files};
 use super::guard::Limits;
@@ -74,6 +76,10 @@ pub struct Image {
     pub limits: Rc<Limits>,
     /// What the compiler notices; `None` unless notes are wanted.
     pub notes: Option<Vec<Note>>,
+    /// The form at top level that notes are about.
+    pub noted_form: Place,
+    /// What is known about warnings of forms that are evaluated.
+    pub warnings: Warnings,
     /// The environment of the macro call that is being expanded.
     pub environment: Value,
     /// How deeply runs of macro functions are nested.
@@ -142,6 +148,8 @@ impl Image {
             setf_expanders: IndexMap::new(),
             limits: Rc::default(),
             notes: None,
+            noted_form: Place::NONE,
+            warnings: Warnings::default(),
             environment: Value::NIL,
             nesting: 0,
             wants_all: true,

@@ -20,14 +20,25 @@ pub struct Note {
 /// What was noticed.
 #[derive(Clone)]
 pub enum NoteKind {
-    /// A global function is called with this many arguments or, without a number, only named.
-    Function(Sym, Option<usize>),
+    /// A global function is called by a form.
+    Call(Sym, Value),
+    /// A global function is named.
+    Function(Sym),
     /// A name is read as a global variable; the second name is the closest bound one.
     Variable(Sym, Option<Sym>),
     /// A global variable is assigned.
     Assigned(Sym),
     /// A form whose operator defines something.
     Definition(Value),
+    /// The type that a handler is for.
+    Handled(Value),
+    /// A variable that a program binds but never reads; is it assigned?
+    Unused(Sym, bool),
+    /// A form after one that never returns.
+    Unreachable,
+    /// A `(return)` in an endless `loop` that leaves only the form of this operator, while
+    /// nothing leaves the loop.
+    CaughtReturn(Sym),
     /// A mistake in a form, described for the user, and the name that is wrong.
     Mistake {
         /// The wrong name in upper case.

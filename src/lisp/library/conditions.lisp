@@ -359,6 +359,13 @@
   (let ((restart (find-restart name condition)))
     (and restart (apply #'invoke-restart restart arguments))))
 
+;; A report may print its condition.
+(defun %write-message (condition stream)
+  "Writes what a condition says, as far as its report can be written: a part of its printed form."
+  (ignore-errors
+   (let ((%*in-report* t))
+     (princ condition stream))))
+
 (defun %call-debugger-hook (condition)
   "What happens instead of stopping at a condition that nobody handles while there is a *DEBUGGER-HOOK*: that
   function is called. If it returns, the condition stops the program after all."

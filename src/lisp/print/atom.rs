@@ -14,6 +14,20 @@ use crate::value::class::{Class, ClassKind};
 use crate::value::function::{Body, Deferred, Function, Native};
 use crate::value::hash_table::HashTest;
 use crate::value::number::large::to_text;
+use crate::value::symbol::Sym;
+
+/// An instance of a class, with what a condition says.
+pub(super) fn with_message(
+    image: &Image,
+    instance: &Value,
+    class: Sym,
+    settings: &Settings,
+    message: Option<String>,
+) -> String {
+    let name = symbol::symbol(image, class, &settings.clone().with_escape(true));
+    let message = message.map_or_else(String::new, |message| string(&message) + " ");
+    format!("#<{name} {message}{}>", identity(image, instance))
+}
 
 /// A value that is not a list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {
@@ -70,16 +84,8 @@ pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String 
         }
         Value::Foreign(object) => object.object().print(image, settings.escape),
         Value::Instance(instance) => {
-            let name = symbol::symbol(
-                image,
-                instance.class().name,
-                &settings.clone().with_escape(true),
-            );
-            let message = match super::report::message(image, instance) {
-                Some(message) => format!("{} ", string(&message)),
-                None => String::new(),
-            };
-            format!("#<{name} {message}{}>", identity(image, value))
+            let message = super::report::message(image, instance);
+            with_message(image, value, instance.class().name, settings, message)
         }
         Value::Cell(_) => "#<CELL>".to_owned(),
         Value::Unbound => "#<UNBOUND>".to_owned(),

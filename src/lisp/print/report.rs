@@ -86,6 +86,11 @@ pub(super) fn message(image: &Image, instance: &Rc<Instance>) -> Option<String> 
             text
         }
     };
+    on_line(&text)
+}
+
+/// A text on one line that is not too long; `None` if it is empty.
+pub(super) fn on_line(text: &str) -> Option<String> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let line = words.join(" ");
     if line.chars().count() <= MESSAGE_LENGTH {

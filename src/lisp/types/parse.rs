@@ -507,8 +507,22 @@ const PLAIN_TYPES: &[Sym] = &[
     known::SATISFIES,
 ];
 
+/// Is it the name of a type, or of a kind of types?
+pub fn is_type_name(image: &Image, name: Sym) -> bool {
+    let defined = image
+        .class(name)
+        .is_some_and(|class| class.is_defined.get());
+    defined
+        || image.types.contains_key(&name)
+        || PLAIN_TYPES.contains(&name)
+        || !matches!(
+            parse(image, &name.into(), &mut Answers::default()),
+            Err(Stop::UnknownType(_))
+        )
+}
+
 /// The name of a type that is nearest to one that is none.
-fn near_type(image: &Image, name: Sym) -> Option<Sym> {
+pub fn near_type(image: &Image, name: Sym) -> Option<Sym> {
     let names = image.types.keys().chain(PLAIN_TYPES).copied();
     nearest(image, name, names.chain(defined_classes(image)))
 }

@@ -262,6 +262,11 @@ impl KinematicTree {
         found.map(|alias| alias.part)
     }
 
+    /// The names in use for links and joints besides their own.
+    pub fn aliases(&self) -> &[Alias] {
+        &self.aliases
+    }
+
     /// Lets links and joints of this tree be found by other names, too.
     pub(crate) fn set_aliases(&mut self, aliases: Vec<Alias>) {
         self.aliases = aliases;

@@ -214,6 +214,11 @@ impl GraspLibrary {
         Ok(library)
     }
 
+    /// The names of all grasps, of any type.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.grasps.keys().map(|(_, _, name)| name.as_str())
+    }
+
     /// The grasps of a type in the order in which they are tried; empty for an unknown type.
     pub fn grasps(&self, object_type: &str) -> &[String] {
         self.order.get(object_type).map_or(&[], Vec::as_slice)

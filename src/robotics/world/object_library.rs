@@ -95,6 +95,12 @@ impl ObjectLibrary {
         self.available.iter().map(|name| &self.objects[name])
     }
 
+    /// The names of all types, listed or not, and of their supertypes.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let kinds = self.kind_of.iter().flat_map(|(one, of)| [one, of]);
+        self.objects.keys().chain(kinds).map(String::as_str)
+    }
+
     /// The type with that name, listed or not.
     pub fn get(&self, name: &str) -> Option<&ObjectType> {
         self.objects.get(name)

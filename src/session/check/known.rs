@@ -54,7 +54,9 @@ impl KnownNames {
         self.defined.extend(named);
         match head.map(|head| image.name(head)) {
             Some("DEFCLASS" | "DEFINE-CONDITION") => self.note_accessors(image, form),
-            Some("DEF-FACT-GROUP") => self.note_rules(image, form),
+            Some("DEF-FACT-GROUP" | "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS") => {
+                self.note_rules(image, form);
+            }
             Some("DEF-ACTION") => self.note_action(image, form),
             _ => {}
         }

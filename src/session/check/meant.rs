@@ -6,6 +6,7 @@ use crate::package_name::short_name;
 use closest_name::closest_name;
 use cram::designator::schema::{self, Kind};
 use cram::designator::value::Class;
+use cram::pose::names as pose;
 use lisp::builtins::help;
 use lisp::image::Image;
 use lisp::value::Value;
@@ -59,6 +60,14 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
     };
     match instance.class().name {
         known::SIMPLE_PACKAGE_ERROR => return package_hint(image, &instance.slot(known::PACKAGE)?),
+        known::TYPE_ERROR => {
+            let is_pose = instance.slot(known::EXPECTED_TYPE)?.as_symbol() == Some(pose::POSE);
+            return is_pose.then(|| {
+                "A pose is written '((x y z) (x y z w)): position, then orientation, (0 0 0 1) for none; \
+                 make-pose makes one in a frame."
+                    .to_owned()
+            });
+        }
         known::FILE_ERROR => return file_hint(image, &instance.slot(known::PATHNAME)?),
         _ => {}
     }
@@ -114,7 +123,7 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
 
 /// Is the name that of a keyword which plans have as a value: an arm, a type of objects, a choice of a
 /// key?
-fn is_value(image: &Image, name: &str) -> bool {
+pub(super) fn is_value(image: &Image, name: &str) -> bool {
     let is_choice = |class| {
         let rows = schema::all(image, class);
         rows.iter()

@@ -1,11 +1,15 @@
 //! Checking a text without running it, and hints for somebody whose program has met a name that means
 //! nothing.
 
+mod arguments;
 mod judge;
 mod known;
 mod meant;
+mod signature;
 mod text;
 mod tokens;
+mod types;
+mod warnings;
 
 #[cfg(test)]
 mod tests;
@@ -13,3 +17,4 @@ mod tests;
 pub(super) use known::KnownNames;
 pub(super) use meant::hint;
 pub(super) use text::check_text;
+pub(super) use warnings::install;

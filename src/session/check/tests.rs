@@ -1,13 +1,32 @@
 //! Wrong inputs and their diagnostics.
 
+mod many_mistakes;
+mod no_false_alarms;
+mod typical_mistakes;
+mod warnings;
+
 use std::fs;
 use std::path::Path;
 
 use crate::dialogue::Evaluate;
 use crate::{Session, SessionOptions};
 
+thread_local! {
+    /// The session that those for texts are copies of.
+    static FRESH: Session = Session::new(&SessionOptions::default()).unwrap();
+}
+
+/// A fresh session.
+fn fresh() -> Session {
+    FRESH.with(|session| session.copied().unwrap())
+}
+
+/// What is found in a text by a fresh session.
 fn found(name: &str, text: &str) -> Vec<String> {
-    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    found_in(&mut fresh(), name, text)
+}
+
+fn found_in(session: &mut Session, name: &str, text: &str) -> Vec<String> {
     session
         .check(name, text)
         .into_iter()

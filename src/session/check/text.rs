@@ -5,7 +5,9 @@
 //! and the values of variables are not computed. The compiler's notes are judged at the end,
 //! when all definitions are known.
 
-use super::judge;
+use std::collections::HashSet;
+
+use super::judge::{Judge, Mistake};
 use super::known::KnownNames;
 use super::tokens;
 use crate::dialogue::{Finding, Severity};
@@ -46,8 +48,8 @@ impl Check<'_> {
         self.image.notes = Some(Vec::new());
         let was_open = self.known.is_open;
         loop {
-            let form = match reader.next_form(self.image) {
-                Ok(Some((form, _))) => form,
+            let (form, place) = match reader.next_form(self.image) {
+                Ok(Some(form)) => form,
                 Ok(None) => break,
                 Err(error) => {
                     let finding = self.finding(error.raise());
@@ -58,6 +60,7 @@ impl Check<'_> {
                 }
             };
             self.known.note_form(self.image, &form);
+            self.image.noted_form = place;
             self.check_form(&form, &mut findings);
         }
         let notes = self.image.notes.take().unwrap_or_default();
@@ -70,14 +73,24 @@ impl Check<'_> {
                 _ => {}
             }
         }
-        for note in notes {
-            let finding = self.warning(&note);
-            findings.extend(finding.filter(|finding| !findings.contains(finding)));
-        }
+        findings.extend(self.warnings(&notes));
         findings.extend(self.hidden_forms(source, text));
         self.known.is_open = was_open;
         findings.sort_by_key(|f| f.place.as_ref().map(|place| (place.line, place.column)));
         findings
+    }
+
+    /// What the compiler's notes say.
+    fn warnings(&mut self, notes: &[Note]) -> Vec<Finding> {
+        let mistakes = Judge::new(self.image, self.known).judge_all(notes);
+        let mistakes = placed(self.image, mistakes).into_iter();
+        mistakes
+            .map(|(place, mistake)| Finding {
+                message: mistake.text,
+                place: self.image.sources.locate(place),
+                severity: Severity::Warning,
+            })
+            .collect()
     }
 
     /// Forms in comments that have lost their ends.
@@ -133,8 +146,12 @@ impl Check<'_> {
         let result = nested::call_nested(self.image, names::EVAL.into(), vec![form]);
         self.image.output.take();
         self.image.notes = notes;
-        if let (Effect::Reading, Err(raise)) = (effect, result) {
-            let finding = self.finding(raise);
+        if let Err(raise) = result
+            && (effect == Effect::Reading || is_about_locks(&raise))
+        {
+            let mut finding = self.finding(raise);
+            let place = self.image.noted_form;
+            finding.place = finding.place.or_else(|| self.image.sources.locate(place));
             findings.push(finding);
         }
     }
@@ -179,28 +196,43 @@ impl Check<'_> {
             severity: Severity::Error,
         }
     }
+}
 
-    fn warning(&mut self, note: &Note) -> Option<Finding> {
-        let mistake = judge::judge(self.image, self.known, &note.kind)?;
-        let place = match mistake.name {
-            Some(name) => self.place_of_name(note.place, &name),
-            None => note.place,
-        };
-        Some(Finding {
-            message: mistake.text,
-            place: self.image.sources.locate(place),
-            severity: Severity::Warning,
-        })
+/// Does it refuse a definition that would give a locked name another meaning?
+fn is_about_locks(raise: &Raise) -> bool {
+    match raise {
+        Raise::Condition { condition, .. } => match condition {
+            Value::Instance(instance) => instance.class().name == names::LOCKED_PACKAGE_ERROR,
+            _ => false,
+        },
+        Raise::Make { class, .. } => *class == names::LOCKED_PACKAGE_ERROR,
     }
+}
 
-    /// The place of a name in a form, or of the form itself.
-    fn place_of_name(&mut self, form: Place, name: &str) -> Place {
-        let sources = &mut self.image.sources;
-        let range = sources.text(form).and_then(|text| tokens::find(text, name));
-        range
-            .and_then(|range| sources.within(form, range.start, range.end))
-            .unwrap_or(form)
+/// Mistakes with the places of what is wrong, each once: of several about a name at a place, the first.
+pub(super) fn placed(image: &mut Image, mistakes: Vec<(Place, Mistake)>) -> Vec<(Place, Mistake)> {
+    let mut seen = HashSet::new();
+    let mut found = Vec::new();
+    for (form, mistake) in mistakes {
+        let place = place_of(image, form, &mistake);
+        let subject = mistake.name.as_ref().unwrap_or(&mistake.text);
+        if seen.insert((image.sources.bytes_of(place), subject.clone())) {
+            found.push((place, mistake));
+        }
     }
+    found
+}
+
+/// The place of the name that is wrong, or else that of the form.
+fn place_of(image: &mut Image, form: Place, mistake: &Mistake) -> Place {
+    let Some(name) = &mistake.name else {
+        return form;
+    };
+    let sources = &mut image.sources;
+    let range = sources.text(form).and_then(|text| tokens::find(text, name));
+    range
+        .and_then(|range| sources.within(form, range.start, range.end))
+        .unwrap_or(form)
 }
 
 /// The effect of a form on later forms.

@@ -14,6 +14,7 @@ mod halt;
 mod halting;
 mod input;
 mod inspector;
+mod judging;
 mod line_breaks;
 pub(crate) mod recovery;
 mod replaced_frames;

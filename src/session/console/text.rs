@@ -37,14 +37,21 @@ impl Evaluator {
         loop {
             let (form, place) = match self.read_placed(&mut rest) {
                 Ok(Some(form)) => form,
-                Ok(None) => return Outcome::Finished,
+                Ok(None) => {
+                    self.warn_of_pending();
+                    self.flush(sink);
+                    return Outcome::Finished;
+                }
                 Err(abort) => {
                     sink(Event::Aborted(abort));
                     self.image.output.begin_line();
                     return Outcome::Aborted;
                 }
             };
-            match self.evaluate_form(&form, sink) {
+            self.begin_judging(&form, place);
+            let ended = self.evaluate_form(&form, sink);
+            self.end_judging(place, &ended);
+            match ended {
                 Ended::Values(values) => {
                     if let Some(outcome) = self.tell_values(&values, sink) {
                         return outcome;

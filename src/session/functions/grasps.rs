@@ -6,6 +6,7 @@ use crate::simulation::Simulation;
 use crate::simulation::motions::sides;
 use crate::simulation::names::type_text;
 use cram::Reply;
+use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::pose::argument;
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
@@ -112,6 +113,7 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         second_in_base,
         second_turn,
     ] = lift;
+    Vocabulary::of(image).add(Domain::Grasp, [grasp.as_str()]);
     let definition = GraspDefinition {
         translation: offsets(image, translation, "grasp translation")?,
         rotation: match rotation {

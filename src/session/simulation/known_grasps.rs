@@ -18,6 +18,11 @@ fn built_in() -> Arc<GraspLibrary> {
 }
 
 impl KnownGrasps {
+    /// The names of the built-in grasps, of all types.
+    pub(crate) fn built_in_names() -> Vec<String> {
+        built_in().names().map(str::to_owned).collect()
+    }
+
     /// Changes what is known.
     pub(crate) fn change<T>(&mut self, change: impl FnOnce(&mut GraspLibrary) -> T) -> T {
         let mut library = self.0.take().unwrap_or_else(built_in);

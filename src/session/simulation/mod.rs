@@ -9,7 +9,7 @@ pub(super) mod held;
 pub(super) mod imagined;
 pub(super) mod injection;
 pub mod jobs;
-mod known_grasps;
+pub(crate) mod known_grasps;
 pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;

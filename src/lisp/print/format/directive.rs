@@ -79,6 +79,11 @@ impl Directive {
         }
     }
 
+    /// Does it enclose nothing?
+    pub(super) fn is_empty(&self) -> bool {
+        self.clauses.iter().all(|clause| clause.pieces.is_empty())
+    }
+
     /// Is it `~<…~:>`?
     pub(super) fn is_logical_block(&self) -> bool {
         self.close.is_some_and(|close| close.colon)

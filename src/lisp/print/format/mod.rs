@@ -3,6 +3,7 @@
 //! Pure like the printer: calls of Lisp functions (`~/name/`, objects that a program prints itself)
 //! are recorded in [`Calls`] and made by the builtin.
 
+mod arguments;
 mod directive;
 mod english;
 mod error;
@@ -42,6 +43,11 @@ impl Control {
             text: text.into(),
             pieces: pieces.into(),
         })
+    }
+
+    /// Fewest and most arguments that it takes; `None` where that depends on the arguments.
+    pub fn arguments(&self) -> Option<(usize, Option<usize>)> {
+        arguments::count(&self.pieces)
     }
 
     /// The text that the control string makes of the arguments, where the line already has `column`

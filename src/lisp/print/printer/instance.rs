@@ -4,6 +4,7 @@
 use std::rc::Rc;
 
 use super::{Printer, Task};
+use crate::print::atom::with_message;
 use crate::print::dispatch;
 use crate::print::report;
 use crate::print::shape::Style;
@@ -40,8 +41,24 @@ impl Printer<'_> {
                 let text = report::report(self.image, value);
                 self.document.text(&text);
             }
+            ClassKind::Condition if self.has_function_to_ask(instance) => {
+                let write = known::SYS_WRITE_MESSAGE.into();
+                let text = self.text_of_call(write, vec![value.clone()], depth);
+                let message = text.and_then(|text| report::on_line(&text.into_text()));
+                let class = instance.class().name;
+                let text = with_message(self.image, value, class, self.settings, message);
+                self.document.text(&text);
+            }
             _ => self.atom(value),
         }
+    }
+
+    /// Does only a function of the program know what a condition says? One that prints the condition
+    /// itself is not asked again.
+    fn has_function_to_ask(&self, instance: &Rc<Instance>) -> bool {
+        report::message(self.image, instance).is_none()
+            && report::function(instance).is_some()
+            && !self.image.special(known::V_IN_REPORT).is_true()
     }
 
     /// The text that the program's own printing function makes of an instance, if it has one.
