@@ -7,7 +7,7 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 ///
 /// The standard library seeds each thread's hash keys from the operating system's source of
 /// randomness, so hashes under these keys are unpredictable.
-pub(crate) fn random_word() -> String {
+pub fn random_word() -> String {
     let mut word = String::new();
     for _ in 0..2 {
         let mut hasher = RandomState::new().build_hasher();
@@ -19,7 +19,7 @@ pub(crate) fn random_word() -> String {
 }
 
 /// Whether the two are equal, in a time that does not depend on where they differ.
-pub(super) fn is_same(a: &[u8], b: &[u8]) -> bool {
+pub fn is_same(a: &[u8], b: &[u8]) -> bool {
     let differences = a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y));
     a.len() == b.len() && differences == 0
 }
