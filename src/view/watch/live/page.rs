@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::token::random_word;
+use super::token::word_of;
 use crate::picture::floor;
 use crate::picture::shade::LAMP;
 use crate::watch::FORCE_SCALE;
@@ -50,7 +50,7 @@ pub(super) fn page(word: &str) -> String {
 /// The page of a saved run, which is a JSON text without `<`. It is in a file, so the policy that
 /// the server would send is in its head: nothing from elsewhere, and no way to anywhere.
 pub(crate) fn page_of_run(run: &str) -> String {
-    let word = random_word();
+    let word = word_of(run);
     let policy = format!(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
          script-src 'nonce-{word}'; style-src 'nonce-{word}'; img-src data: blob:; \

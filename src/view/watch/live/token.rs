@@ -1,7 +1,7 @@
 //! Words that cannot be guessed.
 
 use std::fmt::Write;
-use std::hash::{BuildHasher, Hasher, RandomState};
+use std::hash::{BuildHasher, DefaultHasher, Hasher, RandomState};
 
 /// A random word of 32 hexadecimal digits.
 ///
@@ -12,6 +12,20 @@ pub fn random_word() -> String {
     for _ in 0..2 {
         let mut hasher = RandomState::new().build_hasher();
         hasher.write_u8(b'w');
+        // Writing to a string cannot fail.
+        let _ = write!(word, "{:016x}", hasher.finish());
+    }
+    word
+}
+
+/// A word of 32 hexadecimal digits that belongs to a text: the same text has the same word, and none can
+/// be written that contains its own.
+pub(super) fn word_of(text: &str) -> String {
+    let mut word = String::new();
+    for part in 0..2 {
+        let mut hasher = DefaultHasher::new();
+        hasher.write_u8(part);
+        hasher.write(text.as_bytes());
         // Writing to a string cannot fail.
         let _ = write!(word, "{:016x}", hasher.finish());
     }
