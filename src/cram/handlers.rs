@@ -1,7 +1,7 @@
 //! The failures that handlers in programs name, and how often each has been handled: a plan whose
 //! handlers have never run has not been tested.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use lisp::evaluator::matching::is_of_type;
@@ -18,7 +18,11 @@ const BUILT_IN: &str = "plans/lib/";
 
 /// All handlers of programs in an image.
 #[derive(Default)]
-pub struct Handlers(RefCell<Vec<Handler>>);
+pub struct Handlers {
+    all: RefCell<Vec<Handler>>,
+    /// How many of them, the first ones, belong to what the program is given.
+    given: Cell<usize>,
+}
 
 /// A clause of `with-failure-handling`.
 struct Handler {
@@ -44,7 +48,7 @@ impl Handlers {
             return None;
         }
         let all = Self::of(image);
-        let mut all = all.0.borrow_mut();
+        let mut all = all.all.borrow_mut();
         // A macro call may be expanded repeatedly.
         if let Some(known) = all.iter().position(|handler| handler.place == place) {
             return Some(known);
@@ -62,7 +66,7 @@ impl Handlers {
     /// Notes that a handler begins to handle a condition.
     pub(super) fn note(image: &mut Image, number: usize, condition: &Value) {
         let all = Self::of(image);
-        let mut all = all.0.borrow_mut();
+        let mut all = all.all.borrow_mut();
         let Some(handler) = all.get_mut(number) else {
             return;
         };
@@ -72,17 +76,22 @@ impl Handlers {
         }
     }
 
+    /// Those that there are now are not the program's own.
+    pub fn give(&self) {
+        self.given.set(self.all.borrow().len());
+    }
+
     /// Counts from zero.
     pub fn reset(&self) {
-        for handler in self.0.borrow_mut().iter_mut() {
+        for handler in self.all.borrow_mut().iter_mut() {
             handler.types.iter_mut().for_each(|(_, count)| *count = 0);
         }
     }
 
-    /// File, line and type of all of them, in order, and how often each has handled a failure.
+    /// File, line and type of those of the program, in order, and how often each has handled a failure.
     pub fn counts(&self, image: &Image) -> Vec<(String, u64)> {
-        let all = self.0.borrow();
-        let each = all.iter().flat_map(|handler| {
+        let all = self.all.borrow();
+        let each = all.iter().skip(self.given.get()).flat_map(|handler| {
             handler.types.iter().map(|(name, count)| {
                 let name = print::to_string(image, name, false);
                 (format!("{} {name}", handler.location), *count)
@@ -94,7 +103,7 @@ impl Handlers {
 
 impl Extension for Handlers {
     fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
-        let all = self.0.borrow();
+        let all = self.all.borrow();
         let all = all.iter().map(|handler| {
             let types = handler.types.iter();
             Handler {
@@ -105,7 +114,10 @@ impl Extension for Handlers {
                     .collect(),
             }
         });
-        Rc::new(Handlers(RefCell::new(all.collect())))
+        Rc::new(Handlers {
+            all: RefCell::new(all.collect()),
+            given: self.given.clone(),
+        })
     }
 }
 

@@ -22,6 +22,7 @@ pub mod structure;
 pub mod typed;
 pub mod types;
 pub mod value;
+pub mod visible;
 pub mod vm;
 
 pub use image::Image;

@@ -1,8 +1,10 @@
 //! Source texts and places in them.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
+
+use super::visible::visible;
 
 /// Handle of a span of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -63,18 +65,26 @@ pub struct Location {
 
 impl std::fmt::Display for Location {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}:{}:{}", self.name, self.line, self.column)
+        let name = visible(&self.name);
+        write!(f, "{name}:{}:{}", self.line, self.column)
     }
 }
 
 impl Location {
     /// The line with the place underlined by carets, as two lines of text.
     pub fn underlined(&self) -> String {
+        let mut chars = self.line_text.chars();
+        let mut width_of = |chars_of_line: usize| {
+            let part: String = chars.by_ref().take(chars_of_line).collect();
+            visible(&part).chars().count().max(chars_of_line)
+        };
+        let before = width_of(self.column.saturating_sub(1));
+        let width = width_of(self.width.max(1));
         format!(
             "{}\n{}{}",
-            self.line_text,
-            " ".repeat(self.column.saturating_sub(1)),
-            "^".repeat(self.width.max(1))
+            visible(&self.line_text),
+            " ".repeat(before),
+            "^".repeat(width)
         )
     }
 }
@@ -91,6 +101,8 @@ struct Span {
 pub struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
+    /// Files that have been loaded, and of which nobody has been told yet.
+    loaded: RefCell<Vec<SourceId>>,
 }
 
 impl Sources {
@@ -113,6 +125,20 @@ impl Sources {
             line_starts: OnceCell::new(),
         });
         id
+    }
+
+    /// Notes that a text is that of a file that is loaded.
+    pub(crate) fn note_loaded(&self, id: SourceId) {
+        self.loaded.borrow_mut().push(id);
+    }
+
+    /// Names and texts of the files that have been loaded since this was asked last.
+    pub fn take_loaded(&self) -> Vec<(Rc<str>, Rc<str>)> {
+        let loaded = self.loaded.take().into_iter();
+        let sources = loaded.filter_map(|id| self.get(id));
+        sources
+            .map(|source| (Rc::clone(&source.name), Rc::clone(&source.text)))
+            .collect()
     }
 
     /// Number of texts.

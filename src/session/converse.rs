@@ -59,6 +59,14 @@ impl Converse for Session {
         self.evaluator.host.simulation.world().hash()
     }
 
+    fn last_ending(&self) -> &str {
+        &self.evaluator.console.last_ending
+    }
+
+    fn take_loaded(&self) -> Vec<(Rc<str>, Rc<str>)> {
+        self.evaluator.image.sources.take_loaded()
+    }
+
     fn set_hurried(&mut self, is_hurried: bool) {
         self.evaluator.host.audience.set_hurried(is_hurried);
     }

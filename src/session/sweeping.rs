@@ -21,6 +21,12 @@ use sweep::{Drawn, Draws, Ending, Record};
 pub const MAX_POLLS: u64 = 1_000_000;
 /// Share of them after which cleaning up counts as endless, too.
 const CLEANING: u64 = 10;
+/// The class of conditions that tell a plan of a limit to memory.
+const HEAP_EXHAUSTED: &str = "HEAP-EXHAUSTED-ERROR";
+/// Why a world says nothing whose plan has been told of it.
+const LACKS_MEMORY: &str = "it takes more memory than --heap allows";
+/// Why a world says nothing that has run out of time before its plan.
+const LATE: &str = "the time limit passed before the plan began";
 
 /// A sweep that a file defines.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,10 +56,22 @@ struct State {
     /// Values that are set instead of drawn.
     set: Vec<(String, Value)>,
     known: Vec<Known>,
-    /// Whether the values of the sweep's variables are being found.
-    is_varying: bool,
+    stage: Stage,
     /// What came of the world, once it has ended.
     record: Option<Record>,
+}
+
+/// What is being done in the world at hand. What fails says something about the plan only while that
+/// runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// planwright sets the world up.
+    #[default]
+    SetUp,
+    /// The values of the sweep's variables are found, and the faults that it injects.
+    Varying,
+    /// The plan runs, and what it has done is looked at.
+    Running,
 }
 
 impl Sweeping {
@@ -72,13 +90,12 @@ impl Sweeping {
         state.drawn = Pairs::default();
         state.simplest = Pairs::default();
         state.record = None;
-        state.is_varying = false;
+        state.stage = Stage::SetUp;
     }
 
-    /// Whether the values of the sweep's variables are being found: what fails then is no failure of
-    /// the plan.
-    pub(super) fn set_varying(&self, is_varying: bool) {
-        self.0.borrow_mut().is_varying = is_varying;
+    /// Begins a stage of the world.
+    pub(super) fn enter(&self, stage: Stage) {
+        self.0.borrow_mut().stage = stage;
     }
 
     /// 64 bits that belong to a path.
@@ -153,6 +170,17 @@ impl Sweeping {
     }
 }
 
+/// A world in which a plan has been told that memory is exhausted says nothing about the plan: more of
+/// it, or fewer threads, could have led to something else.
+pub(super) fn excuse_lack_of_memory(image: &Image, record: &mut Record) {
+    let is_told = image.limits.heap.take_exhausted();
+    if is_told || record.class.as_deref() == Some(HEAP_EXHAUSTED) {
+        record.outcome = Ending::Defect;
+        record.class = None;
+        record.cause = Some(LACKS_MEMORY.to_owned());
+    }
+}
+
 impl Extension for Sweeping {
     fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
         let state = self.0.borrow();
@@ -175,6 +203,11 @@ impl Session {
             .borrow()
             .known
             .clone()
+    }
+
+    /// What has been loaded until now is given to plans: its handlers are not counted as theirs.
+    pub fn end_set_up(&mut self) {
+        Handlers::of(&mut self.evaluator.image).give();
     }
 
     /// The simplest values that the draws of the world at hand could have had.
@@ -243,25 +276,35 @@ impl Session {
                 record.class.clone_from(&class);
             }
         }
-        if state.0.borrow().is_varying && ending == Ending::Failure && !is_late {
-            let mut record = Record::new(world, Ending::Mistake);
-            record.class = class;
-            record.cause = mistake;
-            return record;
-        }
         if is_late {
             // Whatever it has come to by then depends on the machine.
             ending = Ending::Timeout;
             class = None;
             kept = None;
         }
-        kept.unwrap_or_else(|| {
+        let stage = state.0.borrow().stage;
+        let is_judged = kept.is_some() || stage == Stage::Running;
+        let mut record = kept.unwrap_or_else(|| {
             let mut record = state.record(&mut self.evaluator.image, ending);
             record.class = class;
             let simulation = &mut self.evaluator.host.simulation;
             simulation.end_tally();
             simulation.complete(&mut record);
             record
-        })
+        });
+        if !is_judged {
+            let is_mistake = stage == Stage::Varying && ending != Ending::Defect && !is_late;
+            record.outcome = match is_mistake {
+                true => Ending::Mistake,
+                false => Ending::Defect,
+            };
+            record.class = None;
+            record.cause = match is_late {
+                true => Some(LATE.to_owned()),
+                false => mistake,
+            };
+        }
+        excuse_lack_of_memory(&self.evaluator.image, &mut record);
+        record
     }
 }

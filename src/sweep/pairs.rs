@@ -32,6 +32,13 @@ impl<T> Pairs<T> {
         }
     }
 
+    /// The bytes of memory that they take, beside those that `own` says of a value.
+    pub(crate) fn bytes(&self, own: impl Fn(&T) -> usize) -> usize {
+        let pairs = self.0.iter();
+        let texts = pairs.map(|(name, value)| name.capacity() + own(value));
+        self.0.capacity() * size_of::<(String, T)>() + texts.sum::<usize>()
+    }
+
     /// All of them, in order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))

@@ -27,7 +27,7 @@ pub enum Ending {
     Timeout,
     /// What the world was to contain found no place. This says nothing about the plan.
     Invalid,
-    /// planwright itself failed.
+    /// planwright itself failed, or one of its limits was reached, such as that of memory.
     Defect,
     /// The process that ran the world was killed by it.
     Crashed,
@@ -36,9 +36,14 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// Whether the plan was tried at all.
+    /// Whether it says anything about the plan.
     pub fn counts(self) -> bool {
-        !matches!(self, Self::Invalid | Self::Mistake)
+        !matches!(self, Self::Invalid | Self::Mistake) && !self.is_defect()
+    }
+
+    /// Whether planwright could not do its work, so that nothing is known about the plan.
+    pub fn is_defect(self) -> bool {
+        matches!(self, Self::Defect | Self::Crashed)
     }
 
     fn name(self) -> &'static str {
@@ -162,6 +167,28 @@ impl Record {
     /// Whether the plan worked.
     pub fn is_success(&self) -> bool {
         self.outcome == Ending::Success
+    }
+
+    /// The bytes of memory that it takes, or a few more.
+    pub fn bytes(&self) -> usize {
+        // A vector that grows has room for as many again.
+        const ROOM: usize = 2;
+        const STRING: usize = size_of::<String>();
+        let texts = [&self.class, &self.cause].into_iter().flatten();
+        let texts = texts.chain(&self.bodies).chain(&self.faults);
+        let texts = texts.map(|text| STRING + text.capacity()).sum::<usize>();
+        let drawn = |drawn: &Drawn| match drawn {
+            Drawn::Text(text) => text.capacity(),
+            _ => 0,
+        };
+        ROOM * size_of::<Self>()
+            + texts
+            + self.hash.capacity()
+            + self.expectations.bytes(|_| 0)
+            + self.draws.bytes(drawn)
+            + self.failures.bytes(|_| 0)
+            + self.handlers.bytes(|_| 0)
+            + self.measures.bytes(drawn)
     }
 
     /// The line of JSON, without its end.

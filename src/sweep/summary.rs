@@ -89,19 +89,30 @@ impl<'r> Summary<'r> {
 
     /// The kinds of reasons for which worlds are invalid, the most frequent first.
     fn invalid(&self) -> Vec<Kind> {
-        kinds(self.records.iter().filter(|r| !r.outcome.counts()))
+        let invalid = |r: &&Record| !r.outcome.counts() && !r.outcome.is_defect();
+        kinds(self.records.iter().filter(invalid))
+    }
+
+    /// The number of worlds that planwright could not run, so that nothing is known about them.
+    pub fn defects(&self) -> usize {
+        let records = self.records.iter();
+        records.filter(|r| r.outcome.is_defect()).count()
     }
 
     fn heading(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let invalid = self.records.len() - self.tried;
+        let defects = self.defects();
+        let invalid = self.records.len() - self.tried - defects;
         let Title { name, seed, .. } = self.title;
         write!(
             f,
             "{name}   seed {seed}   {}",
             plural(self.records.len(), "world")
         )?;
-        if invalid > 0 {
-            write!(f, " ({invalid} invalid)")?;
+        let invalid = (invalid > 0).then(|| format!("{invalid} invalid"));
+        let defects = (defects > 0).then(|| plural(defects, "defect"));
+        let apart: Vec<String> = invalid.into_iter().chain(defects).collect();
+        if !apart.is_empty() {
+            write!(f, " ({})", apart.join(", "))?;
         }
         writeln!(f)
     }
@@ -156,6 +167,22 @@ impl<'r> Summary<'r> {
             writeln!(
                 f,
                 "{mark}{count} invalid: {variable} {cause}  --replay {examples}"
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Why planwright could not run worlds.
+    fn defective_worlds(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let defective = self.records.iter().filter(|r| r.outcome.is_defect());
+        for Kind { kind, worlds } in kinds(defective) {
+            let parts: Vec<&str> = kind.iter().map(String::as_str).collect();
+            let cause = parts.join(" ");
+            let (count, examples) = (plural(worlds.len(), "world"), examples(&worlds));
+            writeln!(
+                f,
+                "{count} not counted: {}  --replay {examples}",
+                cause.trim()
             )?;
         }
         Ok(())
@@ -318,6 +345,7 @@ impl Display for Summary<'_> {
         self.success(f)?;
         self.failures(f)?;
         self.invalid_worlds(f)?;
+        self.defective_worlds(f)?;
         self.effort(f)?;
         self.handlers(f)
     }
@@ -366,5 +394,27 @@ mod tests {
              handlers: 1 of 2 failures handled; never a.plan:9 NOT-FOUND\n"
         );
         assert!(!summary.meets_goal());
+    }
+
+    #[test]
+    fn what_planwright_could_not_do_is_no_failure_of_the_plan() {
+        let mut records: Vec<Record> = (0..6).map(|i| Record::new(i, Ending::Success)).collect();
+        records[1].outcome = Ending::Defect;
+        records[1].cause = Some("memory".to_owned());
+        records[2].outcome = Ending::Crashed;
+        records[4].outcome = Ending::Invalid;
+        let title = Title {
+            name: "demo".to_owned(),
+            seed: 0,
+            goal: None,
+        };
+        let summary = Summary::new(&title, &records);
+        assert_eq!((summary.tried, summary.defects()), (3, 2));
+        let text = summary.to_string();
+        assert!(
+            text.starts_with("demo   seed 0   6 worlds (1 invalid, 2 defects)\nsuccess  100.0 %")
+        );
+        assert!(text.contains("1 world not counted: crashed  --replay 2\n"));
+        assert!(text.contains("1 world not counted: defect memory  --replay 1\n"));
     }
 }

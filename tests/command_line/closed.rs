@@ -126,7 +126,8 @@ fn a_session_is_resumed_as_closed_as_it_was() {
     piped(&folder, &["--journal", "open.journal"], "(list 1)\n");
     let printed = piped(&folder, &["--resume=open.journal"], edit);
     assert!(!printed.contains("This session is closed"), "{printed}");
-    let printed = piped(&folder, &["--closed", "--resume=open.journal"], edit);
+    let despite = ["--closed", "--resume=open.journal", "--despite-changes"];
+    let printed = piped(&folder, &despite, edit);
     assert!(printed.contains("This session is closed"), "{printed}");
     fs::remove_dir_all(&folder).unwrap();
 }

@@ -93,6 +93,7 @@ impl Terminal {
         let child = Command::new(env!("CARGO_BIN_EXE_planwright"))
             .args(arguments)
             .env("XDG_STATE_HOME", state.path())
+            .env("HOME", state.path())
             .env("TERM", "xterm-256color")
             .env_remove("NO_COLOR")
             .env_remove("XTERM_VERSION")

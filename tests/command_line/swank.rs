@@ -11,11 +11,20 @@ use super::pseudo_terminal::{CTRL_C, State, Terminal};
 struct Connection(TcpStream);
 
 impl Connection {
-    fn to(port: u16) -> Connection {
+    /// To a server whose home the state is: it has made a secret there.
+    fn to(port: u16, state: &State) -> Connection {
         let stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
         let patience = Duration::from_secs(60);
         stream.set_read_timeout(Some(patience)).unwrap();
-        Connection(stream)
+        let mut connection = Connection(stream);
+        let secret = std::fs::read_to_string(state.path().join(".slime-secret")).unwrap();
+        connection.send(secret.trim_end());
+        connection
+    }
+
+    fn send(&mut self, message: &str) {
+        let message = format!("{:06x}{message}", message.len());
+        self.0.write_all(message.as_bytes()).unwrap();
     }
 
     /// Makes a request; returns the messages up to its answer, or to the end of the connection.
@@ -25,9 +34,7 @@ impl Connection {
     }
 
     fn request(&mut self, id: u32, form: &str) {
-        let message = format!("(:emacs-rex {form} \"CL-USER\" t {id})");
-        let message = format!("{:06x}{message}", message.len());
-        self.0.write_all(message.as_bytes()).unwrap();
+        self.send(&format!("(:emacs-rex {form} \"CL-USER\" t {id})"));
     }
 
     /// The messages up to one that begins in this way, or to the end of the connection.
@@ -68,7 +75,7 @@ fn the_command_serves_until_the_session_ends() {
     let mut line = String::new();
     let mut told = BufReader::new(served.stdout.take().unwrap());
     told.read_line(&mut line).unwrap();
-    let mut connection = Connection::to(port(&line).unwrap());
+    let mut connection = Connection::to(port(&line).unwrap(), &state);
     let shown = connection.call(1, "(swank-repl:listener-eval \"(+ 1 2)\")");
     assert!(
         shown.contains("(:write-string \"3\" :repl-result)"),
@@ -78,6 +85,27 @@ fn the_command_serves_until_the_session_ends() {
     assert_eq!(served.wait().unwrap().code(), Some(3));
 }
 
+#[cfg(unix)]
+#[test]
+fn a_secret_that_others_can_read_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let state = State::new("swank-shared");
+    let file = state.path().join(".slime-secret");
+    std::fs::write(&file, "guess\n").unwrap();
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o644)).unwrap();
+    let refused = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["swank", "--port", "0"])
+        .env("HOME", state.path())
+        .output()
+        .unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert!(
+        told.contains("others can read ") && told.contains("chmod 600"),
+        "{told}"
+    );
+}
+
 #[test]
 fn the_prompt_serves_until_ctrl_c_and_keeps_what_was_evaluated() {
     let state = State::new("create-server");
@@ -85,7 +113,7 @@ fn the_prompt_serves_until_ctrl_c_and_keeps_what_was_evaluated() {
     terminal.evaluate("(defvar *here* 1)");
     terminal.line("(swank:create-server :port 0)");
     terminal.wait_for("Ctrl-C returns to the prompt.");
-    let mut connection = Connection::to(port(&terminal.text()).unwrap());
+    let mut connection = Connection::to(port(&terminal.text()).unwrap(), &state);
     let created = connection.call(1, "(swank-repl:create-repl nil)");
     assert!(
         created.contains("(\"COMMON-LISP-USER\" \"CL-USER\")"),
@@ -122,7 +150,7 @@ fn an_evaluation_that_ctrl_c_interrupts_is_left_to_the_prompt() {
     let terminal = Terminal::start(&state, &[]);
     terminal.line("(swank:create-server :port 0)");
     terminal.wait_for("Ctrl-C returns to the prompt.");
-    let mut connection = Connection::to(port(&terminal.text()).unwrap());
+    let mut connection = Connection::to(port(&terminal.text()).unwrap(), &state);
     let endless = r#"(swank-repl:listener-eval "(progn (princ \"begun\") (loop))")"#;
     connection.request(1, endless);
     let begun = connection.until("(:write-string \"begun");

@@ -260,6 +260,8 @@ fn shards_in_any_number_and_order_are_merged_to_the_same_bytes() {
         text(&status.stdout)
     );
     assert!(text(&status.stdout).contains("2 of 7 shards are there, 7 worlds of 23"));
+    let damaged = "damaged: shard-6.jsonl: it is cut off: no count and checksum at its end\n";
+    assert!(text(&status.stdout).contains(damaged));
     let untouched = std::fs::metadata(parts.join("shard-3.jsonl")).and_then(|m| m.modified());
     let resumed = run(&["--resume", into]);
     assert_eq!(resumed.status.code(), Some(0), "{}", text(&resumed.stderr));
@@ -426,7 +428,7 @@ fn a_mistake_in_what_varies_stops_the_sweep_with_its_place() {
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains("wrong.plan:2:3: "), "{error}");
     assert!(
-        error.contains("in the vary of the sweep, world 0"),
+        error.contains("in what the sweep varies or injects, world 0"),
         "{error}"
     );
 }
@@ -497,6 +499,114 @@ fn options_that_say_too_little_are_refused_at_once() {
         assert_eq!(refused.status.code(), Some(2), "{said}");
         assert!(said.contains(why), "{said}");
     }
+}
+
+/// A plan that takes more memory than there is in some worlds, and handles that.
+const HUNGRY: &str = "
+    (defsweep hungry (:worlds 6)
+      (vary (x (uniform 0 1)))
+      (run (handler-case (length (make-list (if (< x 0.5) 20000000 10)))
+             (serious-condition () (error 'end-of-file))))
+      (goal (success :at-least 1)))";
+
+#[test]
+fn what_the_programs_own_limits_do_is_no_failure_of_the_plan() {
+    let file = scratch("hungry.plan", HUNGRY);
+    let file = file.to_str().expect("a name");
+    let options = ["--threads", "1", "--heap", "200M"];
+    let run = |more: &[&str]| planwright(&[&["sweep", file], &options[..], more].concat());
+    let records = run(&["--json"]);
+    assert_eq!(records.status.code(), Some(4), "{}", text(&records.stderr));
+    let records = text(&records.stdout);
+    let defects = records.matches("\"outcome\":\"defect\"").count();
+    let successes = records.matches("\"outcome\":\"success\"").count();
+    assert!(defects > 0 && successes == 6 - defects, "{records}");
+    let shown = text(&run(&[]).stdout);
+    assert!(shown.contains("success  100.0 %"), "{shown}");
+    let told = "not counted: defect it takes more memory than --heap allows  --replay ";
+    assert!(shown.contains(told), "{shown}");
+}
+
+#[test]
+fn seeds_and_numbers_of_worlds_may_be_as_large_as_they_like() {
+    let file = scratch("large.plan", SWEEP);
+    let file = file.to_str().expect("a name");
+    let run = |arguments: &[&str]| {
+        let run = planwright(&[&["sweep", file, "--threads", "2"], arguments].concat());
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    for seed in ["9223372036854775808", "18446744073709551615"] {
+        let records = run(&["--seed", seed, "--worlds", "20", "--json"]);
+        let worked = records.matches("\"outcome\":\"success\"").count();
+        assert!((8..20).contains(&worked), "{records}");
+        let world = ["--seed", seed, "--replay", "18446744073709551615", "--run"];
+        let one = planwright(&[&["sweep", file], &world[..]].concat());
+        // Its plan may fail there.
+        assert!(
+            !text(&one.stderr).contains("A seed"),
+            "{}",
+            text(&one.stderr)
+        );
+    }
+    let enough = run(&["--worlds", "1000000000000", "--until-width", "0.9"]);
+    assert!(
+        enough.starts_with("light   seed 0   200 worlds\n"),
+        "{enough}"
+    );
+}
+
+#[test]
+fn a_sweep_that_cannot_be_done_is_refused_in_one_line() {
+    let file = scratch("counted.plan", SWEEP);
+    let folder = file.with_file_name("counted");
+    let into = folder.to_str().expect("a name");
+    let arguments = ["--worlds", "4", "--shards", "2", "--into", into];
+    let made = planwright(&[&["sweep", file.to_str().expect("a name")], &arguments[..]].concat());
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    let json = folder.join("sweep.json");
+    let plan = std::fs::read_to_string(&json).expect("it is there");
+    for (one, other) in [
+        ("\"worlds\": 4", "\"worlds\": 0"),
+        ("\"worlds\": 4", "\"worlds\": 1000000000000000000000000"),
+        ("\"worlds\": 4", "\"worlds\": -1"),
+        ("\"shards\": 2", "\"shards\": 0"),
+        ("\"shards\": 2", "\"shards\": 5"),
+        ("\"goal\": 0.5", "\"goal\": 50"),
+        ("\"goal\": 0.5", "\"goal\": 0.5, \"time_limit\": -1"),
+        ("\"goal\": 0.5", "\"goal\": 0.5, \"time_limit\": 1e300"),
+    ] {
+        assert!(plan.contains(one), "{plan}");
+        std::fs::write(&json, plan.replace(one, other)).expect("written");
+        for command in ["--status", "--report", "--resume"] {
+            let refused = planwright(&["sweep", command, into]);
+            let told = text(&refused.stderr);
+            assert_eq!(refused.status.code(), Some(2), "{other}: {told}");
+            assert!(told.contains("describes no sweep: "), "{other}: {told}");
+            assert_eq!(told.lines().count(), 1, "{other}: {told}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_the_summary() {
+    let file = scratch("full.plan", SWEEP);
+    let folder = file.with_file_name("full");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    for world in 0..30 {
+        let recording = folder.join(format!("world-{world}.mcap"));
+        // Writing to the device fails as it does on a full disk.
+        std::os::unix::fs::symlink("/dev/full", recording).expect("a link");
+    }
+    let into = folder.to_str().expect("a name");
+    let arguments = ["--seed", "5", "--record-failures", into];
+    let run = planwright(&[&["sweep", file.to_str().expect("a name")], &arguments[..]].concat());
+    let told = text(&run.stderr);
+    assert_eq!(run.status.code(), Some(2), "{told}");
+    assert!(text(&run.stdout).starts_with("light   seed 5   30 worlds\nsuccess  "));
+    assert!(told.contains("[not recorded: "), "{told}");
+    assert!(told.contains(".mcap: the disk is full"), "{told}");
 }
 
 /// A sweep whose worlds are over as soon as they have begun.

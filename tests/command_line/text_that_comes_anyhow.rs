@@ -112,7 +112,6 @@ fn ctrl_c_is_heard_while_the_session_waits_for_a_pipe() {
     let pipe = pipe.display();
     for form in [
         format!("(with-open-file (in \"{pipe}\") (read-line in))"),
-        format!("(load \"{pipe}\")"),
         format!("(with-open-file (to \"{pipe}\" :direction :output :if-exists :append) 1)"),
         "(with-open-file (in \"/dev/tty\") (read-line in))".to_owned(),
     ] {

@@ -166,6 +166,42 @@ fn what_is_piped_is_kept_and_resumed_if_that_is_asked_for() {
 
 #[cfg(unix)]
 #[test]
+fn a_session_that_would_not_be_the_same_is_resumed_only_if_that_is_asked_for() {
+    let state = super::pseudo_terminal::State::new("changed");
+    let name = |file: &str| state.path().join(file).to_str().unwrap().to_owned();
+    let (journal, loaded, read) = (name("a.journal"), name("loaded.plan"), name("read.lisp"));
+    std::fs::write(&loaded, "(defvar *a* 1)").unwrap();
+    std::fs::write(&read, "1").unwrap();
+    let inputs = format!(
+        "(load {loaded:?})\n(with-open-file (in {read:?}) (car (list (/ 1 (read in)))))\n(print 3)\n"
+    );
+    piped(state.path(), &["--journal", &journal], &inputs);
+    let resume = format!("--resume={journal}");
+    std::fs::write(&loaded, "(defvar *a* 2)").unwrap();
+    let (status, out, err) = piped(state.path(), &[&resume], "(list *a*)\n");
+    assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
+    let told = format!("; {loaded} has changed since input 1 loaded it.\nerror: ");
+    assert!(
+        err.starts_with(&told) && err.contains("--despite-changes"),
+        "{err}"
+    );
+    let despite = "--despite-changes";
+    let (status, out, err) = piped(state.path(), &[&resume, despite], "(list *a*)\n");
+    assert_eq!((status, out.as_str()), (Some(0), "(2)\n"), "{err}");
+    // A file that it merely reads is not kept; but an input ends otherwise.
+    std::fs::write(&read, "0").unwrap();
+    let (status, out, err) = piped(state.path(), &[&resume], "(list *a*)\n");
+    assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
+    let told = "; Input 2 has ended otherwise than in the earlier session: it aborted \
+                DIVISION-BY-ZERO, not finished.";
+    assert!(err.starts_with(told), "{err}");
+    // It has not become the session's own end: it is told again.
+    let (_, _, again) = piped(state.path(), &[&resume], "(list *a*)\n");
+    assert_eq!(again, err);
+}
+
+#[cfg(unix)]
+#[test]
 fn an_old_journal_is_resumed_without_the_input_that_may_have_ended_the_program() {
     let state = super::pseudo_terminal::State::new("old-journal");
     let file = state.path().join("old.journal");
@@ -194,6 +230,99 @@ fn a_run_with_the_view_ends_when_nobody_looks() {
         err.starts_with("The live view is at http://127.0.0.1:"),
         "{err}"
     );
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused() {
+    let state = super::pseudo_terminal::State::new("irregular");
+    let name = |file: &str| state.path().join(file).to_str().unwrap().to_owned();
+    let pipe = name("pipe");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let wrong = name("wrong.plan");
+    std::fs::write(&wrong, b"(list\n 1 \xff)").unwrap();
+    let large = name("large.plan");
+    let file = std::fs::File::create(&large).unwrap();
+    file.set_len(1 << 40).unwrap();
+    for (file, why) in [
+        (
+            pipe.as_str(),
+            "it is a pipe or a device, and no regular file",
+        ),
+        ("/dev/zero", "it is a pipe or a device, and no regular file"),
+        ("docs", "it is a folder, and no regular file"),
+        (
+            &large,
+            "it is larger than a file of forms can be, which is 64 MB",
+        ),
+        (&wrong, "it is not UTF-8 at line 2, column 4: byte 0xff"),
+    ] {
+        for command in [
+            &["run"][..],
+            &["check"],
+            &["replay"],
+            &["sweep"],
+            &["run", "--eval", "1", "--world"],
+        ] {
+            let (status, _, err) = output(&[command, &[file]].concat());
+            assert_eq!(status, Some(2), "{command:?} {file}: {err}");
+            assert!(err.contains(why), "{command:?} {file}: {err}");
+        }
+        let (status, _, err) = output(&["run", "--eval", &format!("(load {file:?})")]);
+        assert_eq!(status, Some(1), "{file}: {err}");
+        assert!(err.contains(&format!("cannot be read: {why}.")), "{err}");
+    }
+}
+
+#[test]
+fn a_file_that_loads_itself_is_told_at_once() {
+    let state = super::pseudo_terminal::State::new("loads-itself");
+    let name = |file: &str| state.path().join(file).to_str().unwrap().to_owned();
+    let (one, two) = (name("one.plan"), name("two.plan"));
+    std::fs::write(&one, "(print :one) (load \"two.plan\")").unwrap();
+    std::fs::write(&two, "(print :two) (load \"./one.plan\")").unwrap();
+    let (status, out, err) = output(&["run", "--eval", &format!("(load {one:?})")]);
+    assert_eq!(status, Some(1), "{err}");
+    assert_eq!(out.matches(":ONE").count(), 1, "{out}");
+    let told = format!("A file loads itself: {one}, which loads {two}, which loads {one}.");
+    assert!(err.contains(&told), "{err}");
+    // Two that load a third are no circle.
+    std::fs::write(&two, "(print :two)").unwrap();
+    std::fs::write(&one, "(load \"two.plan\") (load \"two.plan\")").unwrap();
+    let (status, _, err) = output(&["run", &one, &two, &one]);
+    assert_eq!(status, Some(0), "{err}");
+}
+
+#[test]
+fn what_a_file_says_does_not_drive_the_terminal() {
+    let state = super::pseudo_terminal::State::new("driving");
+    let file = state.path().join("a\x1b[2J.plan");
+    let text = "(defun f () (no-\x1b]0such\x07 \u{9b}1m))\n(error \"\x1b[31m\x7f\")\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let transcript = state.path().join("b.transcript");
+    std::fs::write(&transcript, "CL-USER> (list \"\x1b[1m\")\n(\x1b[2m)\n").unwrap();
+    let transcript = transcript.to_str().unwrap();
+    let mut seen = String::new();
+    for arguments in [
+        &["check", file][..],
+        &["run", file],
+        &["run", &format!("{file}\x1b[")],
+        &["replay", transcript],
+        &["sweep", file],
+    ] {
+        let (_, out, err) = output(arguments);
+        let shown = format!("{out}{err}");
+        let drives = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+        assert!(!shown.contains(drives), "{arguments:?}: {shown:?}");
+        assert!(shown.contains("^["), "{arguments:?}: {shown:?}");
+        seen.push_str(&shown);
+    }
+    assert!(seen.contains("a^[[2J.plan:2:1: ^[[31m^?"), "{seen}");
+    // What a plan prints itself reaches a pipe as it is.
+    let (_, out, _) = output(&["run", "--eval", "(write-char (code-char 27))"]);
+    assert!(out.contains('\x1b'), "{out:?}");
 }
 
 #[test]

@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 use crate::command::open_default;
 use crate::jupyter::zmtp::{encoded, read_frame};
 use crate::jupyter::{Author, Connection, Interrupter, Kernel, Settings, Signer};
-use crate::tests::waiting::wait_for;
 use session::dialogue::Evaluate;
 
 /// How long an answer may take.
@@ -203,14 +202,6 @@ impl Client {
     pub(super) fn with_key(kernel: &Running, identity: &str, key: &str) -> Client {
         let shell = connect(kernel.addresses[0], "DEALER", identity);
         Client::with_shell(kernel, shell, identity, key)
-    }
-
-    /// A client, as soon as there is room for it on the shell channel.
-    pub(super) fn once_there_is_room(kernel: &Running, identity: &str) -> Client {
-        let shell = wait_for("room for a client", || {
-            try_to_connect(kernel.addresses[0], "DEALER", identity).ok()
-        });
-        Client::with_shell(kernel, shell, identity, KEY)
     }
 
     fn with_shell(kernel: &Running, shell: TcpStream, identity: &str, key: &str) -> Client {

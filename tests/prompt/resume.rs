@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::prompt::{Beginning, Keeper, Wanted, open, resume};
+use crate::prompt::{Beginning, Keeper, Resumed, Wanted, open, resume};
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Evaluate, Event, Repeat};
 use session::{Session, SessionOptions};
@@ -70,7 +70,11 @@ impl Sitting {
         } = &mut sitting;
         if let Some(earlier) = opened.earlier {
             let mut told = Vec::new();
-            resume(session, keeper, &earlier, number, &mut told, false).unwrap();
+            let mut ask = || true;
+            let resumed = resume(
+                session, keeper, &earlier, number, &mut told, false, &mut ask,
+            );
+            assert_eq!(resumed.unwrap(), Resumed::Whole);
             session.set_interactive(true);
             sitting.told = String::from_utf8(told).unwrap();
         }
@@ -99,7 +103,7 @@ impl Sitting {
     /// Whether these inputs have been resumed, and have led to the same world.
     pub(super) fn has_resumed(&self, count: usize) -> bool {
         let resumed = format!("; Resumed {count} inputs;");
-        self.told.starts_with(&resumed) && !self.told.contains("not the same")
+        self.told.starts_with(&resumed) && !self.told.contains("otherwise than")
     }
 }
 
@@ -267,8 +271,20 @@ fn a_file_that_has_changed_is_told() {
     first.say("(spawn-object *place*)");
     drop(first);
     fs::write(&plan, place(-1.2)).unwrap();
+    let earlier = open(Wanted::Of(&journal), &Beginning::default()).unwrap();
+    let changed: Vec<String> = earlier
+        .earlier
+        .iter()
+        .flat_map(|earlier| earlier.changed())
+        .map(|changed| changed.to_string())
+        .collect();
+    let expected = format!("; {} has changed since input 2 loaded it.", plan.display());
+    assert_eq!(changed, [expected]);
+    drop(earlier);
     let mut second = Sitting::resume(&journal);
-    assert!(second.told.contains("not the same"), "{}", second.told);
+    let told =
+        "; Input 3 has ended otherwise than in the earlier session: the world is another one.";
+    assert!(second.told.contains(told), "{}", second.told);
     let pose = second.say("(get-current-pose-of-object 'bottle-1)");
     assert!(pose.contains("((-1.2"), "{pose}");
     // The journal is now that of the session as it has become.

@@ -181,6 +181,34 @@ fn a_secret_nobody_has_asked_for_is_passed_over() {
 }
 
 #[test]
+fn half_open_and_half_sent_connections_keep_nobody_out() {
+    for secret in [None, Some("s3cret".to_owned())] {
+        let served = Served::with(ServerOptions {
+            secret: secret.clone(),
+            ..ServerOptions::default()
+        });
+        let idle: Vec<_> = (0..150)
+            .map(|number| {
+                let mut stranger = served.stranger();
+                let begun = [&b""[..], b"00", b"000010(:emacs"][number % 3];
+                stranger.send_bytes(begun);
+                stranger
+            })
+            .collect();
+        let mut client = served.stranger();
+        if let Some(secret) = &secret {
+            client.send(secret);
+        }
+        assert!(
+            client
+                .call("(swank:connection-info)")
+                .contains("planwright")
+        );
+        drop(idle);
+    }
+}
+
+#[test]
 fn more_connections_than_there_may_be_are_closed() {
     let served = Served::start();
     let mut first = served.client();

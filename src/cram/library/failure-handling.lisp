@@ -23,9 +23,14 @@ that is for it."
                      handlers))))))
 
 (defun %handling-function (clause)
-  "The function that a clause stands for. One in a program tells when it begins to handle a failure."
+  "The function that a clause stands for. One in a program tells when it begins to handle a failure;
+what a system brings along is no part of the program."
   (let* ((parameters (or (second clause) (list (gensym "FAILURE"))))
-         (number (and (null (rest parameters)) (plan-system:know-handler clause))))
+         (is-of-system (and (boundp 'system::%*loading-systems*)
+                            (symbol-value 'system::%*loading-systems*)))
+         (number (and (null (rest parameters))
+                      (not is-of-system)
+                      (plan-system:know-handler clause))))
     (if number
         `(lambda ,parameters
            (plan-system:note-handled ,number ,(first parameters))

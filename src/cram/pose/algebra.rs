@@ -10,6 +10,8 @@ use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
+use lisp::value::known;
+use lisp::value::raise::Raise;
 use spatial::trig;
 
 /// The sum of vectors.
@@ -28,7 +30,7 @@ fn v(image: &mut Image, vectors: &[Value]) -> Result<Value> {
     match vectors {
         [only] => {
             let v = column(image, only)?;
-            Ok(vector(-v))
+            vector(-v)
         }
         _ => fold(image, vectors, |a, b| a - b),
     }
@@ -39,7 +41,7 @@ fn v(image: &mut Image, vectors: &[Value]) -> Result<Value> {
 /// `(cl-transforms:v* (cl-transforms:make-3d-vector 1 2 3) 2)` => `#<3D-VECTOR (2.0d0 4.0d0 6.0d0)>`
 #[builtin("V*", "vector factor")]
 fn v_builtin(image: &mut Image, vector_value: &Value, factor: f64) -> Result<Value> {
-    Ok(vector(column(image, vector_value)? * factor))
+    vector(column(image, vector_value)? * factor)
 }
 
 /// The opposite vector.
@@ -47,15 +49,18 @@ fn v_builtin(image: &mut Image, vector_value: &Value, factor: f64) -> Result<Val
 /// `(cl-tf:v-inv (cl-tf:make-3d-vector 1 2 3))` => `#<3D-VECTOR (-1.0d0 -2.0d0 -3.0d0)>`
 #[builtin(_, "vector")]
 fn v_inv(image: &mut Image, vector_value: &Value) -> Result<Value> {
-    Ok(vector(-column(image, vector_value)?))
+    vector(-column(image, vector_value)?)
 }
 
 /// The length of a vector (m).
 ///
 /// `(cl-transforms:v-norm (cl-transforms:make-3d-vector 3 4 0))` => `5.0d0`
+///
+/// `(cl-transforms:v-norm (cl-transforms:make-3d-vector 1d200 0 0))` => `1.0d200`
 #[builtin]
 fn v_norm(image: &mut Image, vector: &Value) -> Result<Value> {
-    Ok(Value::Double(column(image, vector)?.norm()))
+    let v = column(image, vector)?;
+    length(v.norm(), v.as_slice())
 }
 
 /// The distance between two points (m).
@@ -64,7 +69,7 @@ fn v_norm(image: &mut Image, vector: &Value) -> Result<Value> {
 #[builtin]
 fn v_dist(image: &mut Image, vector: &Value, other: &Value) -> Result<Value> {
     let difference = column(image, vector)? - column(image, other)?;
-    Ok(Value::Double(difference.norm()))
+    length(difference.norm(), difference.as_slice())
 }
 
 /// The scalar product of two vectors.
@@ -73,7 +78,7 @@ fn v_dist(image: &mut Image, vector: &Value, other: &Value) -> Result<Value> {
 #[builtin]
 fn dot_product(image: &mut Image, vector: &Value, other: &Value) -> Result<Value> {
     let product = column(image, vector)?.dot(&column(image, other)?);
-    Ok(Value::Double(product))
+    finite(product)
 }
 
 /// The vector product of two vectors.
@@ -82,7 +87,7 @@ fn dot_product(image: &mut Image, vector: &Value, other: &Value) -> Result<Value
 #[builtin(_, "vector other")]
 fn cross_product(image: &mut Image, vector_value: &Value, other: &Value) -> Result<Value> {
     let product = column(image, vector_value)?.cross(&column(image, other)?);
-    Ok(vector(product))
+    vector(product)
 }
 
 /// The sum of quaternions.
@@ -95,7 +100,8 @@ fn q_plus(image: &mut Image, quaternions: &[Value]) -> Result<Value> {
         let Quaternion(q) = argument::quaternion(image, arg)?;
         sum.iter_mut().zip(q).for_each(|(s, x)| *s += x);
     }
-    Ok(value::quaternion(sum))
+    let [x, y, z, w] = sum;
+    quaternion(&Hamilton::new(w, x, y, z))
 }
 
 /// The product of quaternions: the last rotation is applied first.
@@ -107,7 +113,7 @@ fn q(image: &mut Image, quaternion_value: &Value, quaternions: &[Value]) -> Resu
     for arg in quaternions {
         product *= hamilton(image, arg)?;
     }
-    Ok(quaternion(&product))
+    quaternion(&product)
 }
 
 /// The quaternion of the opposite rotation.
@@ -116,7 +122,7 @@ fn q(image: &mut Image, quaternion_value: &Value, quaternions: &[Value]) -> Resu
 #[builtin(_, "quaternion")]
 fn q_inv(image: &mut Image, quaternion_value: &Value) -> Result<Value> {
     let q = hamilton(image, quaternion_value)?;
-    Ok(quaternion(&q.try_inverse().unwrap_or(q)))
+    quaternion(&q.try_inverse().unwrap_or(q))
 }
 
 /// The length of a quaternion.
@@ -124,7 +130,8 @@ fn q_inv(image: &mut Image, quaternion_value: &Value) -> Result<Value> {
 /// `(cl-transforms:q-norm (cl-transforms:make-quaternion 0 0 3 4))` => `5.0d0`
 #[builtin]
 fn q_norm(image: &mut Image, quaternion: &Value) -> Result<Value> {
-    Ok(Value::Double(hamilton(image, quaternion)?.norm()))
+    let q = hamilton(image, quaternion)?;
+    length(q.norm(), q.coords.as_slice())
 }
 
 /// The quaternion at length 1.
@@ -142,7 +149,7 @@ fn normalize(quaternion: Quaternion) -> Result<Value> {
 #[builtin(_, "quaternion vector")]
 fn rotate(image: &mut Image, quaternion: Quaternion, vector_value: &Value) -> Result<Value> {
     let rotation = quaternion.rotation();
-    Ok(vector(rotation * column(image, vector_value)?))
+    vector(rotation * column(image, vector_value)?)
 }
 
 /// The angle between two orientations (rad, 0 to pi).
@@ -162,8 +169,36 @@ fn column(image: &Image, argument: &Value) -> Result<Column<f64>> {
     Ok(Column::from(xyz))
 }
 
-fn vector(v: Column<f64>) -> Value {
-    value::vector([v.x, v.y, v.z])
+fn vector(v: Column<f64>) -> Result<Value> {
+    let parts = [v.x, v.y, v.z];
+    parts
+        .into_iter()
+        .try_for_each(|part| finite(part).map(drop))?;
+    Ok(value::vector(parts))
+}
+
+/// A number; an error if it is none because it would be too large.
+fn finite(number: f64) -> Result<Value> {
+    match number.is_finite() {
+        true => Ok(Value::Double(number)),
+        false => Err(Raise::new(
+            known::FLOATING_POINT_OVERFLOW,
+            "The result is larger than a double-float can be.",
+        )),
+    }
+}
+
+/// The length of what has these parts: `norm`, unless their squares are beyond what a number can be.
+fn length(norm: f64, parts: &[f64]) -> Result<Value> {
+    let largest = parts
+        .iter()
+        .fold(0.0_f64, |most, part| most.max(part.abs()));
+    let is_exact = norm.is_finite() && norm > f64::MIN_POSITIVE.sqrt();
+    if is_exact || largest == 0.0 {
+        return finite(norm);
+    }
+    let squares = parts.iter().map(|part| (part / largest) * (part / largest));
+    finite(largest * squares.sum::<f64>().sqrt())
 }
 
 fn hamilton(image: &Image, argument: &Value) -> Result<Hamilton<f64>> {
@@ -171,8 +206,12 @@ fn hamilton(image: &Image, argument: &Value) -> Result<Hamilton<f64>> {
     Ok(Hamilton::new(w, x, y, z))
 }
 
-fn quaternion(q: &Hamilton<f64>) -> Value {
-    value::quaternion([q.i, q.j, q.k, q.w])
+fn quaternion(q: &Hamilton<f64>) -> Result<Value> {
+    let parts = [q.i, q.j, q.k, q.w];
+    parts
+        .into_iter()
+        .try_for_each(|part| finite(part).map(drop))?;
+    Ok(value::quaternion(parts))
 }
 
 fn fold(
@@ -184,7 +223,7 @@ fn fold(
     for arg in &args[1..] {
         result = combine(result, column(image, arg)?);
     }
-    Ok(vector(result))
+    vector(result)
 }
 
 /// Functions of package `CL-TRANSFORMS`.

@@ -24,7 +24,9 @@ use super::view_recording::ViewArguments;
     name = "planwright",
     version,
     after_help = "Exit status: 0 success; 1 a condition was not handled, a transcript \
-                  differs, or a check found a problem; 2 wrong usage, or a file cannot be read."
+                  differs, or a check found a problem; 2 wrong usage, or a file cannot be read; \
+                  of sweeps, 1 the goal is not met; 3 worlds are missing; 4 planwright could not \
+                  run some worlds."
 )]
 pub(crate) struct Arguments {
     #[command(flatten)]

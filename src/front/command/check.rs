@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
+use lisp::visible::visible;
 
 use super::failure::{CommandError, Status, read};
 use super::open::open;
@@ -51,6 +52,6 @@ pub(crate) fn described(name: &str, finding: &Finding, paint: Paint) -> String {
     let message = paint.bad(&finding.message);
     match &finding.place {
         Some(place) => format!("{place}: {message}\n{}\n", place.underlined()),
-        None => format!("{name}: {message}\n"),
+        None => format!("{}: {message}\n", visible(name)),
     }
 }

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::jupyter::{InstallError, KernelError, NotebookError};
 use crate::prompt::{JournalError, ReplError};
+use lisp::files::text_of;
 use session::WatchError;
 use view::picture::ViewError;
 use view::watch::live::PlaceError;
@@ -23,6 +24,8 @@ pub(crate) enum Status {
     Unusable,
     /// A part of the work is missing.
     Incomplete,
+    /// planwright could not do a part of the work.
+    Defective,
     /// The program exited with a status of its own.
     Left(u8),
 }
@@ -34,6 +37,7 @@ impl Status {
             Status::Bad => 1,
             Status::Unusable => 2,
             Status::Incomplete => 3,
+            Status::Defective => 4,
             Status::Left(code) => code,
         }
     }
@@ -72,6 +76,9 @@ pub(crate) enum CommandError {
     /// A sweep cannot be run.
     #[error("{0}")]
     Sweep(String),
+    /// Not all that was asked for could be written.
+    #[error("{}", lines(.0))]
+    Unwritten(Vec<CommandError>),
     /// An earlier session cannot be resumed.
     #[error("{0}")]
     Resume(#[from] JournalError),
@@ -122,9 +129,15 @@ impl CommandError {
     }
 }
 
-/// Reads a file named on the command line; the tutorial's files are built in.
+/// Each on a line.
+fn lines(errors: &[CommandError]) -> String {
+    let errors: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    errors.join("\n")
+}
+
+/// Reads a file of forms named on the command line; the tutorial's files are built in.
 pub(crate) fn read(path: &PathBuf) -> Result<String, CommandError> {
-    std::fs::read_to_string(path).or_else(|error| {
+    text_of(path).or_else(|error| {
         let name = path.to_str().filter(|_| !path.exists());
         let built_in = name.and_then(plan_files::text_of);
         built_in

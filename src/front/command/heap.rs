@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lisp::guard::heap::HeapLimit;
 
@@ -11,6 +12,12 @@ static IN_USE: OnceLock<fn() -> usize> = OnceLock::new();
 /// The limit where the machine does not tell how much memory it has.
 const USUAL: usize = 4 << 30;
 
+/// The limit of sessions.
+static LIMIT: AtomicUsize = AtomicUsize::new(usize::MAX);
+
+/// The bytes in use that no session has asked for.
+static BESIDE: AtomicUsize = AtomicUsize::new(0);
+
 /// Sets how to learn how many bytes are in use.
 pub(super) fn count_by(in_use: fn() -> usize) {
     // Called once, at the start of the process.
@@ -19,9 +26,39 @@ pub(super) fn count_by(in_use: fn() -> usize) {
 
 /// The limit to the memory in use: the given one, or half of what this process can have.
 pub(super) fn limit(bytes: Option<usize>) -> Option<HeapLimit> {
-    let in_use = *IN_USE.get()?;
+    IN_USE.get()?;
     let bytes = bytes.unwrap_or_else(|| available().map_or(USUAL, |all| all / 2));
-    Some(HeapLimit { bytes, in_use })
+    LIMIT.store(bytes, Ordering::Relaxed);
+    Some(HeapLimit {
+        bytes,
+        in_use: in_use_by_sessions,
+    })
+}
+
+fn in_use_by_sessions() -> usize {
+    let all = IN_USE.get().map_or(0, |in_use| in_use());
+    all.saturating_sub(BESIDE.load(Ordering::Relaxed))
+}
+
+/// Memory for what is kept of sessions, such as the records of a sweep: it does not count against
+/// their limit, or their number would decide what they can do. It may be as much as one of them may
+/// have.
+#[derive(Default)]
+pub(super) struct Beside(usize);
+
+impl Beside {
+    /// So many bytes more are kept. Returns whether that may go on.
+    pub(super) fn keep(&mut self, bytes: usize) -> bool {
+        self.0 += bytes;
+        let all = BESIDE.fetch_add(bytes, Ordering::Relaxed) + bytes;
+        all < LIMIT.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        BESIDE.fetch_sub(self.0, Ordering::Relaxed);
+    }
 }
 
 /// The bytes of memory that this process can have, if the system tells: those of the machine, of

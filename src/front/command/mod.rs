@@ -2,7 +2,7 @@
 //!
 //! Exit statuses: 0 success; 1 a condition was not handled, a transcript differs, or a check
 //! found a problem; 2 the command line is wrong, a file cannot be read, or the robot and its
-//! world cannot be set up. It is no error if a reader closes our output early. `(quit n)` exits
+//! world cannot be set up; 3 and 4 a sweep lacks worlds, or could not run them. It is no error if a reader closes our output early. `(quit n)` exits
 //! with its own status.
 //!
 //! Only this folder and the prompt write to the terminal.
@@ -40,6 +40,7 @@ use clap::{CommandFactory, Parser};
 use crate::precompiled;
 use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
+use lisp::visible::visible;
 use paint::Paint;
 use session::defect;
 use stack::THREAD_STACK;
@@ -71,7 +72,8 @@ fn run_command_line() -> ExitCode {
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             // If standard error is closed, the message is lost.
-            let _ = writeln!(io::stderr(), "{} {error}", errors.bad("error:"));
+            let error = error.to_string();
+            let _ = writeln!(io::stderr(), "{} {}", errors.bad("error:"), visible(&error));
             ExitCode::from(Status::Unusable.code())
         }
     }

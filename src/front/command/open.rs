@@ -1,6 +1,5 @@
 //! Sets up evaluators, in this one place.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 #[cfg(test)]
@@ -12,6 +11,7 @@ use super::failure::CommandError;
 use super::heap;
 use super::options::{LogLevel, Options};
 use super::stack::COMPILER_STACK;
+use lisp::files::text_of;
 use lisp::guard::set_stack_budget;
 use session::dialogue::Evaluate;
 use session::{self, Session, SessionOptions};
@@ -24,7 +24,7 @@ pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError>
 /// Like [`open`], for callers that need the world.
 pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     let read = |path: &Path| -> Result<(String, String), CommandError> {
-        let text = fs::read_to_string(path)
+        let text = text_of(path)
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
         Ok((path.display().to_string(), text))
     };

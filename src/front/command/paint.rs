@@ -3,6 +3,7 @@
 use std::io::IsTerminal;
 
 use clap::ValueEnum;
+use lisp::visible::visible;
 
 /// When to use colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -38,13 +39,14 @@ impl Paint {
         self.on
     }
 
-    /// Text about an error.
+    /// Text about an error. What it quotes does not drive the terminal.
     pub(crate) fn bad(self, text: &str) -> String {
-        self.paint("1;31", text)
+        self.paint("1;31", &visible(text))
     }
 
-    /// A line of a diff, coloured by its mark.
+    /// A line of a diff, coloured by its mark. What it quotes does not drive the terminal.
     pub(crate) fn diff_line(self, line: &str) -> String {
+        let line = &*visible(line);
         match line.as_bytes().first() {
             Some(b'-') => self.paint("31", line),
             Some(b'+') => self.paint("32", line),

@@ -13,6 +13,7 @@ use super::options::Options;
 use super::outputs::Outputs;
 use super::paint::Paint;
 use super::run::run_in;
+use lisp::visible::visible;
 use session::{Filming, Session};
 use view::picture::View;
 use view::picture::animation::{Shot, write_gif};
@@ -130,6 +131,7 @@ pub(crate) fn picture(
         if let Some(obstruction) = obstruction {
             let paint = Paint::new(options.color, &io::stderr());
             let label = paint.bad("warning:");
+            let obstruction = visible(&obstruction.to_string()).into_owned();
             writeln!(io::stderr(), "{label} {obstruction}; choose another --from")?;
         }
     }

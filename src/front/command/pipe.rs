@@ -1,13 +1,15 @@
 //! Evaluates standard input when it is not a terminal.
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, BufRead, IsTerminal, Read, Write};
 
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
-use super::prompt::{PromptOptions, open_journals};
+use super::prompt::{PromptOptions, changed, open_journals};
 use super::watching::{self, WatchArguments};
-use crate::prompt::{Doubt, Keeper, Opened, excerpt, resume, settle_doubts};
+use crate::prompt::{Doubt, JournalError, Keeper, Opened, Resumed, excerpt, resume, settle_doubts};
+use lisp::files::{MAX_PLAN_BYTES, permit_plan_length};
+use lisp::visible::visible;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};
 
@@ -24,12 +26,16 @@ pub(crate) fn evaluate_standard_input(
     } else {
         Opened::default()
     };
+    if let Some(path) = changed(&journals, wanted)? {
+        return Err(JournalError::Changed(path).into());
+    }
     let mut session = open_session(&options)?;
     let has_browser = watching::begin(&mut session, watch)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
+    screen.set_cautious(io::stdout().is_terminal());
     let mut keeper = Keeper::new(journals.journal);
     for remark in &journals.remarks {
-        writeln!(io::stderr(), "{remark}")?;
+        writeln!(io::stderr(), "{}", visible(remark))?;
     }
     let mut number = 0;
     if let Some(mut earlier) = journals.earlier {
@@ -42,14 +48,19 @@ pub(crate) fn evaluate_standard_input(
             Ok(Doubt::Skip)
         })?;
         let progress = io::stderr();
-        resume(
+        let resumed = resume(
             &mut session,
             &mut keeper,
             &earlier,
             &mut number,
             progress,
             false,
+            &mut || wanted.despite_changes,
         )?;
+        if let Resumed::UpTo(number) = resumed {
+            let path = earlier.path;
+            return Err(JournalError::Differs { path, number }.into());
+        }
         session.set_interactive(false);
     }
     let stdin = io::stdin().lock();
@@ -97,12 +108,14 @@ fn evaluate_lines(
 /// Appends a line; bytes that are not UTF-8 become replacement characters.
 fn read_line(lines: &mut impl BufRead, text: &mut String) -> Result<usize, CommandError> {
     let mut bytes = Vec::new();
-    let count = lines
-        .read_until(b'\n', &mut bytes)
-        .map_err(|error| CommandError::Read {
-            path: "standard input".into(),
-            error,
-        })?;
+    let failed = |error| CommandError::Read {
+        path: "standard input".into(),
+        error,
+    };
+    // One byte more than may be tells that there are more.
+    let mut lines = lines.by_ref().take(MAX_PLAN_BYTES + 1);
+    let count = lines.read_until(b'\n', &mut bytes).map_err(failed)?;
     text.push_str(&String::from_utf8_lossy(&bytes));
+    permit_plan_length(text.len() as u64).map_err(failed)?;
     Ok(count)
 }

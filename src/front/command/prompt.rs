@@ -1,6 +1,6 @@
 //! Opens the prompt in a terminal.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -12,6 +12,7 @@ use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
 use crate::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
+use lisp::visible::visible;
 
 /// Options of the prompt.
 #[derive(Args, Debug, Default)]
@@ -20,6 +21,9 @@ pub(crate) struct PromptOptions {
     /// all its inputs again, which leads to the same state
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub(crate) resume: Option<Option<PathBuf>>,
+    /// Resume also where files have changed since, or an input ends otherwise than before
+    #[arg(long, requires = "resume")]
+    pub(crate) despite_changes: bool,
     /// New file to save the inputs to [default: a file in the state directory]
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub(crate) journal: Option<PathBuf>,
@@ -32,6 +36,15 @@ pub(crate) fn prompt(
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
     let journals = open_journals(&mut options, wanted)?;
+    if let Some(path) = changed(&journals, wanted)? {
+        write!(io::stdout(), "Resume with them as they are now? (y or n) ")?;
+        io::stdout().flush()?;
+        let mut answer = String::new();
+        io::stdin().read_line(&mut answer)?;
+        if !matches!(answer.trim(), "y" | "Y" | "yes") {
+            return Err(JournalError::Changed(path).into());
+        }
+    }
     let mut session = open_session(&options)?;
     watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());
@@ -40,10 +53,29 @@ pub(crate) fn prompt(
         ReplOptions {
             is_colored: paint.is_on(),
             journals,
+            despite_changes: wanted.despite_changes,
             ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))
+}
+
+/// Says which files are not what they were in the session that is to be resumed. Returns its journal if
+/// there are any, unless the user has said that it does not matter.
+pub(super) fn changed(
+    journals: &Opened,
+    wanted: &PromptOptions,
+) -> Result<Option<PathBuf>, CommandError> {
+    let Some(earlier) = &journals.earlier else {
+        return Ok(None);
+    };
+    let changed = earlier.changed();
+    for change in &changed {
+        let text = change.to_string();
+        writeln!(io::stderr(), "{}", visible(&text))?;
+    }
+    let matters = !changed.is_empty() && !wanted.despite_changes;
+    Ok(matters.then(|| earlier.path.clone()))
 }
 
 /// Opens the journals that the options ask for. A session that is resumed determines how it
@@ -68,8 +100,9 @@ pub(super) fn open_journals(
         systems: options.systems.clone(),
         setup: options.setup.clone(),
         is_closed: options.closed,
+        digests: Vec::new(),
     };
-    let mut opened = prompt::open(journal, &beginning)?;
+    let mut opened = prompt::open(journal, &beginning.digested())?;
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {

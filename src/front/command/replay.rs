@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
+use lisp::visible::visible;
 
 use super::failure::{CommandError, Status, read};
 use super::open::open_session;
@@ -45,6 +46,13 @@ pub(crate) fn replay(options: &Options, wanted: &ReplayArguments) -> Result<Stat
         .iter()
         .map(|path| Ok(Transcript::parse(&path.display().to_string(), &read(path)?)))
         .collect::<Result<_, CommandError>>()?;
+    if let Some(empty) = transcripts.iter().find(|t| t.entries.is_empty()) {
+        return Err(CommandError::Open(format!(
+            "{} has nothing to replay: a transcript has inputs behind prompts, and a Markdown file \
+             blocks marked `session`",
+            empty.name
+        )));
+    }
     let jobs = wanted
         .jobs
         .or_else(|| std::thread::available_parallelism().ok())
@@ -117,7 +125,8 @@ impl<W: Write> Report<W> {
             Some(path) if self.bless => {
                 if failed > 0 {
                     rewrite(path, &blessed(transcript, verdicts))?;
-                    writeln!(self.to, "{}: {failed} rewritten", transcript.name)?;
+                    let name = visible(&transcript.name);
+                    writeln!(self.to, "{name}: {failed} rewritten")?;
                 }
             }
             _ => self.differences(transcript, verdicts)?,
@@ -136,7 +145,8 @@ impl<W: Write> Report<W> {
                 continue;
             };
             let place = format!("{}:{}:", transcript.name, difference.line);
-            writeln!(self.to, "{} {}", self.paint.bad(&place), difference.input)?;
+            let input = visible(&difference.input);
+            writeln!(self.to, "{} {input}", self.paint.bad(&place))?;
             for line in ["--- expected", "+++ printed"] {
                 writeln!(self.to, "{}", self.paint.diff_line(line))?;
             }

@@ -1,6 +1,6 @@
 //! Loads plan files and evaluates forms.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -13,6 +13,7 @@ use super::options::{Options, seconds};
 use super::outputs::Outputs;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments, Writing};
+use lisp::visible::visible;
 use session::Session;
 use session::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
@@ -81,6 +82,7 @@ pub(crate) fn run_in(
     warn(&session, &files, paint)?;
     begin(&mut session)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
+    screen.set_cautious(io::stdout().is_terminal());
     for text in files.into_iter().chain(forms) {
         match text.evaluate(&mut session, &mut screen)? {
             Ended::Finished => {}
@@ -168,20 +170,21 @@ impl Text {
     /// The condition with its place, and the form underlined.
     fn describe(&self, abort: Option<&Abort>, paint: Paint) -> String {
         let Some(abort) = abort else {
-            return format!("{}: {}\n", self.name, paint.bad("aborted"));
+            return format!("{}: {}\n", visible(&self.name), paint.bad("aborted"));
         };
         let place = abort.main_place();
-        let at = place.map_or_else(|| self.name.clone(), ToString::to_string);
+        let at = place.map_or_else(|| visible(&self.name).into_owned(), ToString::to_string);
         let mut text = format!("{at}: {}\n", paint.bad(abort.report.trim_end()));
         if let Some(place) = place {
             text.push_str(&place.underlined());
             text.push('\n');
         }
         for line in abort.context() {
-            text.push_str(&line);
+            text.push_str(&visible(&line));
             text.push('\n');
         }
-        text.push_str(&format!("; Evaluation aborted on {}.\n", abort.condition));
+        let condition = visible(&abort.condition);
+        text.push_str(&format!("; Evaluation aborted on {condition}.\n"));
         text
     }
 }

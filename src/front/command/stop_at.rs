@@ -57,6 +57,7 @@ pub(crate) fn stop_at(
                 ..Opened::default()
             },
             inputs_before: entry,
+            ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))

@@ -11,7 +11,8 @@ use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
 use super::watching::{self, WatchArguments};
-use crate::swank::{Ended, Server, ServerOptions, Stopper, Version, secret};
+use crate::swank::{Ended, Secret, Server, ServerOptions, Stopper, Version, secret};
+use lisp::visible::visible;
 use session::dialogue::Converse;
 
 /// Options of the server.
@@ -23,10 +24,13 @@ pub(crate) struct SwankOptions {
     /// Version of SLIME that Emacs has, such as 2.32; Emacs asks if it is another one
     #[arg(long, value_name = "VERSION")]
     slime_version: Option<String>,
-    /// File whose first line clients have to send first, as SLIME does if the file
-    /// ~/.slime-secret exists [default: that file, if it exists]
+    /// File whose first line clients have to send first, which nobody else may read [default:
+    /// ~/.slime-secret, from which SLIME takes it; it is made if it does not exist]
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
+    /// Let all programs of this machine connect
+    #[arg(long, conflicts_with = "secret")]
+    no_secret: bool,
     /// Take the port file and the version of SLIME from a form on standard input, as M-x slime
     /// sends it, use any free port, and end with standard input
     #[arg(long, conflicts_with_all = ["port", "slime_version"])]
@@ -46,8 +50,13 @@ pub(crate) fn swank(
     wanted: &SwankOptions,
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
-    let secret = secret(wanted.secret.as_deref())
-        .map_err(|(path, error)| CommandError::Read { path, error })?;
+    let secret = match wanted.no_secret {
+        true => None,
+        false => Some(
+            secret(wanted.secret.as_deref())
+                .map_err(|error| CommandError::Open(error.to_string()))?,
+        ),
+    };
     let init = match wanted.stdio_init {
         true => Some(read_init()?),
         false => None,
@@ -56,7 +65,7 @@ pub(crate) fn swank(
     let version = of_init.or(wanted.slime_version.as_deref());
     let server = Server::bind(ServerOptions {
         port: if wanted.stdio_init { 0 } else { wanted.port },
-        secret,
+        secret: secret.as_ref().map(|secret| secret.word.clone()),
         version: version.map_or_else(Version::default, Version::named),
     })
     .map_err(|error| CommandError::Open(error.to_string()))?;
@@ -67,6 +76,14 @@ pub(crate) fn swank(
         io::stdout(),
         "; Emacs can connect to {address}: M-x slime-connect"
     )?;
+    if let Some(Secret { path, .. }) = &secret {
+        let path = path.display().to_string();
+        writeln!(
+            io::stdout(),
+            "; Clients have to send the first line of {}, as SLIME does with ~/.slime-secret.",
+            visible(&path)
+        )?;
+    }
     if let Some(init) = &init {
         write_port(&init.port_file, address.port())?;
     }

@@ -12,6 +12,7 @@ use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
 use super::outputs::Outputs;
+use lisp::files::permit_regular;
 use view::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
 use view::watch::recording::{RecordingError, read_recording};
 
@@ -37,7 +38,10 @@ pub(crate) fn view(options: &Options, wanted: &ViewArguments) -> Result<Status, 
         path: file.to_owned(),
         error,
     };
-    let bytes = fs::read(file).map_err(|error| failed(error.into()))?;
+    let known = fs::metadata(file).and_then(|known| permit_regular(&known));
+    let bytes = known
+        .and_then(|()| fs::read(file))
+        .map_err(|error| failed(error.into()))?;
     let history = History::new(Origin::Recording);
     // A panic of the reader is an error of ours: its own message would only repeat that.
     let hook = panic::take_hook();

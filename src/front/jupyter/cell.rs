@@ -14,6 +14,7 @@ use super::question::Questions;
 use super::settings::Settings;
 use crate::prompt::pasted::Inputs;
 use lisp::image::input::Source;
+use lisp::visible::visible;
 use session::dialogue::prompt_line::prompt_line;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop, Table};
@@ -70,7 +71,7 @@ impl Failure {
         };
         Failure {
             name: name.to_owned(),
-            value: abort.report.trim_end().to_owned(),
+            value: visible(abort.report.trim_end()).into_owned(),
             traceback: shown.lines().map(str::to_owned).collect(),
         }
     }

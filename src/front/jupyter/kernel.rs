@@ -92,12 +92,15 @@ impl Kernel {
                 let mut frames = vec![topic];
                 frames.extend(welcoming.message("iopub_welcome", b"", &content));
                 socket.send(peer, &frames);
+                true
             }
         })?;
         let publisher = Publisher::start(iopub.clone(), Arc::clone(&author));
         let publisher = publisher.map_err(KernelError::Thread)?;
         publisher.tell_state(b"", "starting");
-        let heartbeat = bind(connection, connection.hb_port, Kind::Echo, |_, _, _, _| {})?;
+        let heartbeat = bind(connection, connection.hb_port, Kind::Echo, |_, _, _, _| {
+            true
+        })?;
         let stdin = bind(connection, connection.stdin_port, Kind::Router, {
             reading(&author, to_questions, |_| {})
         })?;
@@ -109,9 +112,11 @@ impl Kernel {
             };
             move |socket, peer, identity, frames| {
                 let signer = control.author.signer();
-                if let Some(request) = Request::read(signer, peer, identity, frames) {
-                    control.answer(socket, &request);
+                let request = Request::read(signer, peer, identity, frames);
+                if let Some(request) = &request {
+                    control.answer(socket, request);
                 }
+                request.is_some()
             }
         })?;
         let shell = bind(connection, connection.shell_port, Kind::Router, {
@@ -294,7 +299,7 @@ fn bind(
     connection: &Connection,
     port: u16,
     kind: Kind,
-    handler: impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) + Send + Sync + 'static,
+    handler: impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) -> bool + Send + Sync + 'static,
 ) -> Result<Socket, KernelError> {
     let address = connection.address(port)?;
     let handler = Arc::new(handler);
@@ -302,7 +307,7 @@ fn bind(
     loop {
         let handler = Arc::clone(&handler);
         let handle = move |socket: &Socket, peer, identity: &[u8], frames| {
-            handler(socket, peer, identity, frames);
+            handler(socket, peer, identity, frames)
         };
         match Socket::bind(address, kind, handle) {
             Ok(socket) => return Ok(socket),
@@ -321,14 +326,16 @@ fn reading(
     author: &Arc<Author>,
     to: SyncSender<Request>,
     note: impl Fn(&Request) + Send + Sync + 'static,
-) -> impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) + Send + Sync + 'static {
+) -> impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) -> bool + Send + Sync + 'static {
     let author = Arc::clone(author);
     move |_, peer, identity, frames| {
-        if let Some(request) = Request::read(author.signer(), peer, identity, frames) {
-            note(&request);
-            // The kernel may just end.
-            let _ = to.send(request);
-        }
+        let Some(request) = Request::read(author.signer(), peer, identity, frames) else {
+            return false;
+        };
+        note(&request);
+        // The kernel may just end.
+        let _ = to.send(request);
+        true
     }
 }
 

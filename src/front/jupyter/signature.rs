@@ -1,19 +1,54 @@
 //! Signatures of messages: who knows the key of the connection file may talk to the kernel.
 
+use std::collections::{HashSet, VecDeque};
 use std::fmt::Write;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 
 /// Signs and verifies.
 #[derive(Clone)]
-pub(crate) struct Signer(Option<Hmac<Sha256>>);
+pub(crate) struct Signer {
+    mac: Option<Hmac<Sha256>>,
+    seen: Arc<Mutex<Seen>>,
+}
+
+/// Signatures of messages that have come, the oldest first. A message that somebody has overheard, and
+/// sends again, has one of them.
+#[derive(Default)]
+struct Seen {
+    all: HashSet<Vec<u8>>,
+    in_order: VecDeque<Vec<u8>>,
+}
+
+/// How many signatures are kept.
+const MAX_SEEN: usize = 1 << 16;
+
+impl Seen {
+    /// Notes a signature; returns whether it has not come before.
+    fn note(&mut self, signature: Vec<u8>) -> bool {
+        if !self.all.insert(signature.clone()) {
+            return false;
+        }
+        self.in_order.push_back(signature);
+        if self.in_order.len() > MAX_SEEN
+            && let Some(oldest) = self.in_order.pop_front()
+        {
+            self.all.remove(&oldest);
+        }
+        true
+    }
+}
 
 impl Signer {
     /// With a key; nothing is signed or verified if that is empty.
     pub(crate) fn new(key: &str) -> Signer {
         let keyed = (!key.is_empty()).then(|| Hmac::new_from_slice(key.as_bytes()).ok());
-        Signer(keyed.flatten())
+        Signer {
+            mac: keyed.flatten(),
+            seen: Arc::default(),
+        }
     }
 
     /// The signature of parts, in hexadecimal digits.
@@ -37,8 +72,18 @@ impl Signer {
         bytes_of(signature).is_some_and(|bytes| mac.verify_slice(&bytes).is_ok())
     }
 
+    /// Whether this is the signature of parts that have not come before.
+    pub(crate) fn accept(&self, parts: &[&[u8]], signature: &[u8]) -> bool {
+        if !self.verify(parts, signature) {
+            return false;
+        }
+        let is_signed = self.mac.is_some();
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        !is_signed || bytes_of(signature).is_some_and(|bytes| seen.note(bytes))
+    }
+
     fn of(&self, parts: &[&[u8]]) -> Option<Hmac<Sha256>> {
-        let mut mac = self.0.clone()?;
+        let mut mac = self.mac.clone()?;
         parts.iter().for_each(|part| mac.update(part));
         Some(mac)
     }
@@ -72,5 +117,20 @@ mod tests {
             assert!(!signer.verify(&parts, wrong.as_bytes()), "{wrong}");
         }
         assert!(Signer::new("").verify(&parts, b""));
+    }
+
+    #[test]
+    fn a_message_is_accepted_once() {
+        let signer = Signer::new("key");
+        let parts = |n: usize| n.to_string().into_bytes();
+        for n in 0..=MAX_SEEN {
+            let message = parts(n);
+            let signature = signer.sign(&[&message]);
+            assert!(signer.accept(&[&message], signature.as_bytes()));
+            let again = signature.to_uppercase();
+            assert!(!signer.clone().accept(&[&message], again.as_bytes()));
+        }
+        let seen = signer.seen.lock().unwrap();
+        assert_eq!((seen.all.len(), seen.in_order.len()), (MAX_SEEN, MAX_SEEN));
     }
 }

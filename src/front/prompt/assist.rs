@@ -19,6 +19,7 @@ use super::pasted::Inputs;
 use super::shape::Shape;
 use super::tty;
 use super::typed_ahead::LastKey;
+use lisp::visible::visible;
 use session::dialogue::Serve;
 
 /// The evaluator, which also knows what could be typed.
@@ -102,7 +103,7 @@ impl Hinter for Assist {
                     behind_prompt.after(line, columns)
                 }
             };
-            Shape::new(&hint, begin.column, columns)
+            Shape::new(&visible(&hint), begin.column, columns)
         });
         self.drawing
             .hints(hint.as_ref().map_or("", |hint| hint.display()));
@@ -122,8 +123,9 @@ const LIST_WIDTH: usize = 78;
 impl Documented {
     fn new(text: String, doc: &str, name_width: usize) -> Self {
         let shown = if doc.is_empty() {
-            text.clone()
+            visible(&text).into_owned()
         } else {
+            let (text, doc) = (visible(&text), visible(doc));
             let line = format!("{text:<name_width$}  {doc}");
             match line.char_indices().nth(LIST_WIDTH) {
                 Some((end, _)) => format!("{}…", line.get(..end).unwrap_or(&line)),

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::journal::{Earlier, Journal, Recorded, copied};
+use super::journal::{Earlier, End, Journal, Loaded, Recorded, copied};
+use lisp::visible::visible;
 use session::dialogue::Converse;
 
 /// Keeps inputs in a journal, if there is one.
@@ -30,7 +31,22 @@ impl Keeper {
     /// The evaluation has ended.
     pub(crate) fn ended(&mut self, evaluator: &(impl Converse + ?Sized)) {
         let (at, hash) = (evaluator.interrupted_at(), evaluator.world_hash());
-        self.write(|journal| journal.ended(at, hash));
+        let loaded = evaluator.take_loaded().into_iter();
+        let loaded = loaded
+            .map(|(file, text)| Loaded::of(&file, &text))
+            .collect();
+        let ending = evaluator.last_ending();
+        self.write(|journal| journal.ended(at, Some(hash), Some(ending), loaded));
+    }
+
+    /// The evaluation of an input of an earlier session has ended otherwise than before, which is
+    /// not to count.
+    pub(super) fn ended_as_before(&mut self, input: &Recorded) {
+        let End::Ended(hash) = input.end else {
+            return;
+        };
+        let (at, ending) = (input.interrupted_at, input.ending.as_deref());
+        self.write(|journal| journal.ended(at, hash, ending, input.loaded.clone()));
     }
 
     /// The evaluation of that input of an earlier session, counted from one, begins again.
@@ -72,6 +88,6 @@ impl Keeper {
         };
         self.is_failing = !self.is_failing;
         // If standard error is closed, the message is lost.
-        let _ = writeln!(io::stderr(), "{message}");
+        let _ = writeln!(io::stderr(), "{}", visible(&message));
     }
 }

@@ -36,7 +36,9 @@ use thiserror::Error;
 
 use assist::Shared;
 use editor::LineEditor;
+use lisp::visible::visible;
 use pasted::Inputs;
+use resume::keep_up_to;
 use serving::Serving;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Outcome, Screen, Serve, evaluate_on};
@@ -44,7 +46,7 @@ use view::picture::InlinePictures;
 
 pub(crate) use journal::{Beginning, Earlier, JournalError, Opened, Wanted, open};
 pub(crate) use keeper::Keeper;
-pub(crate) use resume::{Doubt, excerpt, resume, settle_doubts};
+pub(crate) use resume::{Doubt, Resumed, excerpt, resume, settle_doubts};
 
 /// Why the prompt cannot be used.
 #[derive(Debug, Error)]
@@ -87,6 +89,8 @@ pub(crate) struct ReplOptions {
     pub(crate) remark: Option<String>,
     /// Number of inputs evaluated before the prompt.
     pub(crate) inputs_before: usize,
+    /// Whether a session is resumed although it is not the same any more.
+    pub(crate) despite_changes: bool,
 }
 
 /// Reads and evaluates inputs until the user or the program exits; returns the exit status.
@@ -132,7 +136,7 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
         remarks,
     } = options.journals;
     for remark in options.remark.iter().chain(&remarks) {
-        writeln!(io::stdout(), "{remark}")?;
+        writeln!(io::stdout(), "{}", visible(remark))?;
     }
     let mut repl = Repl {
         evaluator,
@@ -144,6 +148,7 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
         left_out: None,
         draft: None,
         serving,
+        despite_changes: options.despite_changes,
     };
     repl.evaluator.borrow_mut().let_serve();
     if let Some(mut earlier) = earlier {
@@ -174,6 +179,8 @@ struct Repl {
     draft: Option<String>,
     /// The server for an editor, while there is one.
     serving: Serving,
+    /// Whether a session is resumed although it is not the same any more.
+    despite_changes: bool,
 }
 
 impl Repl {
@@ -242,7 +249,7 @@ impl Repl {
             if count > 1 {
                 // Typed text already follows a prompt; pasted inputs get one each.
                 let prompt = self.evaluator.borrow().prompt();
-                writeln!(io::stdout(), "{prompt}> {input}")?;
+                writeln!(io::stdout(), "{prompt}> {}", visible(input))?;
             }
             // A pasted session continues after a condition, as it did when it was recorded, unless
             // a plan stands still that this would end.
@@ -275,7 +282,7 @@ impl Repl {
             "; Not evaluated, since {reason}; {BRING_BACK} brings it back:"
         )?;
         for line in lines.iter().take(SHOWN_LINES) {
-            writeln!(out, ";   {line}")?;
+            writeln!(out, ";   {}", visible(line))?;
         }
         if lines.len() > SHOWN_LINES {
             writeln!(out, ";   …")?;
@@ -317,14 +324,25 @@ impl Repl {
             let again = editor.is_wanted("Evaluate it again? If not, it is left out.");
             Ok(if again { Doubt::Retry } else { Doubt::Skip })
         })?;
-        resume(
+        let despite_changes = self.despite_changes;
+        let resumed = resume(
             &mut *self.evaluator.borrow_mut(),
             &mut self.keeper,
             earlier,
             &mut self.number,
             io::stdout(),
             true,
+            &mut || {
+                despite_changes
+                    || editor
+                        .is_wanted("Go on with the inputs after it? If not, they are left out.")
+            },
         )?;
+        if let Resumed::UpTo(number) = resumed {
+            let evaluator = self.evaluator.borrow();
+            let remark = keep_up_to(&*evaluator, &mut self.keeper, earlier, number);
+            writeln!(io::stdout(), "{}", visible(&remark))?;
+        }
         let mut evaluator = self.evaluator.borrow_mut();
         evaluator.set_interactive(true);
         if evaluator.level() > 0 {

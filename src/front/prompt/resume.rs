@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
-use super::journal::{Earlier, End, Recorded};
+use super::journal::{Earlier, End, Loaded, Recorded};
 use super::keeper::Keeper;
+use lisp::visible::visible;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Converse, Event};
 
@@ -48,6 +49,7 @@ impl<W: Write> Progress<W> {
     fn show(&mut self, at: usize, what: &str) -> io::Result<()> {
         if self.is_shown {
             let (erase, count) = (self.erase(), self.count);
+            let what = visible(what);
             write!(self.out, "{erase}; Input {} of {count} {what}", at + 1)?;
             self.out.flush()?;
         }
@@ -55,15 +57,25 @@ impl<W: Write> Progress<W> {
     }
 
     fn tell(&mut self, text: &str) -> io::Result<()> {
-        writeln!(self.out, "{}{text}", self.erase())
+        writeln!(self.out, "{}{}", self.erase(), visible(text))
     }
+}
+
+/// How far a session has been resumed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Resumed {
+    /// As far as the user wanted.
+    Whole,
+    /// Up to the input with that number, from one, which ended otherwise than before.
+    UpTo(usize),
 }
 
 /// Evaluates the inputs of an earlier session again without showing their output, and without
 /// waiting for real time; `number` becomes the number of the last one.
 ///
-/// Where the user interrupts, the session continues without the inputs after that. With
-/// `shows_progress`, a line says how far it is.
+/// Where the user interrupts, the session continues without the inputs after that. At the first input
+/// that ends otherwise than before, `ask` decides whether to go on. With `shows_progress`, a line says
+/// how far it is.
 pub(crate) fn resume(
     evaluator: &mut dyn Converse,
     keeper: &mut Keeper,
@@ -71,14 +83,15 @@ pub(crate) fn resume(
     number: &mut usize,
     out: impl Write,
     shows_progress: bool,
-) -> io::Result<()> {
+    ask: &mut dyn FnMut() -> bool,
+) -> io::Result<Resumed> {
     let mut progress = Progress {
         out,
         is_shown: shows_progress,
         count: earlier.inputs.len(),
     };
     evaluator.set_hurried(true);
-    let resumed = evaluate_all(evaluator, keeper, earlier, number, &mut progress);
+    let resumed = evaluate_all(evaluator, keeper, earlier, number, &mut progress, ask);
     evaluator.set_hurried(false);
     resumed
 }
@@ -90,8 +103,11 @@ fn evaluate_all(
     earlier: &Earlier,
     number: &mut usize,
     progress: &mut Progress<impl Write>,
-) -> io::Result<()> {
+    ask: &mut dyn FnMut() -> bool,
+) -> io::Result<Resumed> {
     let inputs = &earlier.inputs;
+    // Without inputs that are left out, later ones end as they must.
+    let skips = inputs.iter().any(|input| input.end == End::Skipped);
     let mut differs = None;
     for (at, input) in inputs.iter().enumerate() {
         *number += 1;
@@ -102,45 +118,95 @@ fn evaluate_all(
         let name = input_name(*number);
         let interrupted_at = evaluate_again(evaluator, &name, input, at, progress)?;
         let hash = evaluator.world_hash();
-        keeper.ended(evaluator);
         if interrupted_at.is_some() && interrupted_at != input.interrupted_at {
-            let state = (at, interrupted_at.unwrap_or_default(), hash);
-            return tell_interrupt(keeper, earlier, state, progress);
+            keeper.ended(evaluator);
+            let ended = Recorded {
+                interrupted_at,
+                end: End::Ended(Some(hash)),
+                ending: Some(evaluator.last_ending().to_owned()),
+                ..input.clone()
+            };
+            tell_interrupt(keeper, earlier, (at, ended), progress)?;
+            return Ok(Resumed::Whole);
         }
-        if matches!(input.end, End::Ended(Some(recorded)) if recorded != hash) {
-            differs.get_or_insert(at + 1);
+        if differs.is_none()
+            && !skips
+            && let Some(what) = difference(evaluator, input)
+        {
+            differs = Some(at + 1);
+            progress.tell(&format!(
+                "; Input {} has ended otherwise than in the earlier session: {what}. A file that it \
+                 has read, or planwright itself, may have changed.",
+                at + 1
+            ))?;
+            if !ask() {
+                keeper.ended_as_before(input);
+                return Ok(Resumed::UpTo(at + 1));
+            }
         }
+        keeper.ended(evaluator);
     }
-    tell_end(evaluator, inputs, differs, progress)
+    tell_end(evaluator, inputs, progress)?;
+    Ok(Resumed::Whole)
 }
 
-/// The user has interrupted the input with that index, at that place and with that hash of the
-/// world: the session is what was evaluated up to there.
+/// What is different from how an input ended in the earlier session, as far as that is known.
+fn difference(evaluator: &dyn Converse, input: &Recorded) -> Option<String> {
+    let now = evaluator.last_ending();
+    if let Some(before) = input.ending.as_deref().filter(|before| *before != now) {
+        return Some(format!("it {now}, not {before}"));
+    }
+    match input.end {
+        End::Ended(Some(before)) if before != evaluator.world_hash() => {
+            Some("the world is another one".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// From here on, keeps the session that consists of the earlier one's inputs up to that with a number,
+/// from one. Returns a remark about it.
+pub(super) fn keep_up_to(
+    evaluator: &dyn Converse,
+    keeper: &mut Keeper,
+    earlier: &Earlier,
+    number: usize,
+) -> String {
+    let mut part = earlier.inputs.get(..number).unwrap_or_default().to_vec();
+    if let Some(last) = part.last_mut() {
+        last.end = End::Ended(Some(evaluator.world_hash()));
+        last.ending = Some(evaluator.last_ending().to_owned());
+        let loaded = evaluator.take_loaded().into_iter();
+        last.loaded = loaded
+            .map(|(file, text)| Loaded::of(&file, &text))
+            .collect();
+    }
+    keeper.part_of(earlier, part)
+}
+
+/// The user has interrupted the input with that index, which has ended so: the session is what was
+/// evaluated up to there.
 fn tell_interrupt(
     keeper: &mut Keeper,
     earlier: &Earlier,
-    (at, interrupted_at, hash): (usize, u64, u64),
+    (at, ended): (usize, Recorded),
     progress: &mut Progress<impl Write>,
 ) -> io::Result<()> {
     let count = progress.count;
     progress.tell(&format!("; Interrupted at input {} of {count}.", at + 1))?;
     if at + 1 < count {
-        let mut part = earlier.inputs.get(..=at).unwrap_or_default().to_vec();
-        if let Some(last) = part.last_mut() {
-            last.interrupted_at = Some(interrupted_at);
-            last.end = End::Ended(Some(hash));
-        }
+        let mut part = earlier.inputs.get(..at).unwrap_or_default().to_vec();
+        part.push(ended);
         let remark = keeper.part_of(earlier, part);
         progress.tell(&remark)?;
     }
     Ok(())
 }
 
-/// Tells what has been resumed, and since which input, by its number, the world differs.
+/// Tells what has been resumed.
 fn tell_end(
     evaluator: &dyn Converse,
     inputs: &[Recorded],
-    differs: Option<usize>,
     progress: &mut Progress<impl Write>,
 ) -> io::Result<()> {
     if inputs.is_empty() {
@@ -154,14 +220,7 @@ fn tell_end(
     let hash = evaluator.world_hash();
     progress.tell(&format!(
         "; Resumed {resumed}; the world's hash is {hash:016x}."
-    ))?;
-    let skips = inputs.iter().any(|input| input.end == End::Skipped);
-    if let Some(number) = differs.filter(|_| !skips) {
-        progress.tell(&format!(
-            "; The world is not the same as in the earlier session since input {number}: a loaded file or planwright itself may have changed."
-        ))?;
-    }
-    Ok(())
+    ))
 }
 
 /// Evaluates an input again; `at` is its index. Returns where the evaluation was interrupted.
@@ -204,5 +263,5 @@ pub(crate) fn excerpt(text: &str) -> String {
     if text.lines().count() > MAX_LINES {
         lines.push(";   …".to_owned());
     }
-    lines.join("\n")
+    visible(&lines.join("\n")).into_owned()
 }

@@ -65,10 +65,10 @@ impl Repl {
     }
 
     fn serve(&mut self, port: u16) -> Result<Ended, ServerError> {
-        let secret = secret(None).map_err(|(path, error)| ServerError::Secret { path, error })?;
+        let secret = secret(None)?;
         let server = Server::bind(ServerOptions {
             port,
-            secret,
+            secret: Some(secret.word),
             ..ServerOptions::default()
         })?;
         // If standard output is closed, the next input ends the prompt.

@@ -1,6 +1,5 @@
 //! Compiling and loading: what the checks find, and then the evaluation of the text.
 
-use std::fs;
 use std::time::Instant;
 
 use super::answer::{Answer, Compiled};
@@ -8,6 +7,7 @@ use super::definitions::buffer_source;
 use super::engine::Engine;
 use super::hub::Request;
 use super::sexp::Sexp;
+use lisp::files::{Disk, Files};
 use session::dialogue::Finding;
 
 /// Lines and columns up to which a text is shifted to where it stands in its buffer.
@@ -42,7 +42,7 @@ impl Engine<'_> {
         let Some(file) = request.text(0).map(str::to_owned) else {
             return request.abort("compile-file-for-emacs takes the name of a file");
         };
-        let text = match fs::read(&file) {
+        let text = match Disk.read_plan(&file) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) => return request.abort(&format!("{file} cannot be read: {error}")),
         };

@@ -9,28 +9,37 @@ use super::hub::{Client, Hub, Job, Request};
 use super::known_names;
 use super::outbox::Outbox;
 use super::sexp::Sexp;
+use view::watch::live::{Stranger, is_same};
+
+/// The longest message of a client that has not said the secret, or anything yet.
+const MAX_FIRST: usize = 1 << 16;
 
 /// Serves a client until it leaves.
-pub(super) fn serve(hub: &Hub, stream: TcpStream, secret: Option<&str>) -> io::Result<()> {
+pub(super) fn serve(
+    hub: &Hub,
+    stranger: &Stranger,
+    stream: TcpStream,
+    secret: Option<&str>,
+) -> io::Result<()> {
     // Messages are small and wanted at once.
     stream.set_nodelay(true)?;
     let mut from = BufReader::new(stream.try_clone()?);
-    let mut first = framing::read(&mut from)?;
-    match secret {
-        // Whoever does not know the secret learns nothing.
-        Some(secret) if !first.as_deref().is_some_and(|said| is_same(said, secret)) => {
-            return Ok(());
-        }
-        Some(_) => first = framing::read(&mut from)?,
-        // A secret that nobody has asked for.
-        None if first
-            .as_deref()
-            .is_some_and(|said| !said.trim_start().starts_with('(')) =>
-        {
-            first = framing::read(&mut from)?;
-        }
-        None => {}
+    let Some(said) = framing::read_at_most(&mut from, MAX_FIRST)? else {
+        return Ok(());
+    };
+    // Whoever does not know the secret learns nothing.
+    let knows = |secret: &str| is_same(said.trim_end().as_bytes(), secret.as_bytes());
+    if !secret.is_none_or(knows) {
+        return Ok(());
     }
+    let Some(_guest) = stranger.welcome() else {
+        return Ok(());
+    };
+    // SLIME also says a secret that nobody has asked for.
+    let first = match secret.is_some() || !said.trim_start().starts_with('(') {
+        true => framing::read(&mut from)?,
+        false => Some(said),
+    };
     let client = hub.connect(Outbox::open(stream)?);
     let served = read_all(hub, &client, first, &mut from);
     hub.leave(&client);
@@ -57,13 +66,6 @@ fn read_all(
         message = framing::read(from)?;
     }
     Ok(())
-}
-
-/// Whether the client said the secret; takes equally long for all that are equally long.
-fn is_same(said: &str, secret: &str) -> bool {
-    let (said, secret) = (said.trim_end().as_bytes(), secret.as_bytes());
-    let differing = said.iter().zip(secret).fold(0, |all, (a, b)| all | (a ^ b));
-    said.len() == secret.len() && differing == 0
 }
 
 /// Answers a message that cannot be read, if it was a request: its number is its last word.

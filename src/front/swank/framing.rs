@@ -7,14 +7,19 @@ const DIGITS: usize = 6;
 /// The longest message: what the digits can say.
 pub(super) const LONGEST: usize = 0xff_ffff;
 
-/// Reads a message; `None` at the end of the connection. Bytes that are not UTF-8 become
+/// Reads a message; `None` at the end of the connection.
+pub(super) fn read(from: &mut impl Read) -> io::Result<Option<String>> {
+    read_at_most(from, LONGEST)
+}
+
+/// Reads a message of so many bytes at most; `None` at the end of the connection. Bytes that are not UTF-8 become
 /// replacement characters.
 ///
 /// # Errors
 ///
 /// A connection that ends in the middle of a message, or on which something else than a message
 /// was sent, is an error; nothing that follows could be understood.
-pub(super) fn read(from: &mut impl Read) -> io::Result<Option<String>> {
+pub(super) fn read_at_most(from: &mut impl Read, most: usize) -> io::Result<Option<String>> {
     let mut digits = Vec::with_capacity(DIGITS);
     from.take(DIGITS as u64).read_to_end(&mut digits)?;
     if digits.is_empty() {
@@ -26,6 +31,12 @@ pub(super) fn read(from: &mut impl Read) -> io::Result<Option<String>> {
             "a message begins with its length",
         )
     })?;
+    if length > most as u64 {
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "the message is too long",
+        ));
+    }
     // The memory grows with what arrives, not with what is announced.
     let mut bytes = Vec::new();
     from.take(length).read_to_end(&mut bytes)?;

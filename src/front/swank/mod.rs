@@ -36,6 +36,6 @@ mod version;
 
 pub(crate) use hub::Ended;
 pub(crate) use keep::Keep;
-pub(crate) use secret::secret;
+pub(crate) use secret::{Secret, secret};
 pub(crate) use server::{Server, ServerError, ServerOptions, Stopper};
 pub(crate) use version::Version;

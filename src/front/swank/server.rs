@@ -2,9 +2,7 @@
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -14,11 +12,16 @@ use super::connection;
 use super::engine::Engine;
 use super::hub::{Ended, Hub};
 use super::keep::Keep;
+use super::secret::SecretError;
 use super::version::Version;
 use session::dialogue::Serve;
+use view::watch::live::Door;
 
-/// Maximum number of connections at a time.
-const MAX_CONNECTIONS: usize = 32;
+/// Maximum number of clients at a time.
+const MAX_CLIENTS: usize = 32;
+/// Maximum number of connections at a time that have not said the secret. They cannot keep clients out:
+/// the one that has been silent longest makes room.
+const MAX_STRANGERS: usize = 32;
 /// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 2 << 20;
 
@@ -44,14 +47,9 @@ pub(crate) enum ServerError {
         /// The reason.
         error: io::Error,
     },
-    /// What clients have to say cannot be read.
-    #[error("cannot read {}: {error}", path.display())]
-    Secret {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        error: io::Error,
-    },
+    /// There is no secret for clients to say.
+    #[error("{0}")]
+    Secret(#[from] SecretError),
     /// There are no threads for it.
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
@@ -128,7 +126,7 @@ impl Server {
 }
 
 fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
-    let connections = Arc::new(AtomicUsize::new(0));
+    let door = Arc::new(Door::new(MAX_STRANGERS, MAX_CLIENTS));
     for stream in listener.incoming() {
         if hub.is_ending() {
             return;
@@ -138,16 +136,14 @@ fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
             thread::sleep(Duration::from_millis(50));
             continue;
         };
-        if connections.fetch_add(1, Ordering::Relaxed) >= MAX_CONNECTIONS {
-            connections.fetch_sub(1, Ordering::Relaxed);
+        let Ok(stranger) = door.admit(&stream) else {
             continue;
-        }
-        let (own, count) = (Arc::clone(hub), Counted(Arc::clone(&connections)));
+        };
+        let own = Arc::clone(hub);
         let secret = secret.map(str::to_owned);
         let serve = move || {
-            let _count = count;
             // A client that breaks off, or sends what is no message, is merely gone.
-            let _ = connection::serve(&own, stream, secret.as_deref());
+            let _ = connection::serve(&own, &stranger, stream, secret.as_deref());
         };
         let thread = thread::Builder::new()
             .name("swank input".to_owned())
@@ -155,14 +151,5 @@ fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
         if thread.spawn(serve).is_err() {
             thread::sleep(Duration::from_millis(50));
         }
-    }
-}
-
-/// A connection that counts as long as this lives.
-struct Counted(Arc<AtomicUsize>);
-
-impl Drop for Counted {
-    fn drop(&mut self) {
-        self.0.fetch_sub(1, Ordering::Relaxed);
     }
 }

@@ -78,11 +78,21 @@ fn names<'r>(all: impl Iterator<Item = &'r str>) -> Vec<&'r str> {
     names
 }
 
-/// A row, as RFC 4180 has it.
+/// A row, as RFC 4180 has it. No cell is a formula: one that a spreadsheet would take for one begins with
+/// an apostrophe.
 fn row(cells: &[String]) -> String {
-    let quoted = |cell: &String| match cell.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.clone(),
+    let quoted = |cell: &String| {
+        let is_number = cell.parse::<f64>().is_ok();
+        let is_formula = !is_number && cell.starts_with(['=', '+', '-', '@', '\t', '\r']);
+        let cell = if is_formula {
+            format!("'{cell}")
+        } else {
+            cell.clone()
+        };
+        match cell.contains([',', '"', '\n', '\r']) {
+            true => format!("\"{}\"", cell.replace('"', "\"\"")),
+            false => cell,
+        }
     };
     let cells: Vec<String> = cells.iter().map(quoted).collect();
     cells.join(",") + "\r\n"
@@ -134,6 +144,13 @@ pub(crate) fn junit(title: &Title, records: &[Record]) -> String {
             )
         });
         cases.push((format!("success at least {} %", 100.0 * goal), failure));
+    }
+    if summary.defects() > 0 {
+        let defective = records.iter().filter(|r| r.outcome.is_defect());
+        let defective: Vec<u64> = defective.map(|r| r.world).collect();
+        let count = defective.len();
+        let why = format!("{count} worlds not counted: {}", replay(&defective));
+        cases.push(("planwright can run all worlds".to_owned(), Some(why)));
     }
     let failures = cases
         .iter()
@@ -198,10 +215,10 @@ pub(crate) fn fragment(title: &Title, records: &[Record], most: usize) -> String
     }
 }
 
-/// The worlds in which the plan did not work.
+/// The worlds in which the plan did not work, and those that planwright could not run.
 fn failed(records: &[Record]) -> impl Iterator<Item = &Record> {
-    let tried = records.iter().filter(|r| r.outcome.counts());
-    tried.filter(|r| !r.is_success())
+    let known = |r: &&Record| r.outcome.counts() || r.outcome.is_defect();
+    records.iter().filter(known).filter(|r| !r.is_success())
 }
 
 /// A table of the worlds that failed.
@@ -271,6 +288,25 @@ mod tests {
             "{text}"
         );
         assert!(text.contains(",\"A, \"\"B\"\"\",false\r\n"), "{text}");
+    }
+
+    #[test]
+    fn no_cell_is_a_formula() {
+        let cells = [
+            "=1+2",
+            "-1.5e3",
+            "+cmd|' /C calc'!A0",
+            "-x",
+            "@sum(a)",
+            "a=b",
+            "-",
+            "",
+        ];
+        let cells = cells.map(str::to_owned);
+        assert_eq!(
+            row(&cells),
+            "'=1+2,-1.5e3,'+cmd|' /C calc'!A0,'-x,'@sum(a),a=b,'-,\r\n"
+        );
     }
 
     #[test]

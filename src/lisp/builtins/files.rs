@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::shown::shown;
 use super::strings::string;
 use crate::builtin::Builtin;
-use crate::files::{Contents, Files, Opening};
+use crate::files::{Contents, Files, Opening, utf8};
 use crate::image::Image;
 use crate::stream::{Stream, StreamKind};
 use crate::typed::FromValue;
@@ -53,7 +53,6 @@ pub(super) fn reason(error: &Error) -> String {
         ErrorKind::AlreadyExists => {
             "the file exists; :IF-EXISTS :SUPERSEDE or :APPEND would write it".to_owned()
         }
-        ErrorKind::InvalidData => "the file is not UTF-8 text".to_owned(),
         _ => error.to_string(),
     }
 }
@@ -176,8 +175,7 @@ fn open_input(
             target: None,
         }));
     }
-    let text = String::from_utf8(bytes)
-        .map_err(|_| file_error("opening", path, &Error::from(ErrorKind::InvalidData)))?;
+    let text = utf8(bytes).map_err(|error| file_error("opening", path, &error))?;
     Ok(Some(StreamKind::StringInput {
         text: text.into(),
         position: 0,

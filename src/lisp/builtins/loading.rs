@@ -1,14 +1,15 @@
 //! Loading files of forms.
 
-use std::io::{Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
 use super::evaluation::signal_warnings;
 use super::files::reason;
 use crate::builtin::Builtin;
+use crate::files::utf8;
 use crate::image::Image;
 use crate::image::built_in_files::BuiltInFiles;
 use crate::reader::{Outcome, Reader};
+use crate::source::SourceId;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -24,17 +25,17 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Evaluates all forms of a text; places refer to the text as `name`.
 pub fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
-    load_and_tell(machine, name, text, false)
+    let source = machine.image.sources.add(name, text);
+    load_source(machine, name, source, false)
 }
 
 /// The same; the values of the forms are printed if wanted.
-fn load_and_tell(
+fn load_source(
     machine: &mut Machine<'_>,
     name: &str,
-    text: &str,
+    source: SourceId,
     shows_values: bool,
 ) -> Result<Step> {
-    let source = machine.image.sources.add(name, text);
     let mut reader = Reader::new(machine.image, source);
     // The file may change these variables; the caller's values are restored afterwards.
     for variable in BOUND {
@@ -113,6 +114,40 @@ const BOUND: [Sym; 5] = [
     known::V_LOAD_TRUENAME,
 ];
 
+/// An error if a file is being loaded already, by files that it has loaded.
+fn refuse_circle(machine: &Machine<'_>, path: &str) -> Result<()> {
+    let files = &machine.image.files;
+    let same = |name: &str| files.true_name(name).unwrap_or_else(|_| name.to_owned());
+    let wanted = same(path);
+    let mut chain = vec![path.to_owned()];
+    // The innermost file is the value of the variable; each binding keeps the one around it.
+    let outside = machine.fiber.dynamic.iter().rev();
+    let outside = outside.filter_map(|entry| match entry {
+        Dynamic::Bind(known::V_LOAD_PATHNAME, value) => Some(value),
+        _ => None,
+    });
+    let current = machine.image.special(known::V_LOAD_PATHNAME);
+    for value in std::iter::once(current).chain(outside) {
+        let Some(name) = Some(value)
+            .filter(|value| value.is_true())
+            .and_then(file_name)
+        else {
+            continue;
+        };
+        let is_same = same(&name) == wanted;
+        chain.push(name);
+        if is_same {
+            chain.reverse();
+            return Err(Raise::new(
+                known::FILE_ERROR,
+                format!("A file loads itself: {}.", chain.join(", which loads ")),
+            )
+            .with(known::K_PATHNAME, Value::foreign(Pathname::parse(path))));
+        }
+    }
+    Ok(())
+}
+
 /// Undoes the bindings that loading made: the innermost dynamic entries.
 fn restore(machine: &mut Machine<'_>) {
     for variable in BOUND.into_iter().rev() {
@@ -135,7 +170,8 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         let text = text.get(from..).unwrap_or_default();
         crate::stream::advance(machine.image, &args[0], text.len())?;
         let shows_values = announce(machine, &name, &args[1..])?;
-        return load_and_tell(machine, &name, text, shows_values);
+        let source = machine.image.sources.add(&name, text);
+        return load_source(machine, &name, source, shows_values);
     }
     let Some(path) = file_name(&args[0]) else {
         return Err(Raise::type_error(&args[0], known::STRING));
@@ -144,15 +180,20 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if machine.image.files.facts(&path).is_err()
         && let Some((name, text)) = built_in(machine, &path)
     {
+        refuse_circle(machine, &name)?;
         let shows_values = announce(machine, &name, &args[1..])?;
-        return load_and_tell(machine, &name, text, shows_values);
+        let source = machine.image.sources.add(&name, text);
+        return load_source(machine, &name, source, shows_values);
     }
+    refuse_circle(machine, &path)?;
     let text = match read_file(machine.image, &path) {
         Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
         result => result?,
     };
     let shows_values = announce(machine, &path, &args[1..])?;
-    load_and_tell(machine, &path, &text, shows_values)
+    let source = machine.image.sources.add(&path, &text);
+    machine.image.sources.note_loaded(source);
+    load_source(machine, &path, source, shows_values)
 }
 
 /// Says what is loaded, if that is wanted. Are the values of its forms wanted, too?
@@ -229,10 +270,7 @@ fn without_detours(path: &Path) -> PathBuf {
 }
 
 fn read_file(image: &Image, path: &str) -> Result<String> {
-    let bytes = image.files.read(path);
-    let text = bytes.and_then(|bytes| {
-        String::from_utf8(bytes).map_err(|_| Error::from(ErrorKind::InvalidData))
-    });
+    let text = image.files.read_plan(path).and_then(utf8);
     text.map_err(|error| {
         Raise::new(
             known::FILE_ERROR,

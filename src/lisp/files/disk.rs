@@ -1,11 +1,11 @@
 //! The files of the machine.
 
 use std::fs::{self, OpenOptions};
-use std::io::{BufWriter, Error, ErrorKind, Result};
+use std::io::{BufWriter, Error, ErrorKind, Read, Result};
 use std::time::UNIX_EPOCH;
 
-use super::waiting;
 use super::{Contents, FileFacts, Files, Opening, Output};
+use super::{plan, waiting};
 
 /// The file system that the process sees.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +25,19 @@ impl Files for Disk {
 
     fn read(&self, name: &str) -> Result<Vec<u8>> {
         waiting::read(name)
+    }
+
+    fn read_plan(&self, name: &str) -> Result<Vec<u8>> {
+        let known = fs::metadata(name)?;
+        plan::permit_regular(&known)?;
+        // Some files, such as those that the system makes up, have more bytes than they tell.
+        plan::permit_plan_length(known.len())?;
+        let mut bytes = Vec::new();
+        let file = fs::File::open(name)?;
+        file.take(plan::MAX_PLAN_BYTES + 1)
+            .read_to_end(&mut bytes)?;
+        plan::permit_plan_length(bytes.len() as u64)?;
+        Ok(bytes)
     }
 
     fn open(&self, name: &str, opening: Opening) -> Result<Box<dyn Output>> {

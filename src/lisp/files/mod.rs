@@ -7,13 +7,16 @@
 
 mod closed;
 mod disk;
+mod plan;
 mod waiting;
 
 use std::fmt::Debug;
 use std::io::{self, Seek, Write};
+use std::path::Path;
 
 pub use closed::Closed;
 pub use disk::Disk;
+pub use plan::{MAX_PLAN_BYTES, permit_plan_length, permit_regular, utf8};
 
 /// Files, by their names.
 ///
@@ -24,6 +27,16 @@ pub trait Files: Debug + Send + Sync {
 
     /// All bytes of a file.
     fn read(&self, name: &str) -> io::Result<Vec<u8>>;
+
+    /// All bytes of a file of forms, which is no folder and has [`MAX_PLAN_BYTES`] at most.
+    fn read_plan(&self, name: &str) -> io::Result<Vec<u8>> {
+        let facts = self.facts(name)?;
+        if facts.is_folder {
+            return Err(plan::not_regular("a folder"));
+        }
+        permit_plan_length(facts.length)?;
+        self.read(name)
+    }
 
     /// Opens a file for writing.
     fn open(&self, name: &str, opening: Opening) -> io::Result<Box<dyn Output>>;
@@ -54,6 +67,12 @@ pub trait Files: Debug + Send + Sync {
 
     /// Makes a folder, and those around it that are missing.
     fn create_folders(&self, name: &str) -> io::Result<()>;
+}
+
+/// The text of a file of forms on the machine, or of another file that is as small.
+pub fn text_of(path: &Path) -> io::Result<String> {
+    let name = path.to_str().ok_or(io::ErrorKind::InvalidFilename)?;
+    Disk.read_plan(name).and_then(utf8)
 }
 
 /// A file that is written.

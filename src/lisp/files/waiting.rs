@@ -2,16 +2,51 @@
 //! meanwhile.
 
 use std::fs::{self, File, OpenOptions};
-use std::io;
+use std::io::{self, Read};
 
-/// The bytes of a file. One that is no regular file is read up to its end, or an interrupt, which
+use crate::guard;
+
+/// How much is read between two looks at what ends long work.
+const CHUNK: usize = 1 << 16;
+
+/// The bytes of a file, up to its end or a reason to stop, such as an interrupt or too much memory, which
 /// leaves the calling function by unwinding.
 pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
     #[cfg(unix)]
     if keeps_waiting(path) {
         return interruptible::read(path);
     }
-    fs::read(path)
+    let mut file = File::open(path)?;
+    let length = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    make_room(&mut bytes, usize::try_from(length).unwrap_or(usize::MAX));
+    let mut chunk = vec![0; CHUNK];
+    loop {
+        guard::look();
+        match file.read(&mut chunk) {
+            Ok(0) => return Ok(bytes),
+            Ok(count) => take(&mut bytes, chunk.get(..count).unwrap_or_default()),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Adds what has been read, which counts as memory before it is there.
+fn take(bytes: &mut Vec<u8>, read: &[u8]) {
+    if bytes.capacity() - bytes.len() < read.len() {
+        let more = bytes.len().max(read.len());
+        make_room(bytes, more);
+    }
+    bytes.extend_from_slice(read);
+}
+
+/// Makes room for so many bytes more; leaves the calling function by unwinding if there is none.
+fn make_room(bytes: &mut Vec<u8>, more: usize) {
+    guard::reserve(bytes.len().saturating_add(more));
+    if bytes.try_reserve_exact(more).is_err() {
+        guard::leave(guard::Stopped::HeapExhausted);
+    }
 }
 
 /// Opens a file for writing. A pipe is open when somebody reads it.
@@ -38,12 +73,11 @@ mod interruptible {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
     use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 
+    use super::{CHUNK, take};
     use crate::guard;
 
     /// How long an interrupt may have to wait.
     const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
-    const CHUNK: usize = 1 << 16;
-
     pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
         let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits();
         let flags = i32::try_from(flags).unwrap_or_default();
@@ -60,7 +94,7 @@ mod interruptible {
             }
             match file.read(&mut chunk) {
                 Ok(0) => return Ok(bytes),
-                Ok(count) => bytes.extend_from_slice(chunk.get(..count).unwrap_or_default()),
+                Ok(count) => take(&mut bytes, chunk.get(..count).unwrap_or_default()),
                 Err(error) if is_passing(&error) => {}
                 Err(error) => return Err(error),
             }

@@ -10,6 +10,8 @@ pub struct Heap {
     limit: Cell<Option<HeapLimit>>,
     /// Has the limit been put up since it was reached?
     is_extended: Cell<bool>,
+    /// Has a program been told that memory is exhausted?
+    was_exhausted: Cell<bool>,
 }
 
 /// A limit to the memory in use, and how to learn how much is.
@@ -38,6 +40,12 @@ impl Heap {
     /// The limit.
     pub(super) fn limit(&self) -> Option<HeapLimit> {
         self.limit.get()
+    }
+
+    /// Whether a program has been told that memory is exhausted since this was last asked. What it
+    /// has done after that depends on the limit, whether it has handled the condition or not.
+    pub fn take_exhausted(&self) -> bool {
+        self.was_exhausted.take()
     }
 
     /// Is more in use than may be? Says so once, and every time when a sixteenth more is in use.
@@ -94,6 +102,15 @@ impl Heap {
         };
         in_use.saturating_add(more) >= limit.bytes.saturating_add(extension)
     }
+}
+
+/// Notes that the program that runs on this thread is told that memory is exhausted.
+pub(crate) fn note_exhausted() {
+    CURRENT.with_borrow(|limits| {
+        if let Some(limits) = limits {
+            limits.heap.was_exhausted.set(true);
+        }
+    });
 }
 
 /// The most elements that a sequence may have, so that nothing that is done with a sequence takes

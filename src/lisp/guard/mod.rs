@@ -19,7 +19,7 @@ use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
 pub use heap::{Heap, MAX_ELEMENTS};
-pub(crate) use heap::{permit_length, reserve};
+pub(crate) use heap::{note_exhausted, permit_length, reserve};
 use polls::Polls;
 
 pub(crate) use stack::descend;

@@ -3,7 +3,7 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
-use crate::guard::{MAX_ELEMENTS, Stopped, TooDeep};
+use crate::guard::{MAX_ELEMENTS, Stopped, TooDeep, note_exhausted};
 use crate::source::Place;
 use closest_name::closest_name;
 
@@ -186,6 +186,9 @@ impl From<TooDeep> for Box<Raise> {
 
 impl From<Stopped> for Box<Raise> {
     fn from(reason: Stopped) -> Box<Raise> {
+        if reason != Stopped::Interrupted {
+            note_exhausted();
+        }
         match reason {
             Stopped::Interrupted => Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."),
             Stopped::HeapExhausted => Raise::new(

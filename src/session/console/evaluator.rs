@@ -86,13 +86,26 @@ impl Evaluator {
         let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
         record.begin(self.prompt(), source_name, text);
         let mut aborted = None;
+        let mut class = String::new();
         let outcome = self.evaluate_or_recover(source_name, text, &mut |event| {
             record.note(&event);
+            match &event {
+                Event::Aborted(abort) => class.clone_from(&abort.class),
+                Event::Stopped(stop) => class.clone_from(&stop.abort.class),
+                _ => {}
+            }
             aborted = halt::end_of(&event).or(aborted.take());
             sink(event);
         });
         self.tell_halt(was_stopped, aborted);
         record.end(outcome, self.image.polls().seen_at());
+        let word = match outcome {
+            Outcome::Finished => "finished",
+            Outcome::Aborted => "aborted",
+            Outcome::Stopped => "stopped",
+            Outcome::Quit(_) => "left",
+        };
+        self.console.last_ending = format!("{word} {class}").trim_end().to_owned();
         outcome
     }
 

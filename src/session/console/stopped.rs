@@ -29,6 +29,8 @@ pub(crate) struct Console {
     pub(super) inspected: Vec<Value>,
     /// The poll at which the next input is to be interrupted.
     pub(crate) interrupt_next: Option<u64>,
+    /// How the last input ended.
+    pub(crate) last_ending: String,
 }
 
 impl Console {

@@ -35,6 +35,12 @@ pub trait Converse: Repeat {
     /// A hash of the world's state.
     fn world_hash(&self) -> u64;
 
+    /// How the last input ended: a word, with the class of the condition that ended or stopped it.
+    fn last_ending(&self) -> &str;
+
+    /// Names and texts of the files that have been loaded since this was asked last.
+    fn take_loaded(&self) -> Vec<(Rc<str>, Rc<str>)>;
+
     /// Sets whether simulated time passes without waiting for real time, whatever its pace.
     fn set_hurried(&mut self, is_hurried: bool);
 

@@ -2,12 +2,17 @@
 //!
 //! Values are on lines of their own: if the program's output left the cursor in the middle
 //! of a line, that line is ended first.
+//!
+//! What is reported of conditions and names never drives a terminal. Output and values are the
+//! program's own: only a terminal shows their control characters instead of obeying them.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::ops::Range;
 
 use crate::dialogue::evaluate::{Abort, Event, Stop};
 use lisp::source::Location;
+use lisp::visible::visible;
 use view::picture::{Image, InlinePictures};
 
 /// Turns events into text.
@@ -26,6 +31,8 @@ pub struct Screen<W> {
     has_progress: bool,
     pictures: Option<InlinePictures>,
     is_colored: bool,
+    /// Whether control characters of output and values are shown.
+    is_cautious: bool,
 }
 
 impl<W: Write> Screen<W> {
@@ -42,6 +49,7 @@ impl<W: Write> Screen<W> {
             has_progress: false,
             pictures: None,
             is_colored: false,
+            is_cautious: false,
         }
     }
 
@@ -51,9 +59,16 @@ impl<W: Write> Screen<W> {
     }
 
     /// Sets whether it writes to a terminal: it then shows the progress of motions, and takes
-    /// into account that an interrupt leaves a `^C` there.
+    /// into account that an interrupt leaves a `^C` there. It is cautious, too.
     pub fn set_terminal(&mut self, is_terminal: bool) {
         self.is_terminal = is_terminal;
+        self.is_cautious = is_terminal;
+    }
+
+    /// Sets whether control characters of output and values are shown, so that they do not drive a
+    /// terminal.
+    pub fn set_cautious(&mut self, is_cautious: bool) {
+        self.is_cautious = is_cautious;
     }
 
     /// Sets whether the actions around a condition are shown.
@@ -87,7 +102,10 @@ impl<W: Write> Screen<W> {
         }
         self.end_progress()?;
         match event {
-            Event::Output(text) => self.write(text),
+            Event::Output(text) => {
+                let text = self.own(text);
+                self.write(&text)
+            }
             Event::Values(values) if self.echo => self.values(values),
             Event::Values(_) => Ok(()),
             Event::Picture(picture) => self.picture(picture),
@@ -105,7 +123,7 @@ impl<W: Write> Screen<W> {
             return Ok(());
         }
         self.has_progress = true;
-        write!(self.to, "\r\x1b[2K{line}")
+        write!(self.to, "\r\x1b[2K{}", visible(line))
     }
 
     fn end_progress(&mut self) -> io::Result<()> {
@@ -153,6 +171,19 @@ impl<W: Write> Screen<W> {
         self.write("\n")
     }
 
+    /// Writes a line of a report.
+    fn told_line(&mut self, text: &str) -> io::Result<()> {
+        self.line(&visible(text))
+    }
+
+    /// What belongs to the program itself, as it is to be written.
+    fn own<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        match self.is_cautious {
+            true => visible(text),
+            false => Cow::Borrowed(text),
+        }
+    }
+
     fn values(&mut self, values: &[String]) -> io::Result<()> {
         if values.is_empty() {
             return self.line("; No value");
@@ -178,8 +209,10 @@ impl<W: Write> Screen<W> {
     /// Writes lines in the colour of values.
     fn colored_line(&mut self, text: &str) -> io::Result<()> {
         if !self.is_colored {
-            return self.line(text);
+            let text = self.own(text);
+            return self.line(&text);
         }
+        let text = self.own(text);
         text.split('\n')
             .try_for_each(|line| self.line(&format!("{VALUE_COLOR}{line}{RESET}")))
     }
@@ -199,7 +232,7 @@ impl<W: Write> Screen<W> {
     }
 
     fn left(&mut self, condition: &str) -> io::Result<()> {
-        self.line(&format!("; Evaluation aborted on {condition}."))
+        self.told_line(&format!("; Evaluation aborted on {condition}."))
     }
 
     fn stopped(&mut self, stop: &Stop) -> io::Result<()> {
@@ -217,7 +250,7 @@ impl<W: Write> Screen<W> {
                     self.line(&folded(range, width, below))?;
                 }
             } else if !left_out.contains(&number) {
-                self.line(&format!(" {number:>width$}: {choice}"))?;
+                self.told_line(&format!(" {number:>width$}: {choice}"))?;
             } else if number == left_out.start {
                 let more = left_out.len();
                 self.line(&format!(" {:>width$}  and {more} more", "…"))?;
@@ -236,21 +269,21 @@ impl<W: Write> Screen<W> {
     fn report_of(&mut self, abort: &Abort, names_class: bool) -> io::Result<()> {
         let report = abort.report.trim_end();
         if !report.is_empty() {
-            self.line(report)?;
+            self.told_line(report)?;
         }
         if names_class && !abort.class.is_empty() {
-            self.line(&format!("   [Condition of type {}]", abort.class))?;
+            self.told_line(&format!("   [Condition of type {}]", abort.class))?;
         }
         if let Some(hint) = &abort.hint {
-            self.line(&format!("; {hint}"))?;
+            self.told_line(&format!("; {hint}"))?;
         }
         if let Some(place) = self.place(abort) {
-            self.line(&place)?;
+            self.told_line(&place)?;
         }
         if self.is_detailed {
             for action in abort.performing() {
                 for line in action.lines() {
-                    self.line(&format!("; {line}"))?;
+                    self.told_line(&format!("; {line}"))?;
                 }
             }
         }
@@ -368,6 +401,25 @@ mod tests {
             }),
             ..Abort::default()
         }))
+    }
+
+    #[test]
+    fn what_is_reported_does_not_drive_a_terminal() {
+        let Event::Aborted(mut abort) = aborted("\x1b]0;x\x07.plan") else {
+            panic!("it is aborted");
+        };
+        abort.report = "no \x1b[2J".to_owned();
+        abort.condition = "#<\x1b>".to_owned();
+        assert_eq!(
+            shown(&[Event::Aborted(abort)]),
+            "no ^[[2J\n; at ^[]0;x^G.plan:2:3\n; Evaluation aborted on #<^[>.\n"
+        );
+        let own = [output("\x1b[1ma\n"), values(&["\"\x1b\""])];
+        assert_eq!(shown(&own), "\x1b[1ma\n\"\x1b\"\n");
+        let mut screen = Screen::new(Vec::new());
+        screen.set_cautious(true);
+        own.iter().for_each(|event| screen.show(event).unwrap());
+        assert_eq!(screen.into_inner(), b"^[[1ma\n\"^[\"\n");
     }
 
     #[test]

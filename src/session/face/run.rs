@@ -1,6 +1,5 @@
 //! Evaluating texts, files and calls, with values as data.
 
-use std::io;
 use std::path::Path;
 
 use super::{Datum, Failure, Unhandled, from_value, into_value, names};
@@ -9,6 +8,7 @@ use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Event, Outcome};
 use crate::{Session, defect};
+use lisp::files::utf8;
 use lisp::reader::Reader;
 use lisp::value::Value;
 use lisp::value::known;
@@ -34,8 +34,8 @@ impl Within<'_> {
     pub fn run_file(&mut self, path: impl AsRef<Path>) -> Result<Vec<Datum>, Failure> {
         let path = path.as_ref();
         let name = path.to_string_lossy();
-        let bytes = self.session.options.outside.files.read(&name);
-        let text = bytes.and_then(|bytes| String::from_utf8(bytes).map_err(io::Error::other));
+        let bytes = self.session.options.outside.files.read_plan(&name);
+        let text = bytes.and_then(utf8);
         let text = text.map_err(|error| Failure::Unreadable {
             path: path.to_owned(),
             reason: error.to_string(),

@@ -13,6 +13,7 @@ use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
+use lisp::visible::visible;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -163,7 +164,7 @@ impl Simulation {
         let text = text.trim_end_matches('\n');
         image.output.fresh_line();
         let line = format!("[{tags} {level}] {:.3}: {text}\n", self.now());
-        image.output.write(&line);
+        image.output.write(&visible(&line));
     }
 }
 

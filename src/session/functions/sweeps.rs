@@ -6,7 +6,7 @@ use crate::host::SimulationHost;
 use crate::host::call::{done, edit, host};
 use crate::simulation::injection::{Fault, FaultKind};
 use crate::simulation::names::name_text;
-use crate::sweeping::{Known, Sweeping};
+use crate::sweeping::{Known, Stage, Sweeping, excuse_lack_of_memory};
 use closest_name::closest_name;
 use cram::{Handlers, Reply};
 use lisp::builtin::{Builtin, control, pure};
@@ -103,7 +103,7 @@ pub(super) static TABLE: &[Builtin] = &[
     pure(
         "%SWEEP-VARYING",
         "flag",
-        "Whether the values of a sweep's variables are being found: what fails then is a mistake in the sweep.",
+        "Whether the values of a sweep's variables, or its faults, are being found: what fails then is a mistake in the sweep.",
         &["(pw::%sweep-varying nil) => NIL"],
         varying,
     ),
@@ -169,9 +169,14 @@ pub(super) static TABLE: &[Builtin] = &[
 fn index(value: &Value) -> Result<u64> {
     match value {
         Value::Int(number) => u64::try_from(*number).ok(),
+        Value::Big(number) => u64::try_from(&**number).ok(),
         _ => None,
     }
-    .ok_or_else(|| Raise::simple("A seed or the number of a world is an integer from 0 on."))
+    .ok_or_else(|| {
+        Raise::simple(
+            "A seed or the number of a world is an integer from 0 to 18446744073709551615.",
+        )
+    })
 }
 
 fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -187,6 +192,7 @@ fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result
 
 fn run_begins(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Reply> {
     Handlers::of(image).reset();
+    Sweeping::of(image).enter(Stage::Running);
     host.simulation.begin_tally();
     done(Value::NIL)
 }
@@ -321,7 +327,8 @@ fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
 
 fn varying(image: &mut Image, args: &[Value]) -> Result<Value> {
     let flag = args.first().is_some_and(Value::is_true);
-    Sweeping::of(image).set_varying(flag);
+    let stage = if flag { Stage::Varying } else { Stage::SetUp };
+    Sweeping::of(image).enter(stage);
     Ok(Value::NIL)
 }
 
@@ -454,6 +461,7 @@ fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
         }
     }
     simulation.complete(&mut record);
+    excuse_lack_of_memory(image, &mut record);
     let line = record.line();
     state.keep(record);
     done(Value::string(line))

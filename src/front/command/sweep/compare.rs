@@ -3,9 +3,11 @@
 use std::io::{self, Write};
 
 use super::interrupt;
+use super::kept::Kept;
 use super::pool;
 use super::progress::Progress;
 use super::worlds::Worlds;
+use lisp::visible::visible;
 use sweep::Record;
 use sweep::paired::{Comparison, Decision, error_at_look, is_decided};
 use sweep::summary::{CONFIDENCE, Summary, Title};
@@ -35,12 +37,12 @@ pub(super) fn compare(
 ) -> Compared {
     let [(first, ..), (second, ..)] = &plans;
     let mut progress = Progress::new(&plans[1].2, count);
-    let numbers: Vec<u64> = (0..count).collect();
+    let mut kept = Kept::default();
     let mut only = [0, 0];
     let mut decision = until_decided.then_some(Decision::Open);
     let records = pool::in_order(
         threads,
-        &numbers,
+        0..count,
         || {
             let (mut first, mut second) = (first.runner(), second.runner());
             move |world| [first(world), second(world)]
@@ -56,10 +58,13 @@ pub(super) fn compare(
                 *decision = Decision::At { error };
             }
             let is_open = !matches!(decision, Some(Decision::At { .. }));
-            progress.record(b) && is_open && !interrupt::has_come()
+            progress.record(b);
+            let has_room = kept.keep(a) && kept.keep(b);
+            has_room && is_open && !interrupt::has_come()
         },
     );
     progress.end();
+    kept.tell_if_full();
     let pairs = records.into_iter().map(|[a, b]| (a, b));
     let (a, b): (Vec<Record>, Vec<Record>) = pairs.unzip();
     let mut records = [a, b].into_iter();
@@ -83,16 +88,19 @@ impl Compared {
     /// Tells what both did, and which one is better.
     pub(super) fn tell(&self) -> io::Result<()> {
         let mut out = io::BufWriter::new(io::stdout());
+        let mut text = String::new();
         for side in &self.sides {
-            write!(out, "{}", Summary::new(&side.title, &side.records))?;
+            text.push_str(&Summary::new(&side.title, &side.records).to_string());
         }
         let [a, b] = &self.sides;
         let names = [a.file.clone(), b.file.clone()];
         let comparison = Comparison::new(names, &a.records, &b.records);
-        write!(out, "{comparison}")?;
+        text.push_str(&comparison.to_string());
         if let Some(decision) = self.decision {
-            writeln!(out, "{}", comparison.verdict(decision))?;
+            text.push_str(&comparison.verdict(decision));
+            text.push('\n');
         }
+        out.write_all(visible(&text).as_bytes())?;
         out.flush()
     }
 }

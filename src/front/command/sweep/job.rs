@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use super::file::SweepFile;
 use crate::command::failure::CommandError;
+use crate::command::options::seconds;
+use lisp::files::text_of;
 use sweep::Record;
 use sweep::draw::fnv1a;
 use sweep::summary::Title;
@@ -46,11 +48,46 @@ pub(super) struct Job {
     pub(super) plan: Plan,
 }
 
+/// Why the records of a shard are not to be had.
+#[derive(Debug, PartialEq)]
+pub(super) enum Lack {
+    /// Nobody has written them.
+    Missing,
+    /// Its file is not what was written, for this reason.
+    Damaged(String),
+}
+
+/// The most shards that a sweep is divided into: each is a file that is looked for.
+const MAX_SHARDS: u64 = 1_000_000;
+/// How many worlds a shard has, unless somebody says otherwise.
+const WORLDS_OF_SHARD: u64 = 20;
+
 /// The last line of a shard.
 #[derive(Serialize, Deserialize)]
 struct End {
     count: u64,
     hash: String,
+}
+
+impl Plan {
+    /// What is wrong with it, if anything is.
+    fn mistake(&self) -> Option<String> {
+        let (worlds, shards) = (self.worlds, self.shards);
+        if worlds == 0 {
+            return Some("it has no worlds".to_owned());
+        }
+        if !(1..=worlds.min(MAX_SHARDS)).contains(&shards) {
+            return Some(format!(
+                "{worlds} worlds cannot be divided into {shards} shards: 1 to {} were expected",
+                worlds.min(MAX_SHARDS)
+            ));
+        }
+        if self.goal.is_some_and(|goal| !(0.0..=1.0).contains(&goal)) {
+            return Some("its goal is no share of the worlds: 0 to 1 was expected".to_owned());
+        }
+        let limit = self.time_limit.map(|limit| seconds(&limit.to_string()));
+        limit?.err().map(|error| format!("its time limit: {error}"))
+    }
 }
 
 impl Job {
@@ -72,12 +109,16 @@ impl Job {
             name: title.name.clone(),
             seed: title.seed,
             worlds,
-            shards: shards
-                .unwrap_or_else(|| worlds.div_ceil(20))
-                .clamp(1, worlds),
+            shards: match shards {
+                Some(shards) => shards.min(worlds),
+                None => worlds.div_ceil(WORLDS_OF_SHARD).min(MAX_SHARDS),
+            },
             goal: title.goal,
             time_limit,
         };
+        if let Some(mistake) = plan.mistake() {
+            return Err(CommandError::Sweep(mistake));
+        }
         // Workers run elsewhere.
         let folder = std::path::absolute(folder).map_err(|error| written(folder, error))?;
         fs::create_dir_all(folder.join("log")).map_err(|error| written(&folder, error))?;
@@ -108,13 +149,17 @@ impl Job {
     pub(super) fn open(folder: &Path) -> Result<Self, CommandError> {
         let folder = std::path::absolute(folder).map_err(|error| written(folder, error))?;
         let path = folder.join("sweep.json");
-        let text = fs::read_to_string(&path).map_err(|error| CommandError::Read {
+        let text = text_of(&path).map_err(|error| CommandError::Read {
             path: path.clone(),
             error,
         })?;
-        let plan: Plan = serde_json::from_str(&text).map_err(|error| {
-            CommandError::Sweep(format!("{} describes no sweep: {error}", path.display()))
-        })?;
+        let wrong = |what: String| {
+            CommandError::Sweep(format!("{} describes no sweep: {what}", path.display()))
+        };
+        let plan: Plan = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+        if let Some(mistake) = plan.mistake() {
+            return Err(wrong(mistake));
+        }
         Ok(Self { folder, plan })
     }
 
@@ -150,10 +195,20 @@ impl Job {
     }
 
     /// The worlds of a shard.
-    pub(super) fn worlds_of(&self, shard: u64) -> Vec<u64> {
+    pub(super) fn worlds_of(&self, shard: u64) -> impl Iterator<Item = u64> + Send + use<> {
         let all = shard..self.plan.worlds;
         all.step_by(usize::try_from(self.plan.shards).unwrap_or(usize::MAX))
-            .collect()
+    }
+
+    /// How many worlds a shard has.
+    pub(super) fn count_of(&self, shard: u64) -> u64 {
+        let from_there = self.plan.worlds.saturating_sub(shard);
+        from_there.div_ceil(self.plan.shards)
+    }
+
+    /// Whether records are those of all worlds of a shard.
+    pub(super) fn is_all_of(&self, shard: u64, records: &[Record]) -> bool {
+        records.len() as u64 == self.count_of(shard)
     }
 
     fn path_of(&self, shard: u64) -> PathBuf {
@@ -170,7 +225,7 @@ impl Job {
         let end = serde_json::to_string(&end).unwrap_or_default();
         let written = write_whole(&self.path_of(shard), format!("{text}{end}\n").as_bytes());
         // Somebody else may have done it meanwhile, and tidied up.
-        written.or_else(|error| self.read(shard).map(drop).ok_or(error))
+        written.or_else(|error| self.read(shard).map(drop).map_err(|_| error))
     }
 
     /// Removes what those have left who were killed while they wrote a file that is there now.
@@ -184,7 +239,7 @@ impl Job {
             let shard = whole.strip_prefix("shard-");
             let shard = shard.and_then(|rest| rest.strip_suffix(".jsonl")?.parse().ok());
             let is_there = match shard {
-                Some(shard) => self.read(shard).is_some(),
+                Some(shard) => self.has(shard),
                 None => self.folder.join(whole).exists(),
             };
             if is_there && !is_ours {
@@ -194,38 +249,66 @@ impl Job {
         }
     }
 
-    /// The records of a shard; `None` if it is not there, or not whole.
-    pub(super) fn read(&self, shard: u64) -> Option<Vec<Record>> {
-        let text = fs::read_to_string(self.path_of(shard)).ok()?;
-        let body = text.strip_suffix('\n')?;
+    /// The records of a shard.
+    pub(super) fn read(&self, shard: u64) -> Result<Vec<Record>, Lack> {
+        let damaged = |why: &str| Lack::Damaged(why.to_owned());
+        let text = fs::read_to_string(self.path_of(shard));
+        let text = text.map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => Lack::Missing,
+            io::ErrorKind::InvalidData => damaged("it is not UTF-8"),
+            _ => Lack::Damaged(error.to_string()),
+        })?;
+        let cut_off = || damaged("it is cut off: no count and checksum at its end");
+        let body = text.strip_suffix('\n').ok_or_else(cut_off)?;
         let at = body.rfind('\n').map_or(0, |at| at + 1);
         let (text, end) = body.split_at(at);
-        let end: End = serde_json::from_str(end).ok()?;
+        let end: End = serde_json::from_str(end).map_err(|_| cut_off())?;
         if end.hash != checksum(text) {
-            return None;
+            return Err(damaged("its checksum is not that of its records"));
         }
-        let records: Option<Vec<Record>> = text
+        let records: Result<Vec<Record>, Lack> = text
             .lines()
-            .map(|line| serde_json::from_str(line).ok())
+            .zip(1..)
+            .map(|(line, number)| {
+                let read = serde_json::from_str(line);
+                read.map_err(|error| Lack::Damaged(format!("line {number}: {error}")))
+            })
             .collect();
-        let worlds = self.worlds_of(shard);
-        records.filter(|records| {
-            end.count == records.len() as u64
-                && records.iter().map(|record| record.world).eq(worlds)
-        })
+        let records = records?;
+        let worlds = records.iter().map(|record| record.world);
+        match end.count == records.len() as u64 && worlds.eq(self.worlds_of(shard)) {
+            true => Ok(records),
+            false => Err(damaged("it does not have the worlds of this shard")),
+        }
     }
 
-    /// The shards that are missing.
+    /// Whether the records of a shard are there.
+    pub(super) fn has(&self, shard: u64) -> bool {
+        self.read(shard).is_ok()
+    }
+
+    /// The shards that are missing, damaged ones among them.
     pub(super) fn missing(&self) -> Vec<u64> {
         let shards = 0..self.plan.shards;
-        shards.filter(|shard| self.read(*shard).is_none()).collect()
+        shards.filter(|shard| !self.has(*shard)).collect()
+    }
+
+    /// A line for each shard whose file is damaged: its name, and why.
+    pub(super) fn damaged(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        for shard in 0..self.plan.shards {
+            if let Err(Lack::Damaged(why)) = self.read(shard) {
+                lines.push(format!("damaged: shard-{shard}.jsonl: {why}"));
+            }
+        }
+        lines
     }
 
     /// All records that there are, in the order of the worlds.
     pub(super) fn records(&self) -> Vec<Record> {
         let shards = 0..self.plan.shards;
         let mut records: Vec<Record> = shards
-            .filter_map(|shard| self.read(shard))
+            .filter_map(|shard| self.read(shard).ok())
             .flatten()
             .collect();
         records.sort_by_key(|record| record.world);

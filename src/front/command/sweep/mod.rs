@@ -6,6 +6,7 @@ mod file;
 mod heat_map;
 mod interrupt;
 mod job;
+mod kept;
 mod options;
 mod pool;
 mod progress;
@@ -26,6 +27,8 @@ use compare::compare;
 use file::SweepFile;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
+use kept::Kept;
+use lisp::visible::visible;
 pub(crate) use options::SweepOptions;
 use progress::Progress;
 use session::sweeping::Known;
@@ -48,10 +51,13 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
         return status(&Job::open(folder)?);
     }
     if let Some(folder) = &wanted.report {
-        return report_job(&Job::open(folder)?, wanted);
+        let job = Job::open(folder)?;
+        tell_damage(&job)?;
+        return report_job(&job, wanted, None);
     }
     if let Some(folder) = &wanted.resume {
         let job = Job::open(folder)?;
+        tell_damage(&job)?;
         if let Some(engine) = wanted.engine {
             return submit(engine, &job, threads, wanted);
         }
@@ -59,7 +65,7 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
         // Whether this is the same program is checked before anything is begun.
         job.file()?;
         worker::apart(&job, threads)?;
-        return report_job(&job, wanted);
+        return report_job(&job, wanted, None);
     }
     match (&wanted.file, &wanted.into) {
         (Some(path), into) => {
@@ -130,22 +136,20 @@ fn in_memory(
         let compared = compare(plans, count, threads, wanted.until_decided);
         compared.tell()?;
         let [first, second] = &compared.sides;
-        if let Some(folder) = &wanted.record_failures {
-            record_failures(&worlds, &first.records, folder, wanted.most)?;
-        }
-        write_reports(wanted, &first.title, &first.records)?;
+        write_all(wanted, &first.title, &first.records, Some(&worlds))?;
         let summary = Summary::new(&second.title, &second.records);
-        return Ok(ending(&summary, compared.wanted(count)));
+        let defects = Summary::new(&first.title, &first.records).defects();
+        return Ok(match ending(&summary, compared.wanted(count)) {
+            Status::Good | Status::Bad if defects > 0 => Status::Defective,
+            status => status,
+        });
     }
     let records = sound(run(&worlds, &title, count, threads, wanted.until_width))?;
-    if let Some(folder) = &wanted.record_failures {
-        record_failures(&worlds, &records, folder, wanted.most)?;
-    }
     let count = match wanted.until_width {
         Some(_) if !interrupt::has_come() => records.len() as u64,
         _ => count,
     };
-    report(wanted, &title, &records, count)
+    report(wanted, &title, &records, count, Some(&worlds))
 }
 
 /// Runs worlds until all are done, an interrupt comes, or the interval of the rate is narrow enough.
@@ -157,11 +161,11 @@ fn run(
     width: Option<f64>,
 ) -> Vec<Record> {
     let mut progress = Progress::new(title, count);
-    let numbers: Vec<u64> = (0..count).collect();
+    let mut kept = Kept::default();
     let (mut tried, mut worked) = (0, 0);
     let records = pool::in_order(
         threads,
-        &numbers,
+        0..count,
         || worlds.runner(),
         |record| {
             tried += usize::from(record.outcome.counts());
@@ -171,10 +175,12 @@ fn run(
                 .zip(error)
                 .is_some_and(|(width, error)| is_narrow(worked, tried, error, width));
             let is_sound = record.outcome != Ending::Mistake;
-            progress.record(record) && is_sound && !is_enough && !interrupt::has_come()
+            progress.record(record);
+            kept.keep(record) && is_sound && !is_enough && !interrupt::has_come()
         },
     );
     progress.end();
+    kept.tell_if_full();
     records
 }
 
@@ -214,11 +220,9 @@ fn into_folder(
         return submit(engine, &job, threads, wanted);
     }
     interrupt::expect();
+    tell_damage(&job)?;
     worker::all(&job, &worlds, threads)?;
-    if let Some(folder) = &wanted.record_failures {
-        record_failures(&worlds, &job.records(), folder, wanted.most)?;
-    }
-    report_job(&job, wanted)
+    report_job(&job, wanted, Some(&worlds))
 }
 
 /// Does a shard of the sweep that is in the folder.
@@ -247,7 +251,7 @@ fn work(
             shard
         }
         None => worker::index_of_engine()
-            .map(|index| index + wanted.shard_offset)
+            .and_then(|index| index.checked_add(wanted.shard_offset))
             .ok_or_else(|| {
                 CommandError::Sweep(format!(
                     "which shard? --shard I/{} says, or an engine; --resume {} does all that are \
@@ -290,7 +294,7 @@ fn status(job: &Job) -> Result<Status, CommandError> {
     writeln!(
         out,
         "{}: {} of {shards} shards are there, {} worlds of {}",
-        job.plan.name,
+        visible(&job.plan.name),
         shards - missing.len() as u64,
         job.records().len(),
         job.plan.worlds
@@ -298,29 +302,47 @@ fn status(job: &Job) -> Result<Status, CommandError> {
     if missing.is_empty() {
         return Ok(Status::Good);
     }
+    for line in job.damaged() {
+        writeln!(out, "{}", visible(&line))?;
+    }
     writeln!(out, "missing: {}", engine::ranges(&missing))?;
     Ok(Status::Incomplete)
 }
 
+/// Tells on standard error which shards are damaged; they count as missing.
+fn tell_damage(job: &Job) -> io::Result<()> {
+    for line in job.damaged() {
+        writeln!(io::stderr(), "{}", visible(&line))?;
+    }
+    Ok(())
+}
+
 /// Merges what is there and tells what it says.
-fn report_job(job: &Job, wanted: &SweepOptions) -> Result<Status, CommandError> {
+fn report_job(
+    job: &Job,
+    wanted: &SweepOptions,
+    worlds: Option<&Worlds>,
+) -> Result<Status, CommandError> {
     let records = job.merge()?;
-    report(wanted, &job.title(), &records, job.plan.worlds)
+    report(wanted, &job.title(), &records, job.plan.worlds, worlds)
 }
 
 /// Tells what the records say, and writes what is asked for; `count` is how many there should be.
+/// Failures are recorded in `worlds`.
 fn report(
     wanted: &SweepOptions,
     title: &Title,
     records: &[Record],
     count: u64,
+    worlds: Option<&Worlds>,
 ) -> Result<Status, CommandError> {
     let summary = Summary::new(title, records);
     let mut out = io::BufWriter::new(io::stdout());
     if wanted.json {
         write!(out, "{}", lines(records))?;
     } else {
-        write!(out, "{summary}{}", Influence::of(records))?;
+        let text = format!("{summary}{}", Influence::of(records));
+        out.write_all(visible(&text).as_bytes())?;
         if (records.len() as u64) < count {
             writeln!(
                 out,
@@ -330,7 +352,7 @@ fn report(
         }
     }
     out.flush()?;
-    write_reports(wanted, title, records)?;
+    write_all(wanted, title, records, worlds)?;
     Ok(ending(&summary, count))
 }
 
@@ -338,26 +360,43 @@ fn ending(summary: &Summary<'_>, count: u64) -> Status {
     if summary.count() < count {
         return Status::Incomplete;
     }
+    if summary.defects() > 0 {
+        return Status::Defective;
+    }
     match summary.meets_goal() {
         true => Status::Good,
         false => Status::Bad,
     }
 }
 
-fn write_reports(
+/// Writes all that is asked for. What cannot be written is told at the end.
+fn write_all(
     wanted: &SweepOptions,
     title: &Title,
     records: &[Record],
+    worlds: Option<&Worlds>,
 ) -> Result<(), CommandError> {
-    if let Some(path) = &wanted.csv {
-        write_whole(path, sweep_report::csv(records).as_bytes())?;
+    let mut unwritten = Vec::new();
+    let mut write = |path: &Option<PathBuf>, text: &dyn Fn() -> String| {
+        let written = path
+            .as_ref()
+            .map(|path| write_whole(path, text().as_bytes()));
+        unwritten.extend(written.and_then(Result::err));
+    };
+    write(&wanted.csv, &|| sweep_report::csv(records));
+    write(&wanted.junit, &|| sweep_report::junit(title, records));
+    write(&wanted.html, &|| sweep_report::html(title, records));
+    unwritten.extend(write_heat_map(wanted, records).err());
+    if let (Some(folder), Some(worlds)) = (&wanted.record_failures, worlds) {
+        unwritten.extend(record_failures(worlds, records, folder, wanted.most).err());
     }
-    if let Some(path) = &wanted.junit {
-        write_whole(path, sweep_report::junit(title, records).as_bytes())?;
+    match unwritten.len() {
+        0 => Ok(()),
+        _ => Err(CommandError::Unwritten(unwritten)),
     }
-    if let Some(path) = &wanted.html {
-        write_whole(path, sweep_report::html(title, records).as_bytes())?;
-    }
+}
+
+fn write_heat_map(wanted: &SweepOptions, records: &[Record]) -> Result<(), CommandError> {
     let Some(HeatMap { axes, path }) = &wanted.heat_map else {
         return Ok(());
     };
@@ -381,12 +420,24 @@ fn record_failures(
         path: folder.to_owned(),
         error,
     })?;
+    let is_failure = |r: &&Record| r.outcome.counts() && !r.is_success();
     let failed = records
         .iter()
-        .filter(|r| r.outcome.counts() && !r.is_success());
-    for record in failed.take(most) {
-        let path: PathBuf = folder.join(format!("world-{}.mcap", record.world));
-        worlds.run_recorded(record.world, &path)?;
+        .filter(is_failure)
+        .map(|r| r.world)
+        .take(most);
+    let failed: Vec<u64> = failed.collect();
+    for (at, world) in failed.iter().enumerate() {
+        let path: PathBuf = folder.join(format!("world-{world}.mcap"));
+        worlds.run_recorded(*world, &path).map_err(|error| {
+            let numbers: Vec<String> = failed.iter().skip(at).map(u64::to_string).collect();
+            CommandError::Sweep(format!(
+                "{error} [not recorded: {} of {} worlds that failed: {}]",
+                numbers.len(),
+                failed.len(),
+                numbers.join(" ")
+            ))
+        })?;
     }
     Ok(())
 }

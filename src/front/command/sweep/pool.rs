@@ -1,32 +1,40 @@
 //! Work on several threads, whose results come in the order of the work.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
 use crate::command::stack::THREAD_STACK;
 
 /// Does the work on several threads, each with a function of its own that `worker` makes. `tell` gets
 /// every result, in the order of the work, as soon as it and all before it are known; if it returns
-/// false, no more work is begun. Returns all results up to the first that is missing.
-pub(super) fn in_order<W: Sync, R: Send, F: FnMut(&W) -> R>(
+/// false, no more work is begun. Returns all results up to the first that is missing. Nothing is kept
+/// of work that has not begun, of which there may be any amount.
+pub(super) fn in_order<W, I, R: Send, F: FnMut(W) -> R>(
     threads: usize,
-    work: &[W],
+    work: I,
     worker: impl Fn() -> F + Sync,
     mut tell: impl FnMut(&R) -> bool,
-) -> Vec<R> {
-    let next = AtomicUsize::new(0);
-    let mut done = Vec::with_capacity(work.len());
+) -> Vec<R>
+where
+    I: IntoIterator<Item = W>,
+    I::IntoIter: Send,
+{
+    let work = work.into_iter();
+    let at_most = work.size_hint().1.unwrap_or(threads);
+    let left = Mutex::new(Some(work.enumerate()));
+    // Nothing panics while it takes work.
+    let left = || left.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut done = Vec::new();
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
-        for _ in 0..threads.min(work.len()) {
-            let (sender, next, worker) = (sender.clone(), &next, &worker);
+        for _ in 0..threads.min(at_most) {
+            let (sender, left, worker) = (sender.clone(), &left, &worker);
             let works = move || {
                 let mut run = worker();
                 loop {
-                    let at = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(work) = work.get(at) else {
+                    let next = left().as_mut().and_then(Iterator::next);
+                    let Some((at, work)) = next else {
                         return;
                     };
                     if sender.send((at, run(work))).is_err() {
@@ -48,7 +56,7 @@ pub(super) fn in_order<W: Sync, R: Send, F: FnMut(&W) -> R>(
                 let goes_on = tell(&result);
                 done.push(result);
                 if !goes_on {
-                    next.store(work.len(), Ordering::Relaxed);
+                    *left() = None;
                     return;
                 }
             }
@@ -63,16 +71,15 @@ mod tests {
 
     #[test]
     fn results_come_in_order_on_any_number_of_threads() {
-        let work: Vec<u64> = (0..100).collect();
         for threads in [1, 2, 7] {
             let mut told = Vec::new();
             let slow = || {
-                |n: &u64| {
+                |n: u64| {
                     thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
                     n * n
                 }
             };
-            let done = in_order(threads, &work, slow, |square| {
+            let done = in_order(threads, 0..1_000_000_000_000, slow, |square| {
                 told.push(*square);
                 told.len() < 60
             });

@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal, Write};
 use std::time::Instant;
 
+use lisp::visible::visible;
 use sweep::Record;
 use sweep::summary::Title;
 
@@ -23,7 +24,7 @@ pub(super) struct Progress {
 impl Progress {
     pub(super) fn new(title: &Title, count: u64) -> Self {
         Self {
-            name: title.name.clone(),
+            name: visible(&title.name).into_owned(),
             count,
             begun: Instant::now(),
             done: 0,
@@ -33,9 +34,11 @@ impl Progress {
         }
     }
 
-    /// One more world is done. Returns whether to go on.
-    pub(super) fn record(&mut self, record: &Record) -> bool {
-        let tenth = |done: u64| done * 10 / self.count.max(1);
+    /// One more world is done.
+    pub(super) fn record(&mut self, record: &Record) {
+        let share =
+            |done: u64, of: u64| u128::from(done) * u128::from(of) / u128::from(self.count.max(1));
+        let tenth = |done: u64| share(done, 10);
         let before = tenth(self.done);
         self.done += 1;
         self.tried += u64::from(record.outcome.counts());
@@ -43,19 +46,18 @@ impl Progress {
         let is_new = tenth(self.done) > before;
         // If standard error is closed, nobody wants to know.
         if self.is_terminal {
-            let filled = (self.done * WIDTH / self.count.max(1)) as usize;
+            let filled = share(self.done, WIDTH) as usize;
             let bar = "█".repeat(filled) + &"░".repeat(WIDTH as usize - filled);
             let _ = write!(io::stderr(), "\r{bar} {}\x1b[K", self.text());
         } else if is_new && self.count >= 10 {
             let _ = writeln!(io::stderr(), "{}: {}", self.name, self.text());
         }
-        true
     }
 
     fn text(&self) -> String {
         let rate = 100.0 * self.worked as f64 / self.tried.max(1) as f64;
         let passed = self.begun.elapsed().as_secs_f64();
-        let left = passed / self.done as f64 * (self.count - self.done) as f64;
+        let left = passed / self.done as f64 * self.count.saturating_sub(self.done) as f64;
         let (done, count) = (self.done, self.count);
         format!("{done}/{count} worlds, {rate:.1} % successful, {left:.0} s left")
     }

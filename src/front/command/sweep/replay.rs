@@ -1,6 +1,6 @@
 //! One world of a sweep, at the prompt or run to its end.
 
-use std::io;
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use super::file::SweepFile;
@@ -42,6 +42,7 @@ pub(super) fn replay(
     }
     let mut session = open_session(&options)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
+    screen.set_cautious(io::stdout().is_terminal());
     for (place, text) in [(file.name.as_str(), &file.text), ("sweep", &set_up)] {
         let (outcome, _) = evaluate_keeping_abort(&mut screen, &mut session, place, text)?;
         if outcome != Outcome::Finished {
@@ -64,7 +65,7 @@ pub(super) fn replay(
                 remarks: vec![UNKEPT.to_owned()],
                 ..Opened::default()
             },
-            inputs_before: 0,
+            ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))

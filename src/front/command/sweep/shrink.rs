@@ -7,7 +7,7 @@ use super::pool;
 use super::worlds::{Sessions, Worlds};
 use crate::command::failure::CommandError;
 use sweep::pairs::Pairs;
-use sweep::{Drawn, Record};
+use sweep::{Drawn, Ending, Record};
 
 /// Maximum number of worlds that are tried.
 const MAX_RUNS: usize = 300;
@@ -35,7 +35,9 @@ pub(super) fn shrink(
     let Some(first) = tried(worlds, number, threads, &[Vec::new()]).pop() else {
         return Ok(());
     };
-    if first.record.is_success() || !first.record.outcome.counts() {
+    if first.record.is_success()
+        || matches!(first.record.outcome, Ending::Invalid | Ending::Mistake)
+    {
         return Err(CommandError::Sweep(format!(
             "world {number} does not fail: its outcome is {}",
             first.record.outcome

@@ -6,6 +6,7 @@ use std::thread;
 
 use super::interrupt;
 use super::job::Job;
+use super::kept::Kept;
 use super::pool;
 use super::progress::Progress;
 use super::worlds::{Worlds, sound};
@@ -49,18 +50,21 @@ pub(super) fn shard(
             job.plan.shards - 1
         )));
     }
-    if job.read(shard).is_some() {
+    if job.has(shard) {
         return Ok(Status::Good);
     }
     let worlds = open(options, job)?;
-    let numbers = job.worlds_of(shard);
-    let is_sound = |record: &Record| record.outcome != Ending::Mistake;
+    let mut kept = Kept::default();
     let records = sound(pool::in_order(
         threads,
-        &numbers,
+        job.worlds_of(shard),
         || worlds.runner(),
-        is_sound,
+        |record| kept.keep(record) && record.outcome != Ending::Mistake,
     ))?;
+    kept.tell_if_full();
+    if !job.is_all_of(shard, &records) {
+        return Ok(Status::Incomplete);
+    }
     job.write(shard, &records)?;
     job.tidy();
     Ok(Status::Good)
@@ -78,9 +82,8 @@ fn open(options: &Options, job: &Job) -> Result<Worlds, CommandError> {
 /// The shards that are missing, and the progress of their worlds.
 fn missing(job: &Job) -> (Vec<u64>, Progress) {
     let missing = job.missing();
-    let worlds = missing.iter().map(|shard| job.worlds_of(*shard).len());
-    let count: usize = worlds.sum();
-    let progress = Progress::new(&job.title(), count as u64);
+    let count = missing.iter().map(|shard| job.count_of(*shard)).sum();
+    let progress = Progress::new(&job.title(), count);
     (missing, progress)
 }
 
@@ -89,18 +92,20 @@ fn missing(job: &Job) -> (Vec<u64>, Progress) {
 pub(super) fn all(job: &Job, worlds: &Worlds, threads: usize) -> Result<(), CommandError> {
     let (missing, mut progress) = missing(job);
     for shard in missing {
-        let numbers = job.worlds_of(shard);
+        let mut kept = Kept::default();
         let records = pool::in_order(
             threads,
-            &numbers,
+            job.worlds_of(shard),
             || worlds.runner(),
             |record| {
+                progress.record(record);
                 let is_sound = record.outcome != Ending::Mistake;
-                progress.record(record) && is_sound && !interrupt::has_come()
+                kept.keep(record) && is_sound && !interrupt::has_come()
             },
         );
         let records = sound(records)?;
-        if records.len() < numbers.len() {
+        if !job.is_all_of(shard, &records) {
+            kept.tell_if_full();
             break;
         }
         job.write(shard, &records)?;
@@ -115,10 +120,10 @@ pub(super) fn apart(job: &Job, threads: usize) -> Result<(), CommandError> {
     let (missing, mut progress) = missing(job);
     for shard in missing {
         let mut tries = 0;
-        while job.read(shard).is_none() && tries < TRIES && !interrupt::has_come() {
+        while !job.has(shard) && tries < TRIES && !interrupt::has_come() {
             let index = format!("{shard}/{}", job.plan.shards);
             let output = child(job, threads, &["--shard", &index])?;
-            if output.status.code() == Some(2) {
+            if matches!(output.status.code(), Some(2 | 3)) {
                 let text = String::from_utf8_lossy(&output.stderr);
                 return Err(CommandError::Sweep(
                     text.trim_start_matches("error: ").trim_end().to_owned(),
@@ -129,7 +134,7 @@ pub(super) fn apart(job: &Job, threads: usize) -> Result<(), CommandError> {
         if interrupt::has_come() {
             break;
         }
-        if job.read(shard).is_none() {
+        if !job.has(shard) {
             one_by_one(job, shard)?;
         }
         for record in job.read(shard).unwrap_or_default() {
@@ -175,8 +180,7 @@ fn child(
 /// Runs one world and prints its record.
 pub(super) fn one_world(options: &Options, job: &Job, world: u64) -> Result<Record, CommandError> {
     let worlds = open(options, job)?;
-    let numbers = [world];
-    let mut records = pool::in_order(1, &numbers, || worlds.runner(), |_| true);
+    let mut records = pool::in_order(1, [world], || worlds.runner(), |_| true);
     let record = records.pop();
     record.ok_or_else(|| CommandError::Sweep("the machine has no threads left".to_owned()))
 }

@@ -1,6 +1,6 @@
 //! The worlds of a sweep, each in a session of its own.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -23,6 +23,8 @@ pub(super) struct Worlds {
     name: String,
     seed: u64,
     options: SessionOptions,
+    /// Files that set each up, before the one with the sweep.
+    setup: Vec<PathBuf>,
     /// Real time that each may take.
     time_limit: Option<Duration>,
     /// Shared by all sessions.
@@ -59,6 +61,7 @@ impl Worlds {
             name: known.name.clone(),
             seed: options.seed,
             options: session.options().clone(),
+            setup: options.setup.clone(),
             time_limit: None,
             models: Arc::clone(session.models()),
         };
@@ -72,9 +75,9 @@ impl Worlds {
     }
 
     /// A function that runs worlds, in the thread that asks for it.
-    pub(super) fn runner(&self) -> impl FnMut(&u64) -> Record {
+    pub(super) fn runner(&self) -> impl FnMut(u64) -> Record {
         let mut sessions = Sessions::of(self);
-        move |world| sessions.run(*world, &[]).0
+        move |world| sessions.run(world, &[]).0
     }
 
     /// A session in which the file has been loaded.
@@ -83,6 +86,11 @@ impl Worlds {
         let models = Arc::clone(&self.models);
         let mut session =
             Session::with_models(&self.options, models).map_err(|error| error.to_string())?;
+        for file in &self.setup {
+            let set_up = session.run_file(file);
+            set_up.map_err(|failure| format!("{}: {failure}", file.display()))?;
+        }
+        session.end_set_up();
         match self.file.load(&mut session) {
             Some(abort) => Err(abort.report),
             None => Ok(session),
@@ -165,7 +173,7 @@ impl<'a> Sessions<'a> {
 pub(super) fn sound(records: Vec<Record>) -> Result<Vec<Record>, CommandError> {
     match records.iter().find(|r| r.outcome == Ending::Mistake) {
         Some(record) => Err(CommandError::Sweep(format!(
-            "{} [in the vary of the sweep, world {}]",
+            "{} [in what the sweep varies or injects, world {}]",
             record.cause.clone().unwrap_or_default(),
             record.world
         ))),

@@ -56,10 +56,9 @@ pub(super) enum Received {
     Command(Vec<u8>),
 }
 
-/// Reads a message or a command.
-pub(super) fn read(from: &mut impl Read) -> io::Result<Received> {
+/// Reads a message of at most `room` bytes, or a command.
+pub(super) fn read(from: &mut impl Read, mut room: u64) -> io::Result<Received> {
     let mut frames = Vec::new();
-    let mut room = MAX_BYTES;
     loop {
         let frame = read_frame(from, room)?;
         if frame.is_command {
@@ -123,7 +122,7 @@ mod tests {
     use super::*;
 
     fn frames(mut from: &[u8]) -> io::Result<Vec<Vec<u8>>> {
-        match read(&mut from)? {
+        match read(&mut from, MAX_BYTES)? {
             Received::Message(frames) => Ok(frames),
             Received::Command(_) => Err(malformed("a command")),
         }

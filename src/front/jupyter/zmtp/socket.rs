@@ -8,12 +8,19 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::frame::{Received, encoded, encoded_command, read};
+use super::frame::{MAX_BYTES, Received, encoded, encoded_command, read};
 use super::handshake::greet;
 use super::outbox::Outbox;
+use view::watch::live::{Door, Guest, Stranger};
 
-/// Maximum number of peers; who comes when there are so many is turned away.
+/// Maximum number of peers.
 const MAX_PEERS: usize = 64;
+/// Maximum number of connections that are no peers yet: to a socket for requests, those that have not sent
+/// a message with the right signature; to others, those that have sent nothing. They cannot keep peers out:
+/// the one that has been silent longest makes room.
+const MAX_STRANGERS: usize = 64;
+/// Maximum number of bytes of a message of those.
+const MAX_FIRST: u64 = 1 << 16;
 /// Maximum number of subscriptions of a peer.
 const MAX_SUBSCRIPTIONS: usize = 64;
 /// Bytes that may wait for a peer before whoever produces them waits.
@@ -56,9 +63,9 @@ impl Kind {
 /// The number of a peer; no two peers of a socket ever have the same one.
 pub(crate) type PeerNumber = u64;
 
-/// What is done with messages: called with a peer's number and identity, and the frames. For a
-/// publisher it is called with each topic that a peer subscribes to.
-type Handler = dyn Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) + Send + Sync;
+/// What is done with messages: called with a peer's number and identity, and the frames; returns whether
+/// the peer knows the key. For a publisher it is called with each topic that a peer subscribes to.
+type Handler = dyn Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) -> bool + Send + Sync;
 
 /// A socket that listens.
 #[derive(Clone)]
@@ -75,8 +82,6 @@ struct Shared {
 #[derive(Default)]
 struct Peers {
     all: BTreeMap<PeerNumber, Peer>,
-    /// Those that have connected, but have not been greeted yet, among others.
-    connected: usize,
     last: PeerNumber,
 }
 
@@ -92,7 +97,7 @@ impl Socket {
     pub(crate) fn bind(
         address: SocketAddr,
         kind: Kind,
-        handler: impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) + Send + Sync + 'static,
+        handler: impl Fn(&Socket, PeerNumber, &[u8], Vec<Vec<u8>>) -> bool + Send + Sync + 'static,
     ) -> io::Result<Socket> {
         let listener = TcpListener::bind(address)?;
         let socket = Socket(Arc::new(Shared {
@@ -201,6 +206,7 @@ impl Socket {
     }
 
     fn accept(&self, listener: &TcpListener) {
+        let door = Arc::new(Door::new(MAX_STRANGERS, MAX_PEERS));
         for stream in listener.incoming() {
             if self.0.is_closed.load(Ordering::Relaxed) {
                 return;
@@ -210,27 +216,22 @@ impl Socket {
                 thread::sleep(LOOK);
                 continue;
             };
-            {
-                let mut peers = self.peers();
-                if peers.connected >= MAX_PEERS {
-                    continue;
-                }
-                peers.connected += 1;
-            }
+            let Ok(stranger) = door.admit(&stream) else {
+                continue;
+            };
             let socket = self.clone();
             let serving = thread::Builder::new().spawn(move || {
                 // Whatever ends a connection, the peer is gone.
-                let _ = socket.serve(stream);
-                socket.peers().connected -= 1;
+                let _ = socket.serve(&stranger, stream);
             });
             if serving.is_err() {
-                self.peers().connected -= 1;
+                thread::sleep(LOOK);
             }
         }
     }
 
     /// Reads what a peer sends until it is gone.
-    fn serve(&self, stream: TcpStream) -> io::Result<()> {
+    fn serve(&self, stranger: &Stranger, stream: TcpStream) -> io::Result<()> {
         stream.set_nodelay(true)?;
         let identity = greet(&stream, self.0.kind)?;
         let outbox = Arc::new(Outbox::default());
@@ -249,7 +250,8 @@ impl Socket {
         };
         let writing = (stream.try_clone()?, Arc::clone(&outbox));
         let spawned = thread::Builder::new().spawn(move || write(&writing.0, &writing.1));
-        let ended = spawned.and_then(|_| self.receive(number, &identity, &outbox, &stream));
+        let ended =
+            spawned.and_then(|_| self.receive(number, stranger, &identity, &outbox, &stream));
         self.disconnect(number);
         ended
     }
@@ -257,13 +259,20 @@ impl Socket {
     fn receive(
         &self,
         number: PeerNumber,
+        stranger: &Stranger,
         identity: &[u8],
         outbox: &Outbox,
         stream: &TcpStream,
     ) -> io::Result<()> {
         let mut from = BufReader::new(stream);
+        let mut guest: Option<Guest> = None;
         while !self.0.is_closed.load(Ordering::Relaxed) {
-            let frames = match read(&mut from)? {
+            let room = if guest.is_some() {
+                MAX_BYTES
+            } else {
+                MAX_FIRST
+            };
+            let frames = match read(&mut from, room)? {
                 Received::Message(frames) => frames,
                 Received::Command(body) => {
                     if let Some(rest) = body.strip_prefix(b"\x04PING") {
@@ -275,10 +284,22 @@ impl Socket {
                     continue;
                 }
             };
-            match self.0.kind {
+            let is_known = match self.0.kind {
                 Kind::Router => (self.0.handler)(self, number, identity, frames),
-                Kind::Echo => outbox.push(encoded(&frames).into()),
-                Kind::Publisher => self.subscribe(number, identity, frames),
+                Kind::Echo => {
+                    outbox.push(encoded(&frames).into());
+                    true
+                }
+                Kind::Publisher => {
+                    self.subscribe(number, identity, frames);
+                    true
+                }
+            };
+            if is_known && guest.is_none() {
+                guest = stranger.welcome();
+                if guest.is_none() {
+                    return Ok(());
+                }
             }
         }
         Ok(())

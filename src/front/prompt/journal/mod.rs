@@ -5,7 +5,8 @@
 //! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `noise`,
 //! `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
 //! when the record is on disk. `interrupted` says where it was interrupted, and `ended` that it
-//! has ended, with the hash of the world then. While a session is resumed, `again` says that
+//! has ended, with the hash of the world then, and how; `loaded`
+//! names a file that it has loaded, or one with which the session began, with a digest. While a session is resumed, `again` says that
 //! the evaluation of that input begins once more, and `skipped` that it is left out. Replaying
 //! a journal leads to the same state, because nothing else has an effect.
 //!
@@ -16,6 +17,7 @@
 //!   damaged record is what was written.
 
 mod folder;
+mod loaded;
 mod opening;
 mod reading;
 mod record;
@@ -26,6 +28,9 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use lisp::files::text_of;
+
+pub(crate) use loaded::Loaded;
 pub(crate) use opening::{Opened, Wanted, copied, open};
 pub(crate) use reading::Earlier;
 pub(crate) use writing::Journal;
@@ -51,6 +56,32 @@ pub(crate) struct Beginning {
     pub(crate) setup: Vec<PathBuf>,
     /// Whether inputs could use no files and not edit the world.
     pub(crate) is_closed: bool,
+    /// What was in these files.
+    pub(crate) digests: Vec<Loaded>,
+}
+
+impl Beginning {
+    /// The files with which the session begins.
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let files = [
+            &self.world,
+            &self.world_description,
+            &self.robot,
+            &self.robot_description,
+        ];
+        files.into_iter().flatten().chain(&self.setup)
+    }
+
+    /// The same, with what is in its files now.
+    pub(crate) fn digested(mut self) -> Beginning {
+        let read = |path: &PathBuf| {
+            // A file that cannot be read is told of when it is used.
+            let text = text_of(path).ok()?;
+            Some(Loaded::of(&path.to_string_lossy(), &text))
+        };
+        self.digests = self.files().filter_map(read).collect();
+        self
+    }
 }
 
 /// An input of an earlier session.
@@ -64,6 +95,10 @@ pub(crate) struct Recorded {
     pub(crate) stops: bool,
     /// What became of it.
     pub(crate) end: End,
+    /// How it ended, if that was recorded.
+    pub(crate) ending: Option<String>,
+    /// The files that it has loaded.
+    pub(crate) loaded: Vec<Loaded>,
 }
 
 /// What became of an input.
@@ -116,6 +151,23 @@ pub(crate) enum JournalError {
     Exists {
         /// The file.
         path: PathBuf,
+    },
+    /// Files have changed, and nobody has said that this does not matter.
+    #[error(
+        "{} is not resumed, since files have changed; with --despite-changes it is, with the files as they are",
+        .0.display()
+    )]
+    Changed(PathBuf),
+    /// An input ended otherwise than before, and nobody has said that this does not matter.
+    #[error(
+        "{} is not resumed beyond input {number}, which ended otherwise than before; with \
+         --despite-changes it is", path.display()
+    )]
+    Differs {
+        /// The file.
+        path: PathBuf,
+        /// The number of the input, from one.
+        number: usize,
     },
     /// Something else would be overwritten.
     #[error("{} is not a journal and is not overwritten: give --journal a new file", .0.display())]

@@ -122,6 +122,8 @@ impl Earlier {
                     interrupted_at: None,
                     stops,
                     end: End::Unknown,
+                    ending: None,
+                    loaded: Vec::new(),
                 });
             }
             Record::Interrupted(at) => {
@@ -129,10 +131,20 @@ impl Earlier {
                 input.interrupted_at = Some(at);
                 input.end = End::Ended(None);
             }
-            Record::Ended(hash) => self.inputs.get_mut((*current)?)?.end = End::Ended(hash),
+            Record::Ended(hash, ending) => {
+                let input = self.inputs.get_mut((*current)?)?;
+                input.end = End::Ended(hash);
+                input.ending = ending;
+            }
+            Record::Loaded(loaded) => match *current {
+                Some(at) => self.inputs.get_mut(at)?.loaded.push(loaded),
+                None => self.beginning.digests.push(loaded),
+            },
             Record::Again(number) => {
                 let index = number.checked_sub(1)?;
-                self.inputs.get_mut(index)?.end = End::Unknown;
+                let input = self.inputs.get_mut(index)?;
+                input.end = End::Unknown;
+                input.loaded.clear();
                 *current = Some(index);
             }
             Record::Skipped(number) => {

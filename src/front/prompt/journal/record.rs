@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::Beginning;
+use super::{Beginning, Loaded};
 
 /// First line of a journal.
 pub(super) const FIRST_LINE: &str = "planwright journal 2";
@@ -37,8 +37,10 @@ pub(super) enum Record {
     },
     /// Where it was interrupted.
     Interrupted(u64),
-    /// It has ended; the hash of the world, if it is known.
-    Ended(Option<u64>),
+    /// It has ended; the hash of the world and how it ended, if they are known.
+    Ended(Option<u64>, Option<String>),
+    /// A file that it has loaded, or with which the session began.
+    Loaded(Loaded),
     /// The evaluation of the input with that number, from one, begins again.
     Again(usize),
     /// The input with that number is left out.
@@ -69,6 +71,7 @@ impl Record {
             .chain(systems)
             .chain(setup)
             .chain(beginning.is_closed.then_some(Record::Closed))
+            .chain(beginning.digests.iter().cloned().map(Record::Loaded))
             .collect()
     }
 
@@ -87,8 +90,17 @@ impl Record {
             Record::Input { text, stops: true } => ("input", escaped(text)),
             Record::Input { text, stops: false } => ("pasted", escaped(text)),
             Record::Interrupted(at) => ("interrupted", at.to_string()),
-            Record::Ended(Some(hash)) => ("ended", format!("{hash:016x}")),
-            Record::Ended(None) => ("ended", NO_HASH.to_owned()),
+            Record::Ended(hash, ending) => {
+                let hash = hash.map_or(NO_HASH.to_owned(), |hash| format!("{hash:016x}"));
+                let ending = ending.as_deref().unwrap_or_default();
+                (
+                    "ended",
+                    format!("{hash} {}", escaped(ending)).trim_end().to_owned(),
+                )
+            }
+            Record::Loaded(Loaded { file, digest }) => {
+                ("loaded", format!("{digest} {}", escaped(file)))
+            }
             Record::Again(number) => ("again", number.to_string()),
             Record::Skipped(number) => ("skipped", number.to_string()),
         }
@@ -111,8 +123,24 @@ impl Record {
                 stops: word == "input",
             },
             "interrupted" => Record::Interrupted(value.parse().ok()?),
-            "ended" if value == NO_HASH => Record::Ended(None),
-            "ended" => Record::Ended(Some(u64::from_str_radix(value, 16).ok()?)),
+            "ended" => {
+                let (hash, ending) = match value.split_once(' ') {
+                    Some((hash, ending)) => (hash, Some(unescaped(ending))),
+                    None => (value, None),
+                };
+                let hash = match hash {
+                    NO_HASH => None,
+                    hash => Some(u64::from_str_radix(hash, 16).ok()?),
+                };
+                Record::Ended(hash, ending)
+            }
+            "loaded" => {
+                let (digest, file) = value.split_once(' ')?;
+                Record::Loaded(Loaded {
+                    file: unescaped(file),
+                    digest: digest.to_owned(),
+                })
+            }
             "again" => Record::Again(value.parse().ok()?),
             "skipped" => Record::Skipped(value.parse().ok()?),
             _ => return None,

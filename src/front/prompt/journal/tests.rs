@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime};
 use super::opening::{Opened, Wanted, open_in};
 use super::reading::{Earlier, Tail};
 use super::writing::Journal;
-use super::{Beginning, End, JournalError, Recorded, folder};
+use super::{Beginning, End, JournalError, Loaded, Recorded, folder};
 
 /// A folder that is removed with the value.
 struct Folder(PathBuf);
@@ -46,7 +46,9 @@ fn written(path: &Path, texts: &[&str]) -> Journal {
     let mut journal = Journal::create(path, &Beginning::default(), &[]).unwrap();
     for (at, text) in texts.iter().enumerate() {
         journal.begun(text, true).unwrap();
-        journal.ended(None, at as u64).unwrap();
+        journal
+            .ended(None, Some(at as u64), None, Vec::new())
+            .unwrap();
     }
     journal
 }
@@ -75,13 +77,20 @@ fn what_is_written_is_read_again() {
         systems: vec!["/lisp a".into(), "/lisp b".into()],
         setup: vec!["/a b.plan".into()],
         is_closed: true,
+        digests: vec![Loaded::of("/a b.plan", "(a)")],
     };
+    let loaded = vec![Loaded::of("/c \\d.plan", "")];
     let mut journal = Journal::create(&path, &beginning, &[]).unwrap();
     journal.begun("(a\n \"\\n\")\r", true).unwrap();
-    journal.ended(Some(12), 0xab).unwrap();
+    let ending = Some("stopped TYPE-ERROR");
+    journal
+        .ended(Some(12), Some(0xab), ending, loaded.clone())
+        .unwrap();
     journal.begun("(b)", false).unwrap();
     drop(journal);
     let mut journal = folder.resumed(&path).journal.unwrap();
+    let earlier = read(&path).unwrap();
+    assert_eq!(earlier.inputs[0].loaded, loaded);
     journal.skipped(2).unwrap();
     journal.again(1).unwrap();
     drop(journal);
@@ -92,6 +101,8 @@ fn what_is_written_is_read_again() {
         interrupted_at,
         stops,
         end,
+        ending: interrupted_at.and(ending).map(str::to_owned),
+        loaded: Vec::new(),
     };
     assert_eq!(
         earlier.inputs,

@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use super::record::{Checksum, FIRST_LINE, Record};
-use super::{Beginning, End, Recorded};
+use super::{Beginning, End, Loaded, Recorded};
 
 /// A journal that is being written. It is locked until it is dropped.
 #[derive(Debug)]
@@ -91,12 +91,22 @@ impl Journal {
         self.sync()
     }
 
-    /// Records that the last input has ended, and where it was interrupted, if it was.
-    pub(crate) fn ended(&mut self, interrupted_at: Option<u64>, hash: u64) -> io::Result<()> {
+    /// Records that the last input has ended: where it was interrupted, if it was, what it has loaded,
+    /// and how it ended.
+    pub(crate) fn ended(
+        &mut self,
+        interrupted_at: Option<u64>,
+        hash: Option<u64>,
+        ending: Option<&str>,
+        loaded: Vec<Loaded>,
+    ) -> io::Result<()> {
         if let Some(at) = interrupted_at {
             self.add(&Record::Interrupted(at));
         }
-        self.add(&Record::Ended(Some(hash)));
+        for loaded in loaded {
+            self.add(&Record::Loaded(loaded));
+        }
+        self.add(&Record::Ended(hash, ending.map(str::to_owned)));
         self.flush()?;
         match interrupted_at {
             // What a user decided cannot be found out again.
@@ -127,9 +137,12 @@ impl Journal {
         if let Some(at) = input.interrupted_at {
             self.add(&Record::Interrupted(at));
         }
+        for loaded in &input.loaded {
+            self.add(&Record::Loaded(loaded.clone()));
+        }
         match input.end {
             End::Unknown => {}
-            End::Ended(hash) => self.add(&Record::Ended(hash)),
+            End::Ended(hash) => self.add(&Record::Ended(hash, input.ending.clone())),
             End::Skipped => self.add(&Record::Skipped(number)),
         }
     }
@@ -208,7 +221,7 @@ mod tests {
         let disk = journal.file.replace(full);
         let error = journal.begun("(a)", true).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::StorageFull);
-        assert!(journal.ended(None, 1).is_err());
+        assert!(journal.ended(None, Some(1), None, Vec::new()).is_err());
         journal.file = disk;
         journal.begun("(b)", true).unwrap();
         let earlier = Earlier::parse(&path, &std::fs::read(&path).unwrap()).unwrap();
@@ -229,7 +242,9 @@ mod tests {
         assert!(journal.begun("(a)", true).is_err());
         std::fs::remove_file(&path).unwrap();
         journal.file = None;
-        journal.ended(None, 1).unwrap();
+        journal
+            .ended(None, Some(1), Some("finished"), Vec::new())
+            .unwrap();
         assert!(!journal.is_behind());
         let earlier = Earlier::parse(&path, &std::fs::read(&path).unwrap()).unwrap();
         std::fs::remove_file(&path).unwrap();

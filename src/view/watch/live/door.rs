@@ -1,5 +1,5 @@
-//! Who may be connected: strangers, who have not shown the random word of the page's address, and
-//! guests, who have. However many strangers come, there is room for guests: one stranger too many
+//! Who may be connected: strangers, who have not shown the secret of a server, such as the random word of
+//! the page's address, and guests, who have. However many strangers come, there is room for guests: one stranger too many
 //! makes the one leave that has been waiting longest, who has had the time to show the word.
 
 use std::collections::VecDeque;
@@ -10,15 +10,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// Maximum number of strangers.
-const MAX_STRANGERS: usize = 128;
-
-/// Maximum number of guests. A page has one lasting connection, and up to five short ones.
-const MAX_GUESTS: usize = 96;
-
 /// Who is connected.
-#[derive(Debug, Default)]
-pub(crate) struct Door {
+#[derive(Debug)]
+pub struct Door {
+    max_strangers: usize,
+    max_guests: usize,
     strangers: Mutex<Strangers>,
     guests: AtomicUsize,
     /// Number of connections that have not ended, of those who had to leave, too.
@@ -33,15 +29,26 @@ struct Strangers {
 }
 
 impl Door {
+    /// For a server that at most so many strangers, and so many guests besides, may be connected to.
+    pub fn new(max_strangers: usize, max_guests: usize) -> Door {
+        Door {
+            max_strangers,
+            max_guests,
+            strangers: Mutex::default(),
+            guests: AtomicUsize::new(0),
+            all: AtomicUsize::new(0),
+        }
+    }
+
     /// Admits a stranger; the one that has been waiting longest may have to leave. Waits while
     /// those who have to leave have not left.
-    pub(crate) fn admit(self: &Arc<Self>, stream: &TcpStream) -> io::Result<Stranger> {
-        while self.all.load(Ordering::Relaxed) >= 2 * MAX_STRANGERS + MAX_GUESTS {
+    pub fn admit(self: &Arc<Self>, stream: &TcpStream) -> io::Result<Stranger> {
+        while self.all.load(Ordering::Relaxed) >= 2 * self.max_strangers + self.max_guests {
             thread::sleep(Duration::from_millis(1));
         }
         let stream = stream.try_clone()?;
         let mut strangers = self.strangers();
-        if strangers.waiting.len() >= MAX_STRANGERS
+        if strangers.waiting.len() >= self.max_strangers
             && let Some((_, oldest)) = strangers.waiting.pop_front()
         {
             // It may have left by itself.
@@ -67,18 +74,18 @@ impl Door {
 
 /// A connection that has not shown the word.
 #[derive(Debug)]
-pub(crate) struct Stranger {
+pub struct Stranger {
     door: Arc<Door>,
     number: u64,
 }
 
 impl Stranger {
     /// The connection has shown the word. `None` if there are too many that have.
-    pub(super) fn welcome(&self) -> Option<Guest> {
+    pub fn welcome(&self) -> Option<Guest> {
         self.forget();
         let guest = Guest(Arc::clone(&self.door));
         let others = self.door.guests.fetch_add(1, Ordering::Relaxed);
-        (others < MAX_GUESTS).then_some(guest)
+        (others < self.door.max_guests).then_some(guest)
     }
 
     fn forget(&self) {
@@ -98,7 +105,7 @@ impl Drop for Stranger {
 
 /// A connection that has shown the word.
 #[derive(Debug)]
-pub(crate) struct Guest(Arc<Door>);
+pub struct Guest(Arc<Door>);
 
 impl Drop for Guest {
     fn drop(&mut self) {

@@ -31,10 +31,12 @@ mod token;
 mod views;
 
 pub use browser::open_in_browser;
+pub use door::{Door, Guest, Stranger};
 pub use follower::LiveFollower;
 pub use history::{History, Origin};
 pub use pace_control::{PaceControl, Speed};
 pub use place::{Place, PlaceError};
 pub use run_file::run_file;
 pub use server::Server;
+pub use token::{is_same, random_word};
 pub use views::Views;

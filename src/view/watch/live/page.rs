@@ -2,6 +2,7 @@
 
 use serde_json::json;
 
+use super::token::word_of;
 use crate::picture::floor;
 use crate::picture::shade::LAMP;
 use crate::watch::FORCE_SCALE;
@@ -49,17 +50,15 @@ pub(super) fn page(word: &str) -> String {
 /// The page of a saved run, which is a JSON text without `<`. It is in a file, so the policy that
 /// the server would send is in its head: nothing from elsewhere, and no way to anywhere.
 pub(crate) fn page_of_run(run: &str) -> String {
+    let word = word_of(run);
     let policy = format!(
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-         script-src 'nonce-{WORD}'; style-src 'nonce-{WORD}'; img-src data: blob:; \
+         script-src 'nonce-{word}'; style-src 'nonce-{word}'; img-src data: blob:; \
          base-uri 'none'; form-action 'none'\">"
     );
     let run = format!("<script type=\"application/json\" id=\"run\">{run}</script>");
-    filled(WORD, &policy, &run)
+    filled(&word, &policy, &run)
 }
-
-/// The nonce in a file. Whoever could insert a script there could insert the nonce, too.
-const WORD: &str = "planwright";
 
 /// What the page has in common with pictures and recordings.
 fn constants() -> String {

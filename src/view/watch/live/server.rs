@@ -15,6 +15,11 @@ use super::pace_control::PaceControl;
 use super::place::{Place, PlaceError};
 use super::views::Views;
 
+/// Maximum number of connections that have not shown the word.
+const MAX_STRANGERS: usize = 128;
+/// Maximum number of those that have. A page has one lasting connection, and up to five short ones.
+const MAX_GUESTS: usize = 96;
+
 /// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 512 << 10;
 
@@ -60,7 +65,7 @@ impl Server {
             pace,
             views: views.0,
             token: place.token().to_owned(),
-            door: Arc::default(),
+            door: Arc::new(Door::new(MAX_STRANGERS, MAX_GUESTS)),
             viewers: AtomicUsize::new(0),
             had_viewer: AtomicBool::new(false),
             is_stopped: AtomicBool::new(false),

@@ -1,13 +1,13 @@
 //! Words that cannot be guessed.
 
 use std::fmt::Write;
-use std::hash::{BuildHasher, Hasher, RandomState};
+use std::hash::{BuildHasher, DefaultHasher, Hasher, RandomState};
 
 /// A random word of 32 hexadecimal digits.
 ///
 /// The standard library seeds each thread's hash keys from the operating system's source of
 /// randomness, so hashes under these keys are unpredictable.
-pub(crate) fn random_word() -> String {
+pub fn random_word() -> String {
     let mut word = String::new();
     for _ in 0..2 {
         let mut hasher = RandomState::new().build_hasher();
@@ -18,8 +18,22 @@ pub(crate) fn random_word() -> String {
     word
 }
 
+/// A word of 32 hexadecimal digits that belongs to a text: the same text has the same word, and none can
+/// be written that contains its own.
+pub(super) fn word_of(text: &str) -> String {
+    let mut word = String::new();
+    for part in 0..2 {
+        let mut hasher = DefaultHasher::new();
+        hasher.write_u8(part);
+        hasher.write(text.as_bytes());
+        // Writing to a string cannot fail.
+        let _ = write!(word, "{:016x}", hasher.finish());
+    }
+    word
+}
+
 /// Whether the two are equal, in a time that does not depend on where they differ.
-pub(super) fn is_same(a: &[u8], b: &[u8]) -> bool {
+pub fn is_same(a: &[u8], b: &[u8]) -> bool {
     let differences = a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y));
     a.len() == b.len() && differences == 0
 }
