@@ -103,7 +103,7 @@ fn failure_handling() {
         ),
         (
             "(fail 'no-such-condition)",
-            "!! SIMPLE-TYPE-ERROR NO-SUCH-CONDITION does not designate a condition class.",
+            "!! SIMPLE-TYPE-ERROR NO-SUCH-CONDITION does not designate a condition class; did you mean POLICY-CONDITION?",
         ),
         (
             "(fail 42)",

@@ -142,7 +142,7 @@ fn evaluate_form(machine: &mut Machine<'_>, form: &Value, is_judged: bool) -> Re
         }
     }
     let (code, warnings) = match is_judged {
-        true => machine.image.compile_judged(&form)?,
+        true => compile::compile_judged(machine.image, &form)?,
         false => (compile::compile_form(machine.image, &form)?, Vec::new()),
     };
     let function = Value::Function(Rc::new(Function::closure(code, Vec::new())));

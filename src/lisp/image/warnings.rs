@@ -6,13 +6,10 @@ use std::rc::Rc;
 use super::Image;
 use super::extension::Extension;
 use super::notes::{Note, NoteKind};
-use crate::compile;
 use crate::source::Place;
 use crate::value::Value;
-use crate::value::code::Code;
 use crate::value::copy::Copier;
 use crate::value::known;
-use crate::value::raise::Raise;
 
 /// What is known about warnings.
 #[derive(Default)]
@@ -57,21 +54,19 @@ impl Image {
         self.warnings.is_wanted = is_wanted;
     }
 
-    /// Compiles a form; returns also the warnings that need not wait for the end of the text.
-    pub(crate) fn compile_judged(
-        &mut self,
-        form: &Value,
-    ) -> Result<(Rc<Code>, Vec<Warning>), Box<Raise>> {
-        if self.extension::<Judge>().is_none() || asks_first(form) {
-            return Ok((compile::compile_form(self, form)?, Vec::new()));
-        }
-        let (code, notes) = self.noting(|image| compile::compile_form(image, form));
-        let code = code?;
+    /// Is there anything that makes warnings of notes?
+    pub(crate) fn has_judge(&self) -> bool {
+        self.extension::<Judge>().is_some()
+    }
+
+    /// Keeps notes that can be judged without what comes after the form out of those that wait for the
+    /// end of the text.
+    pub(crate) fn sorted_notes(&mut self, notes: Vec<Note>) -> Vec<Note> {
         let (now, later): (Vec<Note>, Vec<Note>) = notes
             .into_iter()
             .partition(|note| note.kind.is_about_form_alone());
         self.warnings.pending.extend(later);
-        Ok((code, self.judged(&now)))
+        now
     }
 
     /// Does something while notes are taken.
@@ -100,14 +95,6 @@ impl Image {
         let judge = self.extension::<Judge>();
         judge.map_or_else(Vec::new, |judge| (judge.0)(self, notes))
     }
-}
-
-/// Does a form ask first whether a locked name is to be defined? It has the definition twice, and nobody
-/// has said yet which one is meant.
-fn asks_first(form: &Value) -> bool {
-    let test = form.cdr_or_nil().car_or_nil();
-    form.car_or_nil().as_symbol() == Some(known::IF)
-        && test.car_or_nil().as_symbol() == Some(known::SYS_ASK_ABOUT_LOCKS)
 }
 
 impl NoteKind {
