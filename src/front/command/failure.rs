@@ -1,7 +1,7 @@
 //! How a command ends.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -136,14 +136,14 @@ fn lines(errors: &[CommandError]) -> String {
 }
 
 /// Reads a file of forms named on the command line; the tutorial's files are built in.
-pub(crate) fn read(path: &PathBuf) -> Result<String, CommandError> {
+pub(crate) fn read(path: &Path) -> Result<String, CommandError> {
     text_of(path).or_else(|error| {
         let name = path.to_str().filter(|_| !path.exists());
         let built_in = name.and_then(plan_files::text_of);
         built_in
             .map(str::to_owned)
             .ok_or_else(|| CommandError::Read {
-                path: path.clone(),
+                path: path.to_owned(),
                 error,
             })
     })

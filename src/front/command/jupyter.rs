@@ -220,10 +220,10 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
 }
 
 /// Compares the outputs of cells with those of the inputs that they are.
-fn compare(options: &Options, file: &PathBuf, executed: &PathBuf) -> Result<Status, CommandError> {
+fn compare(options: &Options, file: &Path, executed: &Path) -> Result<Status, CommandError> {
     let transcript = Transcript::parse(&file.to_string_lossy(), &read(file)?);
     let outputs = outputs(&read(executed)?).map_err(|error| CommandError::Notebook {
-        path: executed.clone(),
+        path: executed.to_owned(),
         error,
     })?;
     let entries = transcript.entries.iter();

@@ -1,7 +1,7 @@
 //! Loads plan files and evaluates forms.
 
 use std::io::{self, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -72,7 +72,10 @@ pub(crate) fn run_in(
     begin: impl FnOnce(&mut Session) -> Result<(), CommandError>,
 ) -> Result<(Status, Session), CommandError> {
     // Report a file that cannot be read before the robot moves.
-    let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
+    let files: Vec<Text> = files
+        .iter()
+        .map(|path| Text::of_file(path))
+        .collect::<Result<_, _>>()?;
     let forms = forms
         .iter()
         .enumerate()
@@ -137,7 +140,7 @@ enum Ended {
 }
 
 impl Text {
-    fn of_file(path: &PathBuf) -> Result<Self, CommandError> {
+    fn of_file(path: &Path) -> Result<Self, CommandError> {
         Ok(Text {
             name: path.display().to_string(),
             text: read(path)?,
