@@ -188,7 +188,11 @@ impl<'a> Judge<'a> {
         let image = self.image;
         let is_full = self.meant.len() >= MAX_SUGGESTIONS;
         let meant = self.meant.entry((name, is_function)).or_insert_with(|| {
-            match Meant::by(image, name, is_kind).filter(|_| !is_full)? {
+            // The search goes through all symbols.
+            if is_full {
+                return None;
+            }
+            match Meant::by(image, name, is_kind)? {
                 Meant::InPackage(package) => {
                     let package = short_name(image, package);
                     Some(format!("{package}:{}", image.name(name)))
