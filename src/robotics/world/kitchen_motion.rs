@@ -12,6 +12,8 @@ use spatial::Pose;
 
 /// Steps (m, rad) in which the way of a drawer or door is looked at.
 const WAY_STEP: f64 = 0.02;
+/// The most steps: a wheel may be told to turn a million times.
+const MAX_WAY_STEPS: f64 = 400.0;
 
 impl World {
     /// Pose of a link of the kitchen in the map frame.
@@ -44,10 +46,12 @@ impl World {
         let now = self.models.kitchen.position(&self.state.kitchen, joint);
         let part = self.part(joint);
         let before = self.moved(&part, now).hits();
-        let steps = ((goal - now).abs() / WAY_STEP).ceil().max(1.0);
-        if !steps.is_finite() {
+        // What is no number is refused where the joint is moved.
+        if !goal.is_finite() {
             return Ok(None);
         }
+        let steps = ((goal - now).abs() / WAY_STEP).ceil();
+        let steps = steps.clamp(1.0, MAX_WAY_STEPS);
         for step in 1..=steps as u32 {
             let at = now + (goal - now) * f64::from(step) / steps;
             let is_new = |hit: &CollisionHit| {
