@@ -193,6 +193,45 @@ fn reachable(pose: &Pose) -> BaseQuery {
 }
 
 #[test]
+fn what_is_out_of_reach_is_not_searched_again_for_want_of_sight() {
+    let (world, low) = with_bottle(0);
+    let mut high = low;
+    high.translation.z = 2.5;
+    let (grasps, out_of_reach) = (grasps(), OutOfReach::default());
+    let scene = Scene {
+        world: &world,
+        grasps: &grasps,
+        out_of_reach: &out_of_reach,
+    };
+    let search = |query: BaseQuery, seed, scene: Scene<'_>| {
+        let mut stream = Stream::new(Query::Base(query), seed);
+        let found = stream.next(scene).unwrap();
+        (found, stream.why())
+    };
+    let seen = |pose| BaseQuery {
+        sees: true,
+        ..reachable(pose)
+    };
+    let (found, why) = search(seen(&high), 1, scene);
+    assert_eq!(found, None);
+    assert!(why.contains("out of reach of BOTTLE-1"), "{why}");
+    // The answer is that of a search that has seen nothing of the first one.
+    let unaware = Scene {
+        out_of_reach: &OutOfReach::default(),
+        ..scene
+    };
+    let (found, why_itself) = search(reachable(&high), 2, unaware);
+    assert_eq!(found, None);
+    assert!(
+        why_itself.contains("out of reach of BOTTLE-1"),
+        "{why_itself}"
+    );
+    assert_eq!(search(reachable(&high), 2, scene), (None, why));
+    // It is no answer for another place.
+    assert!(search(reachable(&low), 2, scene).0.is_some());
+}
+
+#[test]
 #[ignore = "takes minutes"]
 fn base_poses_are_found_fast_and_none_is_missed() {
     let grasps = grasps();
