@@ -1,6 +1,7 @@
-//! Who may be connected: strangers, who have not shown the secret of a server, such as the random word of
-//! the page's address, and guests, who have. However many strangers come, there is room for guests: one stranger too many
-//! makes the one leave that has been waiting longest, who has had the time to show the word.
+//! Who may be connected: strangers, who have not shown the secret of a server, such as the random
+//! word of the page's address, and guests, who have. However many strangers come, there is room for
+//! guests: one stranger too many makes the one leave that has been waiting longest, who has had the
+//! time to show the word.
 
 use std::collections::VecDeque;
 use std::io;

@@ -1,7 +1,9 @@
 //! Words that cannot be guessed.
 
 use std::fmt::Write;
-use std::hash::{BuildHasher, DefaultHasher, Hasher, RandomState};
+use std::hash::{BuildHasher, Hasher, RandomState};
+
+use sha2::{Digest, Sha256};
 
 /// A random word of 32 hexadecimal digits.
 ///
@@ -18,16 +20,14 @@ pub fn random_word() -> String {
     word
 }
 
-/// A word of 32 hexadecimal digits that belongs to a text: the same text has the same word, and none can
-/// be written that contains its own.
+/// A word of 32 hexadecimal digits that belongs to a text: the first half of its SHA-256. The same text
+/// has the same word everywhere, and nobody knows how to write one that contains its own.
 pub(super) fn word_of(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
     let mut word = String::new();
-    for part in 0..2 {
-        let mut hasher = DefaultHasher::new();
-        hasher.write_u8(part);
-        hasher.write(text.as_bytes());
+    for byte in digest.iter().take(16) {
         // Writing to a string cannot fail.
-        let _ = write!(word, "{:016x}", hasher.finish());
+        let _ = write!(word, "{byte:02x}");
     }
     word
 }
@@ -47,6 +47,12 @@ mod tests {
         let words = [random_word(), random_word()];
         assert!(words.iter().all(|w| w.len() == 32));
         assert_ne!(words[0], words[1]);
+    }
+
+    /// The digest of "abc" is an example of FIPS 180-4.
+    #[test]
+    fn a_text_has_the_same_word_everywhere() {
+        assert_eq!(word_of("abc"), "ba7816bf8f01cfea414140de5dae2223");
     }
 
     #[test]
