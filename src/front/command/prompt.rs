@@ -11,7 +11,7 @@ use super::options::Options;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
-use crate::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
+use crate::prompt::{Beginning, JournalError, Loaded, Opened, ReplOptions, Wanted};
 use lisp::visible::visible;
 
 /// Options of the prompt.
@@ -100,9 +100,9 @@ pub(super) fn open_journals(
         systems: options.systems.clone(),
         setup: options.setup.clone(),
         is_closed: options.closed,
-        digests: Vec::new(),
+        digests: Loaded::all(options.files()),
     };
-    let mut opened = prompt::open(journal, &beginning.digested())?;
+    let mut opened = prompt::open(journal, &beginning)?;
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
@@ -23,6 +23,15 @@ pub(crate) struct Loaded {
 const DIGEST: usize = 16;
 
 impl Loaded {
+    /// What is in files now. One that cannot be read is told of when it is used.
+    pub(crate) fn all<'f>(files: impl Iterator<Item = &'f PathBuf>) -> Vec<Loaded> {
+        let read = |path: &PathBuf| {
+            let text = text_of(path).ok()?;
+            Some(Loaded::of(&path.to_string_lossy(), &text))
+        };
+        files.filter_map(read).collect()
+    }
+
     /// A file with that text.
     pub(crate) fn of(file: &str, text: &str) -> Loaded {
         let absolute = std::path::absolute(file);

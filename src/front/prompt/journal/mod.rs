@@ -3,12 +3,13 @@
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
 //! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `noise`,
-//! `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input that conditions do not stop; its evaluation begins
-//! when the record is on disk. `interrupted` says where it was interrupted, and `ended` that it
-//! has ended, with the hash of the world then, and how; `loaded`
-//! names a file that it has loaded, or one with which the session began, with a digest. While a session is resumed, `again` says that
-//! the evaluation of that input begins once more, and `skipped` that it is left out. Replaying
-//! a journal leads to the same state, because nothing else has an effect.
+//! `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
+//! that conditions do not stop; its evaluation begins when the record is on disk. `interrupted` says
+//! where it was interrupted, and `ended` that it has ended, with the hash of the world then, and how;
+//! `loaded` names a file that it has loaded, or one with which the session began, with a digest. While
+//! a session is resumed, `again` says that the evaluation of that input begins once more, and
+//! `skipped` that it is left out. Replaying a journal leads to the same state, because nothing else has
+//! an effect.
 //!
 //! Invariants:
 //! - A journal is only ever appended to, by the one session that holds its lock. What a session
@@ -27,8 +28,6 @@ use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
-
-use lisp::files::text_of;
 
 pub(crate) use loaded::Loaded;
 pub(crate) use opening::{Opened, Wanted, copied, open};
@@ -58,30 +57,6 @@ pub(crate) struct Beginning {
     pub(crate) is_closed: bool,
     /// What was in these files.
     pub(crate) digests: Vec<Loaded>,
-}
-
-impl Beginning {
-    /// The files with which the session begins.
-    fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        let files = [
-            &self.world,
-            &self.world_description,
-            &self.robot,
-            &self.robot_description,
-        ];
-        files.into_iter().flatten().chain(&self.setup)
-    }
-
-    /// The same, with what is in its files now.
-    pub(crate) fn digested(mut self) -> Beginning {
-        let read = |path: &PathBuf| {
-            // A file that cannot be read is told of when it is used.
-            let text = text_of(path).ok()?;
-            Some(Loaded::of(&path.to_string_lossy(), &text))
-        };
-        self.digests = self.files().filter_map(read).collect();
-        self
-    }
 }
 
 /// An input of an earlier session.
