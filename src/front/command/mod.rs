@@ -2,8 +2,8 @@
 //!
 //! Exit statuses: 0 success; 1 a condition was not handled, a transcript differs, or a check
 //! found a problem; 2 the command line is wrong, a file cannot be read, or the robot and its
-//! world cannot be set up; 3 and 4 a sweep lacks worlds, or could not run them. It is no error if a reader closes our output early. `(quit n)` exits
-//! with its own status.
+//! world cannot be set up; 3 and 4 a sweep lacks worlds, or could not run them. It is no error if a
+//! reader closes our output early. `(quit n)` exits with its own status.
 //!
 //! Only this folder and the prompt write to the terminal.
 

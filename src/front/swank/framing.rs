@@ -12,8 +12,8 @@ pub(super) fn read(from: &mut impl Read) -> io::Result<Option<String>> {
     read_at_most(from, LONGEST)
 }
 
-/// Reads a message of so many bytes at most; `None` at the end of the connection. Bytes that are not UTF-8 become
-/// replacement characters.
+/// Reads a message of so many bytes at most; `None` at the end of the connection. Bytes that are not
+/// UTF-8 become replacement characters.
 ///
 /// # Errors
 ///

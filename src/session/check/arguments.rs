@@ -1,7 +1,7 @@
 //! Judges the arguments of calls of functions as written: keywords, names of things in the world, types,
 //! and what control strings of FORMAT need. What a program computes is not judged.
 
-use super::judge::Mistake;
+use super::judge::{Mistake, strong};
 use super::known::KnownNames;
 use super::signature::Signature;
 use super::types;
@@ -56,14 +56,6 @@ fn shown(image: &Image, value: &Value) -> String {
     print::to_string(image, value, true)
 }
 
-fn mistake(text: String, name: &str) -> Mistake {
-    Mistake {
-        text,
-        name: Some(name.to_uppercase()),
-        is_style: false,
-    }
-}
-
 /// Keywords that a function does not take.
 fn keys(image: &Image, function: Sym, signature: &Signature, args: &[Value]) -> Option<Mistake> {
     let known = signature.keys.as_ref()?;
@@ -84,12 +76,12 @@ fn keys(image: &Image, function: Sym, signature: &Signature, args: &[Value]) -> 
                 (None, true) => format!("{text}."),
                 (None, false) => format!("{text}; it has :{}.", known.join(", :")),
             };
-            first = Some(mistake(text, &name));
+            first = Some(strong(text, Some(&name)));
         }
         if pair.len() == 1 && first.is_none() {
-            first = Some(mistake(
+            first = Some(strong(
                 format!("The key :{name} of {of} has no value."),
-                &name,
+                Some(&name),
             ));
         }
     }
@@ -151,7 +143,7 @@ fn things(
                 continue;
             }
             if let Some(text) = domain.mistake(image, &name) {
-                mistakes.push(mistake(text, &name));
+                mistakes.push(strong(text, Some(&name)));
             }
         }
     }

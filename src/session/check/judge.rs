@@ -207,7 +207,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-fn strong(text: String, name: Option<&str>) -> Mistake {
+/// A mistake that keeps the program from working.
+pub(super) fn strong(text: String, name: Option<&str>) -> Mistake {
     Mistake {
         text,
         name: name.map(str::to_uppercase),
@@ -215,6 +216,7 @@ fn strong(text: String, name: Option<&str>) -> Mistake {
     }
 }
 
+/// A mistake in spite of which the program may work.
 fn weak(text: String, name: Option<&str>) -> Mistake {
     Mistake {
         is_style: true,

@@ -293,11 +293,11 @@ impl Job {
         shards.filter(|shard| !self.has(*shard)).collect()
     }
 
-    /// A line for each shard whose file is damaged: its name, and why.
-    pub(super) fn damaged(&self) -> Vec<String> {
+    /// A line for each of the missing shards whose file is damaged: its name, and why.
+    pub(super) fn damaged(&self, missing: &[u64]) -> Vec<String> {
         let mut lines = Vec::new();
-        for shard in 0..self.plan.shards {
-            if let Err(Lack::Damaged(why)) = self.read(shard) {
+        for shard in missing {
+            if let Err(Lack::Damaged(why)) = self.read(*shard) {
                 lines.push(format!("damaged: shard-{shard}.jsonl: {why}"));
             }
         }

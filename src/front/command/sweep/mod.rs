@@ -290,19 +290,20 @@ fn submit(
 fn status(job: &Job) -> Result<Status, CommandError> {
     let missing = job.missing();
     let shards = job.plan.shards;
+    let lacking: u64 = missing.iter().map(|shard| job.count_of(*shard)).sum();
     let mut out = io::stdout();
     writeln!(
         out,
         "{}: {} of {shards} shards are there, {} worlds of {}",
         visible(&job.plan.name),
         shards - missing.len() as u64,
-        job.records().len(),
+        job.plan.worlds - lacking,
         job.plan.worlds
     )?;
     if missing.is_empty() {
         return Ok(Status::Good);
     }
-    for line in job.damaged() {
+    for line in job.damaged(&missing) {
         writeln!(out, "{}", visible(&line))?;
     }
     writeln!(out, "missing: {}", engine::ranges(&missing))?;
@@ -311,7 +312,7 @@ fn status(job: &Job) -> Result<Status, CommandError> {
 
 /// Tells on standard error which shards are damaged; they count as missing.
 fn tell_damage(job: &Job) -> io::Result<()> {
-    for line in job.damaged() {
+    for line in job.damaged(&job.missing()) {
         writeln!(io::stderr(), "{}", visible(&line))?;
     }
     Ok(())
