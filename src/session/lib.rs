@@ -45,10 +45,12 @@ use lisp::files::Closed;
 use lisp::image::Image;
 use lisp::library;
 use lisp::value::release::FreesAll;
+use robotics::motion::interruption::set_breathe;
 use robotics::world::Models;
 use simulation::Simulation;
 use view::picture::ViewError;
 use view::picture::animation::Shot;
+use view::watch::live::Updates;
 
 pub use audience::{Audience, Filming, WatchError};
 pub use bounds::{InterruptHandle, Limit, Limits};
@@ -114,6 +116,8 @@ impl Session {
     ) -> Result<Session, SessionError> {
         image.seed(options.seed);
         image.files = Arc::clone(&options.outside.files);
+        image.polls().set_breathe(options.outside.breathe);
+        set_breathe(options.outside.breathe);
         image.extend(options.outside.clone());
         cram::install(&mut image);
         cram::pose::install(&mut image);
@@ -237,6 +241,14 @@ impl Session {
         let host = &mut self.evaluator.host;
         host.audience
             .open_view(&host.simulation, &self.evaluator.image)
+    }
+
+    /// What a page of the program's own shows of the session from now on, as the live view does. The
+    /// page sets the pace, too; until then it is that of real time.
+    pub fn updates(&mut self) -> Updates {
+        let host = &mut self.evaluator.host;
+        host.audience
+            .updates(&host.simulation, &self.evaluator.image)
     }
 
     /// Starts to record the session into an MCAP file.

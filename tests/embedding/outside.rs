@@ -140,6 +140,7 @@ fn session(files: &Memory) -> Session {
         outside: Outside {
             files: Arc::new(files.clone()),
             clock: Arc::new(Ticking::default()),
+            breathe: None,
         },
         ..SessionOptions::default()
     };

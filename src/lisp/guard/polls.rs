@@ -13,7 +13,11 @@ pub struct Polls {
     seen_at: Cell<Option<u64>>,
     due_at: Cell<Option<u64>>,
     again: Cell<Option<u64>>,
+    breathe: Cell<Option<fn()>>,
 }
+
+/// Number of polls from one breath to the next.
+const BETWEEN_BREATHS: u64 = 64;
 
 impl Polls {
     /// Begins a new count. At the given poll, if any, the flag will be found set.
@@ -26,6 +30,11 @@ impl Polls {
     /// After a poll at which it was due, the flag will be found set again after so many more.
     pub fn set_again(&self, after: Option<u64>) {
         self.again.set(after);
+    }
+
+    /// Sets what is called at some of the polls.
+    pub fn set_breathe(&self, breathe: Option<fn()>) {
+        self.breathe.set(breathe);
     }
 
     /// The first poll at which the flag was set.
@@ -64,6 +73,9 @@ impl Polls {
     pub fn look(&self) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);
+        if let Some(breathe) = self.breathe.get().filter(|_| count % BETWEEN_BREATHS == 0) {
+            breathe();
+        }
         let is_due = self.due_at.get() == Some(count);
         if let Some(after) = self.again.get().filter(|_| is_due) {
             self.due_at.set(Some(count + after));

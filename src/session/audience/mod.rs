@@ -53,14 +53,14 @@ pub struct Audience {
 impl Audience {
     /// An audience that has the session's options for its pace, its live view, its files and its clock.
     pub(super) fn new(options: &SessionOptions) -> Self {
-        let Outside { files, clock } = options.outside.clone();
+        let outside = options.outside.clone();
         let control = options
             .realtime
             .map(|factor| PaceControl::new(Speed::Times(factor)));
         Self {
-            pace: control.map(|control| Pace::new(control, Arc::clone(&clock))),
+            pace: control.map(|control| Pace::new(control, Arc::clone(&outside.clock))),
             place: Place::new(options.view_port),
-            outside: Outside { files, clock },
+            outside,
             ..Self::default()
         }
     }

@@ -54,9 +54,11 @@ impl Pace {
     /// the interrupt flag is set.
     pub(crate) fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
         while !interrupt.load(Ordering::Relaxed) {
-            let Some(speed) = self.control.wait(SLICE) else {
+            let (speed, is_paused) = self.control.get();
+            if is_paused {
+                self.clock.wait(SLICE);
                 continue;
-            };
+            }
             let now = self.clock.now();
             let factor = match speed {
                 Speed::Times(factor) => factor,

@@ -13,7 +13,7 @@ use crate::simulation::Simulation;
 use lisp::files::{Contents, Files, Opening, Output};
 use lisp::image::Image;
 use view::watch::live::{
-    History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views, run_file,
+    History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Updates, Views, run_file,
 };
 use view::watch::recording::{Recorder, RecordingError, RecordingResult};
 use view::watch::{Cause, FrameBuilder};
@@ -82,27 +82,25 @@ impl Audience {
             return Ok(view.server.address());
         }
         let had_pace = self.pace.is_some();
-        let control = match &self.pace {
-            Some(pace) => pace.control().clone(),
-            None => PaceControl::new(Speed::Times(1.0)),
-        };
         let history = History::new(Origin::Session);
-        let world = &simulation.world;
-        let witness = FrameBuilder::new(world);
-        let views = Views::new(world, |link| witness.node_named(link));
-        let shown = Some(control.clone());
+        let follower = self.live_follower(simulation, &history);
         let seen = Seen {
             history: history.clone(),
-            views: views.clone(),
+            views: follower.1,
         };
-        let server = Server::start(&mut self.place, history.clone(), shown, views);
-        let server = server.map_err(WatchError::View)?;
-        let clock = &self.outside.clock;
-        self.pace
-            .get_or_insert_with(|| Pace::new(control, Arc::clone(clock)));
+        let control = self.pace_control();
+        let server = Server::start(&mut self.place, history, Some(control), seen.views.clone());
+        let server = match server {
+            Ok(server) => server,
+            Err(error) => {
+                if !had_pace {
+                    self.pace = None;
+                }
+                return Err(WatchError::View(error));
+            }
+        };
         let address = server.address();
-        let follower = Box::new(LiveFollower::new(history, witness));
-        let follower = self.add_follower(simulation, image, follower);
+        let follower = self.add_follower(simulation, image, Box::new(follower.0));
         self.view = Some(LiveView {
             server,
             follower,
@@ -110,6 +108,35 @@ impl Audience {
             had_pace,
         });
         Ok(address)
+    }
+
+    /// What a page of the program's own shows of the session from now on, at a pace that it sets.
+    pub(crate) fn updates(&mut self, simulation: &Simulation, image: &Image) -> Updates {
+        let history = History::new(Origin::Session);
+        let (follower, views) = self.live_follower(simulation, &history);
+        let updates = Updates::new(history, Some(self.pace_control()), &views);
+        self.add_follower(simulation, image, Box::new(follower));
+        updates
+    }
+
+    /// A follower that shows the session to viewers as it goes on, and the views of it.
+    fn live_follower(&self, simulation: &Simulation, history: &History) -> (LiveFollower, Views) {
+        let world = &simulation.world;
+        let frames = FrameBuilder::new(world);
+        let views = Views::new(world, |link| frames.node_named(link));
+        let clock = Arc::clone(&self.outside.clock);
+        let now = Box::new(move || clock.now());
+        (LiveFollower::new(history.clone(), frames, now), views)
+    }
+
+    /// The control of the pace, which is that of real time unless it has been set.
+    fn pace_control(&mut self) -> PaceControl {
+        let clock = &self.outside.clock;
+        let pace = self.pace.get_or_insert_with(|| {
+            let control = PaceControl::new(Speed::Times(1.0));
+            Pace::new(control, Arc::clone(clock))
+        });
+        pace.control().clone()
     }
 
     /// Closes the live view, if it is open.

@@ -153,6 +153,14 @@ impl<W: Write> Screen<W> {
         &self.to
     }
 
+    /// Takes what has been written to memory.
+    pub fn take_written(&mut self) -> W
+    where
+        W: Default,
+    {
+        std::mem::take(&mut self.to)
+    }
+
     /// Returns the underlying writer.
     pub fn into_inner(self) -> W {
         self.to

@@ -21,6 +21,9 @@ pub struct Outside {
     pub files: Arc<dyn Files>,
     /// The clock that measures real time. It affects when something is shown, never what happens.
     pub clock: Arc<dyn Clock>,
+    /// Called again and again while the session works, on its thread: a program that has only one thread
+    /// can do something else there, such as notice that its user wants to interrupt.
+    pub breathe: Option<fn()>,
 }
 
 impl Extension for Outside {
@@ -35,6 +38,7 @@ impl Default for Outside {
         Outside {
             files: Arc::new(Disk),
             clock: Arc::new(MachineClock),
+            breathe: None,
         }
     }
 }

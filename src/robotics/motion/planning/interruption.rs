@@ -6,7 +6,7 @@
 //! ([`crate::motion::Motion::before_planning`]), so that nothing has happened. Until a search ends,
 //! a tick changes nothing but its motion.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,6 +14,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 thread_local! {
     /// The flag that ends this thread's searches, while they may be interrupted.
     static FLAG: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
+    /// Called wherever a search looks at the flag.
+    static BREATHE: Cell<Option<fn()>> = const { Cell::new(None) };
+}
+
+/// Sets what searches of this thread call again and again, so that a program that has only one thread
+/// can do something else meanwhile.
+pub fn set_breathe(breathe: Option<fn()>) {
+    BREATHE.set(breathe);
 }
 
 /// The payload of the unwinding.
@@ -33,6 +41,9 @@ pub fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Opt
 
 /// Ends the calling search if an interrupt is pending.
 pub fn look() {
+    if let Some(breathe) = BREATHE.get() {
+        breathe();
+    }
     let is_wanted = FLAG.with_borrow(|flag| {
         flag.as_ref()
             .is_some_and(|flag| flag.load(Ordering::Relaxed))

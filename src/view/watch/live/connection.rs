@@ -5,17 +5,13 @@ use std::net::TcpStream;
 use std::sync::Arc;
 
 use super::door::Stranger;
-use super::frame_json::frames_json;
 use super::http::{HttpError, Request, answer, read_request};
 use super::mesh_bytes::mesh_bytes;
-use super::pace_control::{PaceControl, Speed};
 use super::page::page;
 use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
-
-/// Maximum number of past frames in one answer.
-const MAX_FRAMES: usize = 120;
+use super::updates::past;
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
@@ -65,14 +61,16 @@ fn read_and_answer(
             answer(to, "200 OK", "application/octet-stream", "", &bytes)?;
         }
         ("GET", Some("past")) => {
-            let text = past(shared, &request);
+            let from = request.number("from").unwrap_or(0.0);
+            let to_time = request.number("to").unwrap_or(from);
+            let text = past(&shared.history, from, to_time);
             answer(to, "200 OK", "application/json", "", text.as_bytes())?;
         }
         ("POST", Some("pace")) => {
             let is_known = shared
                 .pace
                 .as_ref()
-                .is_some_and(|p| change_pace(p, &request.body));
+                .is_some_and(|pace| pace.change(&request.body));
             let status = if is_known {
                 "204 No Content"
             } else {
@@ -132,29 +130,6 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
         &policy,
         page(&word).as_bytes(),
     )
-}
-
-/// The frames of the past between two times as a list, each as its difference from the one
-/// before.
-fn past(shared: &Shared, request: &Request) -> String {
-    let from = request.number("from").unwrap_or(0.0);
-    let to = request.number("to").unwrap_or(from);
-    frames_json(&shared.history.past(from, to, MAX_FRAMES))
-}
-
-/// Carries out a viewer's request: `pause`, `go`, or `speed` and a speed. Returns whether the
-/// request is known.
-fn change_pace(pace: &PaceControl, wanted: &str) -> bool {
-    match wanted.split_once(' ') {
-        None if wanted == "pause" => pace.set_paused(true),
-        None if wanted == "go" => pace.set_paused(false),
-        Some(("speed", speed)) => match Speed::named(speed) {
-            Some(speed) => pace.set_speed(speed),
-            None => return false,
-        },
-        _ => return false,
-    }
-    true
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Adds what happens in a session to a history.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::history::History;
 use crate::watch::{Cause, Follower, FrameBuilder, Observation, WatchEvent};
@@ -18,38 +18,43 @@ const BETWEEN_KEPT: f64 = 1.0 / 30.0;
 pub struct LiveFollower {
     history: History,
     frame_builder: FrameBuilder,
-    left: Option<Instant>,
+    left: Option<Duration>,
     kept: f64,
-    /// Whether there are viewers to be, who want to see more than what is kept.
-    is_live: bool,
+    /// Measures real time for viewers, who want to see more than what is kept; `None` without viewers.
+    now: Option<RealTime>,
 }
 
+/// The real time since some moment.
+pub type RealTime = Box<dyn Fn() -> Duration>;
+
 impl LiveFollower {
-    /// A follower that adds to the history.
-    pub fn new(history: History, frame_builder: FrameBuilder) -> Self {
+    /// A follower that adds to the history, for viewers who see frames as real time passes.
+    pub fn new(history: History, frame_builder: FrameBuilder, now: RealTime) -> Self {
+        let mut follower = Self::without_viewers(history, frame_builder);
+        follower.now = Some(now);
+        follower
+    }
+
+    /// A follower that adds only what is kept: the same session gives the same history.
+    pub fn without_viewers(history: History, frame_builder: FrameBuilder) -> Self {
         Self {
             history,
             frame_builder,
             left: None,
             kept: f64::NEG_INFINITY,
-            is_live: true,
+            now: None,
         }
-    }
-
-    /// A follower that adds only what is kept: the same session gives the same history.
-    pub fn without_viewers(history: History, frame_builder: FrameBuilder) -> Self {
-        let mut follower = Self::new(history, frame_builder);
-        follower.is_live = false;
-        follower
     }
 }
 
 impl Follower for LiveFollower {
     fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
         let keep = observation.time >= self.kept + BETWEEN_KEPT || cause == Cause::Rest;
-        let is_due = match self.is_live {
-            true => (self.left).is_none_or(|left| left.elapsed() >= BETWEEN_FRAMES),
-            false => cause == Cause::Edit,
+        let now = self.now.as_ref().map(|now| now());
+        let is_due = match (now, self.left) {
+            (Some(now), Some(left)) => now.saturating_sub(left) >= BETWEEN_FRAMES,
+            (Some(_), None) => true,
+            (None, _) => cause == Cause::Edit,
         };
         if !keep && !is_due {
             return;
@@ -62,7 +67,7 @@ impl Follower for LiveFollower {
         let keep = keep || cause == Cause::Edit;
         self.history
             .publish(self.frame_builder.nodes(), frame, keep);
-        self.left = self.is_live.then(Instant::now);
+        self.left = now;
     }
 
     fn hear(&mut self, time: f64, event: &WatchEvent) {

@@ -156,21 +156,12 @@ impl History {
             .changed
             .wait_timeout_while(state, timeout, is_old);
         let (state, _) = waiting.unwrap_or_else(PoisonError::into_inner);
-        mark.version = state.version;
-        let nodes = state.nodes.get(mark.nodes..).unwrap_or_default().to_vec();
-        mark.nodes = state.nodes.len();
-        let first = mark.news.saturating_sub(state.forgotten);
-        let news: Vec<_> = state.news.iter().skip(first).take(most).cloned().collect();
-        mark.news = state.forgotten + first.min(state.news.len()) + news.len();
-        mark.has_all = mark.news >= state.forgotten + state.news.len();
-        Unread {
-            nodes,
-            newest: state.newest.clone(),
-            news,
-            span: state.past.span(),
-            halt: state.halt.clone(),
-            is_over: state.is_over,
-        }
+        state.read(mark, most)
+    }
+
+    /// What is new to a reader, at most `most` news items.
+    pub(crate) fn unread(&self, mark: &mut ReadPosition, most: usize) -> Unread {
+        self.state().read(mark, most)
     }
 
     /// The node of the link of the robot that has this name.
@@ -207,6 +198,27 @@ impl History {
         // Nothing panics while holding the lock, and even then the state would be consistent.
         let state = self.shared.state.lock();
         state.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    /// What is new to a reader, at most `most` news items.
+    fn read(&self, mark: &mut ReadPosition, most: usize) -> Unread {
+        mark.version = self.version;
+        let nodes = self.nodes.get(mark.nodes..).unwrap_or_default().to_vec();
+        mark.nodes = self.nodes.len();
+        let first = mark.news.saturating_sub(self.forgotten);
+        let news: Vec<_> = self.news.iter().skip(first).take(most).cloned().collect();
+        mark.news = self.forgotten + first.min(self.news.len()) + news.len();
+        mark.has_all = mark.news >= self.forgotten + self.news.len();
+        Unread {
+            nodes,
+            newest: self.newest.clone(),
+            news,
+            span: self.past.span(),
+            halt: self.halt.clone(),
+            is_over: self.is_over,
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! How fast simulated time passes, as viewers choose.
 
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How many simulated seconds pass per real second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +36,7 @@ impl Speed {
 /// changes when things happen, never what happens.
 #[derive(Clone, Debug)]
 pub struct PaceControl {
-    shared: Arc<(Mutex<State>, Condvar)>,
+    shared: Arc<Mutex<State>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +53,7 @@ impl PaceControl {
             is_paused: false,
         };
         Self {
-            shared: Arc::new((Mutex::new(state), Condvar::new())),
+            shared: Arc::new(Mutex::new(state)),
         }
     }
 
@@ -72,23 +71,25 @@ impl PaceControl {
     /// Pauses time, or lets it pass again.
     pub fn set_paused(&self, is_paused: bool) {
         self.state().is_paused = is_paused;
-        self.shared.1.notify_all();
     }
 
-    /// Waits while time is paused, up to the timeout. Returns the speed, or `None` if time is
-    /// still paused.
-    pub fn wait(&self, timeout: Duration) -> Option<Speed> {
-        let waiting = |state: &mut State| state.is_paused;
-        let waited = self
-            .shared
-            .1
-            .wait_timeout_while(self.state(), timeout, waiting);
-        let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        (!state.is_paused).then_some(state.speed)
+    /// Carries out a viewer's request: `pause`, `go`, or `speed` and a speed. Returns whether the
+    /// request is known.
+    pub(super) fn change(&self, wanted: &str) -> bool {
+        match wanted.split_once(' ') {
+            None if wanted == "pause" => self.set_paused(true),
+            None if wanted == "go" => self.set_paused(false),
+            Some(("speed", speed)) => match Speed::named(speed) {
+                Some(speed) => self.set_speed(speed),
+                None => return false,
+            },
+            _ => return false,
+        }
+        true
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        let state = self.shared.0.lock();
+        let state = self.shared.lock();
         state.unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -107,11 +108,14 @@ mod tests {
     }
 
     #[test]
-    fn time_stands_still_while_it_is_paused() {
+    fn only_known_requests_change_the_pace() {
         let pace = PaceControl::new(Speed::Times(2.0));
-        pace.set_paused(true);
-        assert_eq!(pace.wait(Duration::from_millis(1)), None);
-        pace.set_paused(false);
-        assert_eq!(pace.wait(Duration::from_secs(9)), Some(Speed::Times(2.0)));
+        assert!(pace.change("pause"));
+        assert_eq!(pace.get(), (Speed::Times(2.0), true));
+        assert!(pace.change("go") && pace.change("speed max"));
+        assert_eq!(pace.get(), (Speed::Unlimited, false));
+        for text in ["", "speed", "speed -1", "speed 1e9", "pause 1", "fly"] {
+            assert!(!pace.change(text), "{text}");
+        }
     }
 }

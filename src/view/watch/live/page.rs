@@ -47,6 +47,12 @@ pub(super) fn page(word: &str) -> String {
     filled(word, "", "")
 }
 
+/// The page as a part of another one, which provides, by a script, what it otherwise asks its server
+/// for.
+pub fn embedded_page(script: &str) -> String {
+    filled("", "", &format!("<script>{script}</script>"))
+}
+
 /// The page of a saved run, which is a JSON text without `<`. It is in a file, so the policy that
 /// the server would send is in its head: nothing from elsewhere, and no way to anywhere.
 pub(crate) fn page_of_run(run: &str) -> String {

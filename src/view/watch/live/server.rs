@@ -6,8 +6,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
-
 use super::connection;
 use super::door::Door;
 use super::history::History;
@@ -41,7 +39,7 @@ pub(super) struct Shared {
     pub history: History,
     /// `None` where time does not pass, as in a recording.
     pub pace: Option<PaceControl>,
-    pub views: Value,
+    pub views: Views,
     /// The random word in the page's address.
     pub token: String,
     door: Arc<Door>,
@@ -63,7 +61,7 @@ impl Server {
         let shared = Arc::new(Shared {
             history,
             pace,
-            views: views.0,
+            views,
             token: place.token().to_owned(),
             door: Arc::new(Door::new(MAX_STRANGERS, MAX_GUESTS)),
             viewers: AtomicUsize::new(0),

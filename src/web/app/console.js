@@ -1,0 +1,212 @@
+// The prompt: what has been typed and shown, and the editor of the next input.
+
+import { insertNewlineAndIndent } from '@codemirror/commands';
+import { completionStatus } from '@codemirror/autocomplete';
+import { makeEditor, setText, textOf } from './lisp_editor.js';
+
+// Number of pieces of output that are kept.
+const MAX_PIECES = 4000;
+// Characters of one piece.
+const MAX_PIECE = 200000;
+
+const element = (name, className, text) => {
+  const made = document.createElement(name);
+  if (className) made.className = className;
+  if (text !== undefined) made.textContent = text;
+  return made;
+};
+
+export class Console {
+  constructor(engine, root) {
+    this.engine = engine;
+    this.lines = root.querySelector('#lines');
+    this.prompt = root.querySelector('#prompt-name');
+    this.hint = root.querySelector('#hint');
+    this.progress = root.querySelector('#progress');
+    this.stop = root.querySelector('#stop');
+    this.past = [];
+    this.at = 0;
+    this.draft = '';
+    this.last = null;
+    this.isQuiet = false;
+    const engineKeys = [
+      { key: 'Enter', run: () => this.enter() },
+      { key: 'Shift-Enter', run: insertNewlineAndIndent },
+      { key: 'ArrowUp', run: () => this.recall(-1) },
+      { key: 'ArrowDown', run: () => this.recall(1) },
+      { key: 'Ctrl-c', run: (view) => view.state.selection.main.empty && this.interrupt() },
+      { key: 'Ctrl-l', run: () => this.clear() },
+    ];
+    this.editor = makeEditor({
+      parent: root.querySelector('#typed'), engine, label: 'Next input', keys: engineKeys, onChange: () => this.showHint(),
+    });
+    this.stop.addEventListener('click', () => { this.interrupt(); this.editor.focus(); });
+    this.lines.addEventListener('click', (event) => {
+      if (event.target === this.lines && !getSelection().toString()) this.editor.focus();
+    });
+    const on = (name, hear) => engine.addEventListener(name, ({ detail }) => hear(detail));
+    on('begin', () => { this.setBusy(true); });
+    on('open', ({ prompt }) => { this.prompt.textContent = `${prompt}>`; });
+    on('idle', () => this.setBusy(false));
+    on('input', (input) => this.showInput(input));
+    on('message', (message) => this.showMessage(message));
+    on('bytes', ({ what, bytes }) => { if (what === 'picture') this.showPicture(bytes); });
+    on('done', (done) => this.finish(done));
+    on('remark', ({ text }) => this.remark(text));
+    on('again', ({ at, of }) => {
+      this.isAgain = at < of;
+      if (at < of) this.progress.textContent = `The session comes back: input ${at + 1} of ${of}. Ctrl-C stops that.`;
+      else this.progress.textContent = '';
+    });
+  }
+
+  setBusy(isBusy) {
+    this.stop.hidden = !isBusy;
+    document.body.classList.toggle('busy', isBusy);
+    if (!isBusy && !this.isAgain) this.progress.textContent = '';
+  }
+
+  clear() {
+    this.lines.replaceChildren();
+    this.last = null;
+    return true;
+  }
+
+  interrupt() {
+    if (this.engine.isBusy) this.engine.interrupt();
+    else if (textOf(this.editor)) setText(this.editor, '');
+    return true;
+  }
+
+  // Enter evaluates a whole input, and continues another on a new line.
+  enter() {
+    const text = textOf(this.editor);
+    if (completionStatus(this.editor.state) === 'active') return false;
+    const { main } = this.editor.state.selection;
+    // Within an input of several lines, a new line may be wanted.
+    if (!main.empty) return false;
+    this.engine.ask('enter', { text }, true).then(({ whole }) => {
+      if (textOf(this.editor) !== text) return;
+      if (whole || !text.trim()) this.submit(text);
+      else insertNewlineAndIndent(this.editor);
+    });
+    return true;
+  }
+
+  submit(text) {
+    setText(this.editor, '');
+    this.add(text);
+  }
+
+  // Evaluates an input as if it had been typed.
+  add(text) {
+    if (text.trim()) {
+      if (this.past.at(-1) !== text) this.past.push(text);
+      this.at = this.past.length;
+    }
+    return this.engine.run({ text });
+  }
+
+  recall(step) {
+    const { state } = this.editor;
+    const line = state.doc.lineAt(state.selection.main.head);
+    if (step < 0 ? line.number > 1 : line.number < state.doc.lines) return false;
+    const at = this.at + step;
+    if (at < 0 || at > this.past.length) return true;
+    if (this.at === this.past.length) this.draft = textOf(this.editor);
+    this.at = at;
+    setText(this.editor, at === this.past.length ? this.draft : this.past[at]);
+    return true;
+  }
+
+  showHint() {
+    clearTimeout(this.hinting);
+    this.hinting = setTimeout(async () => {
+      const text = textOf(this.editor);
+      const at = this.editor.state.selection.main.head;
+      const { hint } = text.trim() ? await this.engine.ask('hint', { text, at }) : {};
+      if (textOf(this.editor) === text) this.hint.textContent = hint ?? '';
+    }, 120);
+  }
+
+  append(made) {
+    const isAtEnd = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight < 60;
+    this.lines.append(made);
+    while (this.lines.childElementCount > MAX_PIECES) this.lines.firstElementChild.remove();
+    if (isAtEnd) this.toEnd();
+    return made;
+  }
+
+  toEnd() {
+    this.lines.scrollTop = this.lines.scrollHeight;
+  }
+
+  write(text, kind) {
+    if (this.last?.className === kind && this.last.textContent.length < MAX_PIECE) {
+      const isAtEnd = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight < 60;
+      this.last.append(text);
+      if (isAtEnd) this.toEnd();
+    } else this.last = this.append(element('span', kind, text));
+  }
+
+  showInput(input) {
+    this.last = null;
+    const line = element('div', 'input');
+    const name = input.file ? `; ${input.file}` : this.prompt.textContent;
+    line.append(element('b', 'prompt', `${name} `), element('code', '', input.file ? '' : input.text));
+    this.append(line);
+    this.toEnd();
+    this.endRestarts();
+  }
+
+  showMessage(message) {
+    if (message.text !== undefined) this.write(message.text, message.kind);
+    else if (message.progress !== undefined) this.progress.textContent = message.progress;
+    else if (message.stopped) this.showRestarts();
+    else if (message.failed) this.remark(message.failed);
+    else if (message.panic) this.remark(`This is a defect of planwright: ${message.panic}`);
+  }
+
+  // In the list of restarts that has just been written, each line becomes a button.
+  showRestarts() {
+    const shown = this.last;
+    this.last = null;
+    if (!shown) return;
+    const parts = shown.textContent.split(/^( *\d+: .*)\n/m);
+    shown.replaceChildren(...parts.flatMap((part, at) => {
+      if (at % 2 === 0) return [part];
+      const button = element('button', 'restart', part.trim());
+      button.type = 'button';
+      const number = String(parseInt(part, 10));
+      button.addEventListener('click', () => { this.add(number); this.editor.focus(); });
+      return [button, '\n'];
+    }));
+    this.toEnd();
+  }
+
+  endRestarts() {
+    for (const button of this.lines.querySelectorAll('.restart')) button.disabled = true;
+  }
+
+  showPicture(bytes) {
+    const image = element('img');
+    image.src = URL.createObjectURL(new Blob([bytes], { type: 'image/png' }));
+    image.alt = 'A picture of the world, as the form above has asked for it';
+    image.addEventListener('load', () => this.toEnd());
+    this.last = null;
+    this.append(image);
+  }
+
+  finish({ prompt, draft, outcome, input }) {
+    this.prompt.textContent = `${prompt}>`;
+    this.progress.textContent = '';
+    if (draft && !input.again) setText(this.editor, draft);
+    if (outcome === 'quit') this.remark('The session has ended. “New session” begins another one.');
+  }
+
+  remark(text) {
+    this.last = null;
+    this.append(element('p', 'remark', text));
+    this.toEnd();
+  }
+}

@@ -1,0 +1,85 @@
+// The page: puts the parts together.
+
+import { Console } from './console.js';
+import { Engine } from './engine.js';
+import { UserFiles } from './files.js';
+import { isLasting, keep, kept } from './keep.js';
+import { LiveView } from './live_view.js';
+import { linkOf, sharedSession } from './share.js';
+import { Tutorial } from './tutorial.js';
+
+const find = (id) => document.getElementById(id);
+
+// On small screens one pane is shown at a time; on large ones the left pane is the tutorial or the files.
+function showPane(name) {
+  document.body.dataset.pane = name;
+  if (name === 'tutorial' || name === 'files') document.body.dataset.left = name;
+  for (const button of document.querySelectorAll('#panes button')) button.setAttribute('aria-pressed', String(button.dataset.pane === name));
+}
+
+const files = new UserFiles(find('files'));
+const engine = new Engine(() => files.texts);
+const prompt = new Console(engine, find('prompt'));
+const view = new LiveView(engine, find('view-frame'));
+const tutorial = new Tutorial(engine, prompt, find('tutorial'));
+
+find('panes').addEventListener('click', (event) => {
+  const { pane } = event.target.closest('button')?.dataset ?? {};
+  if (pane) showPane(pane);
+});
+find('new-session').addEventListener('click', () => {
+  prompt.clear();
+  keep('session', { seed: engine.seed, inputs: [] });
+  engine.begin();
+});
+find('share').addEventListener('click', async () => {
+  const link = await linkOf({ seed: engine.seed, inputs: engine.inputs, files: Object.fromEntries(files.texts) });
+  const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
+  prompt.remark(isCopied ? 'The link is copied: it holds the inputs of this session and your files.' : `This link holds the session: ${link}`);
+});
+// Ctrl-C interrupts wherever the focus is, unless something is selected to be copied.
+document.addEventListener('keydown', (event) => {
+  if (event.key === 'c' && event.ctrlKey && !getSelection().toString() && engine.isBusy) engine.interrupt();
+});
+
+engine.addEventListener('done', () => keep('session', { seed: engine.seed, inputs: engine.inputs }));
+window.addEventListener('beforeunload', (event) => { if (!files.isSaved) event.preventDefault(); });
+// For tests and for the curious.
+window.planwright = { engine, prompt, view, tutorial, files };
+
+async function start() {
+  showPane('prompt');
+  document.body.dataset.left = 'tutorial';
+  await files.load();
+  files.attach(engine, prompt);
+  const shared = await sharedSession();
+  const earlier = await kept('session', { seed: 0, inputs: [] });
+  if (!(await isLasting())) prompt.remark('This browser keeps nothing: files and the session are lost when the page is left.');
+  const inputs = shared ? [] : earlier.inputs;
+  await engine.begin({ seed: earlier.seed, inputs });
+  if (inputs.length) prompt.remark('This is the session that you left. “New session” begins another one.');
+  else prompt.remark('A simulated PR2 in its kitchen, programmed in plans. Enter evaluates a whole form, Tab completes, Ctrl-C interrupts. (help) lists what you can do.');
+  if (shared?.error) prompt.remark(shared.error);
+  else if (shared) offer(shared);
+  prompt.editor.focus();
+}
+
+// What a stranger has put into a link is shown before it is evaluated.
+function offer({ seed, inputs, files: texts }) {
+  const box = find('offer');
+  find('offer-text').textContent = inputs.map(({ text }) => text).join('\n\n');
+  const names = Object.keys(texts);
+  find('offer-files').textContent = names.length ? `It brings files: ${names.join(', ')}. Yours of the same names are replaced.` : '';
+  box.showModal();
+  find('offer-run').onclick = async () => {
+    box.close();
+    for (const [name, text] of Object.entries(texts)) files.put(name, String(text));
+    history.replaceState(null, '', location.href.split(/[?#]/)[0]);
+    prompt.clear();
+    await engine.begin({ seed });
+    for (const { text, interruptedAt } of inputs) await engine.run({ text, interruptedAt });
+  };
+  find('offer-leave').onclick = () => box.close();
+}
+
+start();
