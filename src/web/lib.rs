@@ -11,6 +11,7 @@
 mod files;
 mod page;
 mod request;
+mod sweeping;
 
 #[cfg(target_family = "wasm")]
 mod wasm;

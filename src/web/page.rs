@@ -12,11 +12,13 @@ use session::dialogue::{
     Converse, Evaluate, Event, Outcome, Repeat, Screen, Severity, Stop, is_whole,
 };
 use session::outside::Outside;
+use session::sweeping::SweepFile;
 use session::{Session, SessionOptions};
 use view::watch::live::{Updates, embedded_page};
 
 use crate::files::MemoryFiles;
 use crate::request::Request;
+use crate::sweeping::Sweep;
 
 /// Where messages go.
 pub trait Outbox {
@@ -36,6 +38,7 @@ pub struct Page {
     /// What the live view shows; apart, since it is read while the session works.
     updates: RefCell<Option<Updates>>,
     interrupt: RefCell<Arc<AtomicBool>>,
+    sweep: RefCell<Option<Sweep>>,
 }
 
 /// An open session.
@@ -55,6 +58,7 @@ impl Page {
             session: RefCell::new(None),
             updates: RefCell::new(None),
             interrupt: RefCell::default(),
+            sweep: RefCell::new(None),
         }
     }
 
@@ -103,6 +107,37 @@ impl Page {
                 Some(text) => self.files.put(&name, text.into_bytes()),
                 None => self.files.delete(&name),
             },
+            Request::Sweep {
+                file,
+                text,
+                name,
+                seed,
+                number,
+            } => {
+                let file = SweepFile { name: file, text };
+                match Sweep::open(&self.outside, file, name.as_deref(), seed) {
+                    Ok((sweep, known)) => {
+                        self.sweep.replace(Some(sweep));
+                        self.send(&json!({"sweep": known, "number": number}));
+                    }
+                    Err(why) => self.send(&json!({"mistake": why, "number": number})),
+                }
+            }
+            Request::World { world, number } => self.with_sweep(|sweep| {
+                let record = sweep.run(world);
+                let is_success = record.is_success();
+                self.send(&json!({
+                    "line": record.line(),
+                    "success": is_success,
+                    "number": number,
+                }));
+            }),
+            Request::Summary { lines, number } => {
+                self.with_sweep(|sweep| match sweep.summary(&lines) {
+                    Ok(summary) => self.send(&json!({"summary": summary, "number": number})),
+                    Err(why) => self.send(&json!({"mistake": why, "number": number})),
+                });
+            }
             Request::Meshes(first) => self.with_updates(|updates| {
                 self.outbox.bytes("meshes", &updates.meshes(first));
             }),
@@ -248,6 +283,13 @@ impl Page {
                 None => self.fail("there is no session"),
             },
             Err(_) => self.fail("the session is at work"),
+        }
+    }
+
+    fn with_sweep(&self, work: impl FnOnce(&mut Sweep)) {
+        match self.sweep.borrow_mut().as_mut() {
+            Some(sweep) => work(sweep),
+            None => self.fail("no sweep has been asked for"),
         }
     }
 

@@ -78,6 +78,34 @@ pub enum Request {
         /// Its text; the file is deleted if there is none.
         text: Option<String>,
     },
+    /// Which sweep a file defines.
+    Sweep {
+        /// The name of the file.
+        file: String,
+        /// Its text.
+        text: String,
+        /// The sweep's name; the last one of the file if there is none.
+        #[serde(default)]
+        name: Option<String>,
+        /// The seed.
+        seed: u64,
+        /// Comes back with the answer.
+        number: u64,
+    },
+    /// What comes of a world of the sweep that was asked for.
+    World {
+        /// The world.
+        world: u64,
+        /// Comes back with the answer.
+        number: u64,
+    },
+    /// What records of the sweep that was asked for say together.
+    Summary {
+        /// The records as JSON texts, in order of their worlds.
+        lines: Vec<String>,
+        /// Comes back with the answer.
+        number: u64,
+    },
     /// The meshes of the nodes from a number on.
     Meshes(usize),
     /// The frames of the past between two times (s).

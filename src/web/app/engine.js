@@ -29,6 +29,18 @@ export class Engine extends EventTarget {
     this.queue = [];
   }
 
+  // The program, and the code from which sessions start.
+  parts() {
+    this.module ??= partBytes('wasm', 'planwright.wasm.gz').then((bytes) => WebAssembly.compile(bytes));
+    this.code ??= partBytes('code', 'library.gz');
+    return Promise.all([this.module, this.code]);
+  }
+
+  makeWorker() {
+    this.source ??= URL.createObjectURL(new Blob([partText('worker')], { type: 'text/javascript' }));
+    return new Worker(this.source);
+  }
+
   // Begins a session. Inputs are evaluated without waiting, as those of a session that comes back.
   async begin({ seed = 0, inputs = [] } = {}) {
     this.worker?.terminate();
@@ -39,11 +51,8 @@ export class Engine extends EventTarget {
     this.queue = [];
     for (const give of this.answers.values()) give({});
     this.answers.clear();
-    this.module ??= partBytes('wasm', 'planwright.wasm.gz').then((bytes) => WebAssembly.compile(bytes));
-    this.code ??= partBytes('code', 'library.gz');
-    const [module, code] = await Promise.all([this.module, this.code]);
-    const url = URL.createObjectURL(new Blob([partText('worker')], { type: 'text/javascript' }));
-    const worker = new Worker(url);
+    const [module, code] = await this.parts();
+    const worker = this.makeWorker();
     this.worker = worker;
     worker.onmessage = ({ data }) => { if (worker === this.worker) this.hear(data); };
     worker.onerror = (event) => { if (worker === this.worker) this.crash(event.message); };

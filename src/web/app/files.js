@@ -11,6 +11,8 @@ export class UserFiles {
     this.root = root;
     this.open = null;
     this.isSaved = true;
+    // Called with the text that is edited.
+    this.onText = () => {};
     this.plans = JSON.parse(document.getElementById('plans-data').textContent);
   }
 
@@ -28,7 +30,11 @@ export class UserFiles {
     this.editor = makeEditor({
       parent: find('#file-text'), engine, label: 'Text of the file', hasLines: true,
       keys: [{ key: 'Mod-s', run: () => { this.save(); return true; } }],
-      onChange: (update) => { if (update.docChanged) this.isSaved = false; },
+      onChange: (update) => {
+        if (!update.docChanged) return;
+        this.isSaved = false;
+        this.onText(textOf(this.editor));
+      },
     });
     find('#file-new').addEventListener('click', () => this.edit('my.plan', ';; A plan of your own.\n(in-package :pp-tut)\n\n', true));
     find('#file-save').addEventListener('click', () => this.save());

@@ -6,6 +6,7 @@ import { UserFiles } from './files.js';
 import { isLasting, keep, kept } from './keep.js';
 import { LiveView } from './live_view.js';
 import { linkOf, sharedSession } from './share.js';
+import { Sweeper } from './sweep.js';
 import { Tutorial } from './tutorial.js';
 
 const find = (id) => document.getElementById(id);
@@ -22,6 +23,9 @@ const engine = new Engine(() => files.texts);
 const prompt = new Console(engine, find('prompt'));
 const view = new LiveView(engine, find('view-frame'));
 const tutorial = new Tutorial(engine, prompt, find('tutorial'));
+
+const sweeper = new Sweeper(engine, prompt, files, find('files'));
+files.onText = (text) => sweeper.show(text);
 
 find('panes').addEventListener('click', (event) => {
   const { pane } = event.target.closest('button')?.dataset ?? {};
@@ -45,7 +49,7 @@ document.addEventListener('keydown', (event) => {
 engine.addEventListener('done', () => keep('session', { seed: engine.seed, inputs: engine.inputs }));
 window.addEventListener('beforeunload', (event) => { if (!files.isSaved) event.preventDefault(); });
 // For tests and for the curious.
-window.planwright = { engine, prompt, view, tutorial, files };
+window.planwright = { engine, prompt, view, tutorial, files, sweeper, showPane };
 
 async function start() {
   showPane('prompt');

@@ -11,10 +11,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::file::SweepFile;
+use super::file::sweep_file;
 use crate::command::failure::CommandError;
 use crate::command::options::seconds;
 use lisp::files::text_of;
+use session::sweeping::SweepFile;
 use sweep::Record;
 use sweep::draw::fnv1a;
 use sweep::summary::Title;
@@ -174,7 +175,7 @@ impl Job {
             )));
         }
         let copy = self.folder.join("sweep.plan");
-        let mut file = SweepFile::read(&copy)?;
+        let mut file = sweep_file(&copy)?;
         if checksum(&file.text) != self.plan.text {
             return Err(CommandError::Sweep(format!(
                 "{} has been changed since the sweep began",

@@ -24,14 +24,14 @@ use crate::command::options::Options;
 use crate::command::outputs::Outputs;
 use crate::sweep_report;
 use compare::compare;
-use file::SweepFile;
+use file::sweep_file;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
 use kept::Kept;
 use lisp::visible::visible;
 pub(crate) use options::SweepOptions;
 use progress::Progress;
-use session::sweeping::Known;
+use session::sweeping::{Known, SweepFile};
 use sweep::influence::Influence;
 use sweep::paired::{error_at_look, is_narrow};
 use sweep::summary::{CONFIDENCE, Summary, Title};
@@ -69,7 +69,7 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
     }
     match (&wanted.file, &wanted.into) {
         (Some(path), into) => {
-            let file = SweepFile::read(path)?;
+            let file = sweep_file(path)?;
             if let Some(world) = wanted.replay {
                 return replay::replay(options, wanted, &file, world);
             }
@@ -125,7 +125,7 @@ fn in_memory(
     interrupt::expect();
     let count = wanted.worlds.map_or(known.worlds, |count| count.get());
     if let Some(path) = &wanted.compare {
-        let other = SweepFile::read(path)?;
+        let other = sweep_file(path)?;
         let other_name = other.name.clone();
         let (others, known) = Worlds::open(options, other, wanted.name.as_deref())?;
         let others = others.within(wanted.time_limit);

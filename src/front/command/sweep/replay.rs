@@ -3,7 +3,6 @@
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
-use super::file::SweepFile;
 use super::options::SweepOptions;
 use crate::command::failure::{CommandError, Status};
 use crate::command::open::open_session;
@@ -14,6 +13,7 @@ use crate::command::watching::WatchArguments;
 use crate::prompt;
 use crate::prompt::{Opened, ReplOptions};
 use session::dialogue::{Evaluate, Outcome, Screen, evaluate_keeping_abort};
+use session::sweeping::SweepFile;
 
 /// A journal could not be resumed to the same state, which depends on the file.
 const UNKEPT: &str = "; Nothing typed here is kept; (save-transcript \"FILE\") saves all of it.";

@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use super::pool;
-use super::worlds::{Sessions, Worlds};
+use super::worlds::Worlds;
 use crate::command::failure::CommandError;
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Ending, Record};
@@ -79,7 +79,7 @@ pub(super) fn shrink(
 /// The worlds with draws set in each of the ways.
 fn tried(worlds: &Worlds, number: u64, threads: usize, ways: &[Vec<Change>]) -> Vec<World> {
     let runner = || {
-        let mut sessions = Sessions::of(worlds);
+        let mut sessions = worlds.in_sessions();
         move |set: &Vec<Change>| {
             let (record, simplest) = sessions.run(number, set);
             World {

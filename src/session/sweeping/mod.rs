@@ -1,13 +1,16 @@
 //! The state of sweeps in a session: the world at hand with its draws, and how programs run worlds.
 
+mod file;
+mod worlds;
+
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::time::Duration;
 
-use super::Session;
-use super::bounds::Limit;
-use super::dialogue::{Evaluate, Event, Outcome, Repeat};
+use crate::Session;
+use crate::bounds::Limit;
+use crate::dialogue::{Evaluate, Event, Outcome, Repeat};
 use cram::Handlers;
 use lisp::image::Image;
 use lisp::image::extension::Extension;
@@ -15,6 +18,9 @@ use lisp::value::Value;
 use lisp::value::copy::Copier;
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Draws, Ending, Record};
+
+pub use file::SweepFile;
+pub use worlds::{Worlds, mistake};
 
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
 /// computing. A plan that moves looks some thousands of times.
@@ -252,8 +258,8 @@ impl Session {
         let outcome = self.evaluate("sweep", &form, &mut |event| {
             if let Event::Aborted(abort) = event {
                 ending = match abort.condition.as_str() {
-                    super::dialogue::screen::INTERRUPT => Ending::Endless,
-                    super::console::recovery::CONDITION => Ending::Defect,
+                    crate::dialogue::screen::INTERRUPT => Ending::Endless,
+                    crate::console::recovery::CONDITION => Ending::Defect,
                     _ => Ending::Failure,
                 };
                 class = Some(abort.class.clone()).filter(|class| !class.is_empty());
