@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use lisp::guard::heap::HeapLimit;
 use lisp::visible::visible;
 use serde_json::{Value, json};
 use session::defect::caught;
@@ -39,6 +40,8 @@ pub struct Page {
     updates: RefCell<Option<Updates>>,
     interrupt: RefCell<Arc<AtomicBool>>,
     sweep: RefCell<Option<Sweep>>,
+    /// How much memory a session may use.
+    heap: Option<HeapLimit>,
 }
 
 /// An open session.
@@ -59,7 +62,14 @@ impl Page {
             updates: RefCell::new(None),
             interrupt: RefCell::default(),
             sweep: RefCell::new(None),
+            heap: None,
         }
+    }
+
+    /// The same, with a limit to the memory that a session may use.
+    pub fn with_heap(mut self, heap: HeapLimit) -> Page {
+        self.heap = Some(heap);
+        self
     }
 
     /// Interrupts the input that is evaluated.
@@ -209,6 +219,7 @@ impl Page {
         self.session.replace(None);
         let options = SessionOptions {
             seed,
+            heap: self.heap,
             outside: self.outside.clone(),
             ..SessionOptions::default()
         };

@@ -1,16 +1,26 @@
 //! What the worker of a page imports and exports.
 
+use std::alloc::System;
 use std::cell::{OnceCell, RefCell};
 use std::panic;
 use std::sync::Arc;
 use std::time::Duration;
 
+use cap::Cap;
+use lisp::guard::heap::HeapLimit;
 use session::defect::keep_caught_panics_quiet;
 use session::outside::{Clock, Outside};
 use session::{Session, SessionOptions};
 
 use crate::files::MemoryFiles;
 use crate::page::{Outbox, Page};
+
+/// Counts the bytes in use.
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
+
+/// Bytes that a session may use: browsers give a page two to four gigabytes.
+const MAX_BYTES: usize = 1 << 30;
 
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
@@ -90,7 +100,11 @@ fn with_page(work: impl FnOnce(&Page)) {
                 clock: Arc::new(PageClock),
                 breathe: Some(breathe_now),
             };
-            Page::new(Box::new(Worker), outside, files)
+            let heap = HeapLimit {
+                bytes: MAX_BYTES,
+                in_use: || ALLOCATOR.allocated(),
+            };
+            Page::new(Box::new(Worker), outside, files).with_heap(heap)
         }));
     });
 }

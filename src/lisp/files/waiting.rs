@@ -1,7 +1,9 @@
 //! Reading and opening what may keep one waiting: pipes, devices and terminals. An interrupt is heard
 //! meanwhile.
 
-use std::fs::{self, File, OpenOptions};
+#[cfg(unix)]
+use std::fs;
+use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 
 use crate::guard;

@@ -42,7 +42,8 @@ export class Engine extends EventTarget {
   }
 
   // Begins a session. Inputs are evaluated without waiting, as those of a session that comes back.
-  async begin({ seed = 0, inputs = [] } = {}) {
+  // `leaves` leaves the debugger after each of them.
+  async begin({ seed = 0, inputs = [], leaves = false } = {}) {
     this.worker?.terminate();
     this.seed = seed;
     this.inputs = [];
@@ -71,6 +72,7 @@ export class Engine extends EventTarget {
       this.tell('again', { at, of: inputs.length });
       const done = await this.run({ ...inputs[at], again: true });
       if (worker !== this.worker) return;
+      if (leaves && done.level) await this.run({ text: 'q', again: true });
       // Somebody has interrupted what comes back.
       if (done.ending?.startsWith('interrupt') && inputs[at].interruptedAt == null) break;
     }

@@ -94,7 +94,7 @@ export class Tutorial {
     this.mark();
     this.save();
     this.prompt.clear();
-    await this.engine.begin({ inputs });
+    await this.engine.begin({ inputs, leaves: true });
     this.prompt.remark(`The session is as at the beginning of “${this.chapters[this.at].title}”.`);
   }
 }
