@@ -176,6 +176,11 @@ impl History {
         self.state().nodes.get(first..).unwrap_or_default().to_vec()
     }
 
+    /// Why the session does not go on.
+    pub(super) fn halt(&self) -> Option<Arc<Halt>> {
+        self.state().halt.clone()
+    }
+
     /// The news items that are kept, with their simulated times (s).
     pub fn news(&self) -> Vec<Arc<(f64, WatchEvent)>> {
         self.state().news.iter().cloned().collect()

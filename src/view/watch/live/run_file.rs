@@ -2,7 +2,7 @@
 //!
 //! The file needs no other file and no network, and its page may not reach for any. What it
 //! contains is compressed (zlib) and written as base64 in a JSON object: `head` is a JSON object
-//! with views, nodes, news and the span of time, `meshes` are those that the server sends, and
+//! with views, nodes, news, the span of time and how the run has ended, `meshes` are those that the server sends, and
 //! `pieces` are stretches of the past, each with the time at which it begins.
 
 use std::sync::Arc;
@@ -35,7 +35,14 @@ pub fn run_file(history: &History, views: &Views) -> String {
     let news = history.news();
     let told: Vec<Value> = news.iter().map(|news| event_json::news(news)).collect();
     let listed: Vec<Value> = nodes.iter().map(|n| event_json::node(n)).collect();
-    let head = json!({"views": views.0, "span": span, "nodes": listed, "news": told});
+    let halt = history.halt();
+    let head = json!({
+        "views": views.0,
+        "span": span,
+        "nodes": listed,
+        "news": told,
+        "halt": halt.as_deref().map(event_json::halt),
+    });
     let pieces: Vec<Value> = frames.chunks(PIECE).map(piece).collect();
     let run = json!({
         "head": packed(head.to_string().as_bytes()),

@@ -52,9 +52,22 @@ function fillCard(title, rows, more, key = null) {
   card.replaceChildren(element('h3', title), close, list, ...more());
 }
 
+// Moves the card to the other side if it hides what it is about.
+function keepClear(card, id) {
+  const at = screenOf(id);
+  if (!at || page.wasClear === id) return;
+  page.wasClear = id;
+  card.classList.remove('aside');
+  const box = card.getBoundingClientRect();
+  const around = 60;
+  const isHidden = at[0] > box.left - around && at[0] < box.right + around && at[1] > box.top - around;
+  card.classList.toggle('aside', isHidden);
+}
+
 function showCard(state) {
   const node = scene.nodes.get(page.selected);
   $('card').hidden = !node && !page.task;
+  if (node) keepClear($('card'), node.id);
   if (node) showNode(node, state);
   else if (page.task) showTask(page.task);
 }

@@ -62,6 +62,7 @@ function tick(now) {
   jointPanel.render(page.shown, page.peek ?? page.time ?? past.span[1]);
   tasks.render(page.time ?? Infinity);
   lanes.render(page.time ?? Infinity, past.span, page.task);
+  if (!lanes.hover) showPath(page.task);
   log.render(page.time ?? Infinity);
 }
 

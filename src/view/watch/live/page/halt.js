@@ -16,7 +16,8 @@ function showHalt() {
   if (isLinked && !page.isRecording) linked(halt ? 'halted' : 'live', halt ? halt.kind : 'live');
   if (!halt) return;
   const level = halt.level > 1 ? `, level ${halt.level}` : '';
-  $('halt-title').textContent = HALTS[halt.kind] + level;
+  // A run that is over has ended at its last moment.
+  $('halt-title').textContent = HALTS[halt.kind] + level + (page.isRecording ? `, at ${past.span[1].toFixed(2)} s` : '');
   $('halt-class').textContent = halt.class.toLowerCase();
   $('halt-report').textContent = halt.kind === 'interrupted' ? '' : halt.report;
   $('halt-place').textContent = halt.place;

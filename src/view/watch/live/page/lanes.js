@@ -3,6 +3,8 @@
 
 const LANE = 13;
 const TICKS = 9;
+// The line with the times.
+const AXIS = 14;
 // Bars narrower than this (pixels) are drawn and hit as if they were as wide.
 const LEAST = 3;
 
@@ -13,6 +15,7 @@ class Lanes {
     canvas.addEventListener('pointermove', (event) => this.point(event));
     canvas.addEventListener('pointerleave', () => this.leave());
     canvas.addEventListener('click', (event) => this.click(event));
+    canvas.addEventListener('keydown', (event) => this.key(event));
     canvas.addEventListener('dblclick', () => this.show(null));
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     // The part of the time that is shown; null for all.
@@ -105,7 +108,7 @@ class Lanes {
       this.placed = performance.now();
     }
     Object.assign(this, { key, version: isNew && !isDue ? -1 : this.tasks.version, end, start, stop });
-    const height = this.rows * LANE + TICKS;
+    const height = this.rows * LANE + TICKS + AXIS;
     canvas.style.height = `${height}px`;
     $('lanes').hidden = !this.bars.length && !this.log.lines.length;
     const ratio = devicePixelRatio || 1;
@@ -121,8 +124,9 @@ class Lanes {
     for (const bar of this.bars) this.drawBar(bar, time, end, selected);
     for (const { time: at, kind } of this.log.lines) {
       context.fillStyle = { error: this.colors.bad, halted: this.colors.bad, warn: this.colors.warn }[kind] ?? this.colors.faint;
-      context.fillRect(this.x(at) - 0.5, height - TICKS + 2, kind === 'error' || kind === 'halted' ? 2 : 1, TICKS - 2);
+      context.fillRect(this.x(at) - 0.5, height - TICKS - AXIS + 2, kind === 'error' || kind === 'halted' ? 2 : 1, TICKS - 2);
     }
+    this.drawAxis(height);
     const line = (at, color) => {
       if (at < start || at > stop) return;
       context.fillStyle = color;
@@ -130,6 +134,32 @@ class Lanes {
     };
     if (this.hover) line(this.hover.time, this.colors.faint);
     line(Math.min(time, end), this.colors.accent);
+  }
+
+  // Times below the bars, at round numbers of seconds.
+  drawAxis(height) {
+    const { context, colors, start, stop } = this;
+    const least = (stop - start) * 64 / Math.max(1, this.canvas.clientWidth - 16);
+    const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600].find((one) => one >= least) ?? least;
+    context.textAlign = 'center';
+    for (let at = Math.ceil(start / step - 1e-9); at * step <= stop + 1e-9; at += 1) {
+      const x = this.x(at * step);
+      context.fillStyle = colors.line;
+      context.fillRect(x - 0.5, height - AXIS, 1, 3);
+      context.fillStyle = colors.soft;
+      const text = `${Number((at * step).toFixed(1))} s`;
+      const half = context.measureText(text).width / 2;
+      context.fillText(text, Math.max(half, Math.min(this.canvas.clientWidth - half, x)), height - AXIS / 2 + 2);
+    }
+    context.textAlign = 'left';
+  }
+
+  // As much of a name as fits; nothing if that would say nothing.
+  fitted(name, width) {
+    const { context } = this;
+    if (context.measureText(name).width <= width) return name;
+    const most = Math.floor(width / context.measureText('n').width) - 1;
+    return most >= 3 ? `${name.slice(0, most)}…` : '';
   }
 
   drawBar({ task, row }, time, end, selected) {
@@ -158,14 +188,11 @@ class Lanes {
       context.lineTo(to + 2, top + 7);
       context.fill();
     }
-    if (to - from > 30) {
-      context.save();
-      context.beginPath();
-      context.rect(from + 3, top, to - from - 5, LANE - 2);
-      context.clip();
-      context.fillStyle = isOwn ? colors.panel : colors.ink;
-      context.fillText(task.name, from + 4, top + LANE / 2 - 0.5);
-      context.restore();
+    const label = to - from > 20 ? this.fitted(task.name, to - from - 6) : '';
+    if (label) {
+      context.globalAlpha = 1;
+      context.fillStyle = isOwn && task.since <= time ? colors.panel : colors.ink;
+      context.fillText(label, from + 4, top + LANE / 2 - 0.5);
     }
     context.globalAlpha = 1;
     if (task === selected) {
@@ -177,7 +204,7 @@ class Lanes {
 
   look() {
     const style = getComputedStyle(document.documentElement);
-    const names = ['good', 'bad', 'warn', 'accent', 'faint', 'ink', 'panel'];
+    const names = ['good', 'bad', 'warn', 'accent', 'faint', 'ink', 'panel', 'line', 'soft'];
     return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
   }
 
@@ -215,6 +242,7 @@ class Lanes {
     const { task, line } = this.at(x, y);
     const time = this.timeAt(x);
     this.hover = { x, time };
+    showPath(task ?? page.task);
     const state = task && Tasks.stateAt(task, Infinity);
     const took = task && task.end !== null ? `, ${(task.end - task.since).toFixed(1)} s` : '';
     const texts = task ? [task.name, `${state}${took}`, state === 'failed' ? task.failure : ''] : [line ? line.text : '', '', ''];
@@ -234,10 +262,33 @@ class Lanes {
     page.isDirty = true;
   }
 
+  // Arrow keys go to the task before or after, around or within; plus and minus zoom.
+  key(event) {
+    const zoom = (factor) => {
+      const [from, to] = this.shown();
+      const at = Math.max(from, Math.min(to, page.time ?? to));
+      this.show([at + (from - at) * factor, at + (to - at) * factor]);
+    };
+    const { task } = page;
+    const siblings = (task?.parent ? task.parent.children : this.tasks.roots) ?? [];
+    const beside = (way) => siblings[siblings.indexOf(task) + way];
+    const ways = {
+      ArrowLeft: () => (task ? beside(-1) : this.tasks.roots.at(-1)), ArrowRight: () => (task ? beside(1) : this.tasks.roots[0]),
+      ArrowUp: () => task?.parent, ArrowDown: () => (task ? task.children[0] : this.tasks.roots[0]),
+      '+': () => zoom(0.7), '=': () => zoom(0.7), '-': () => zoom(1 / 0.7), 0: () => this.show(null),
+    };
+    if (!ways[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const next = ways[event.key]();
+    if (next) selectTask(next);
+  }
+
   leave() {
     clearTimeout(this.wait);
     this.hover = null;
     this.tip.hidden = true;
+    showPath(page.task);
     peek(null);
   }
 
@@ -249,6 +300,19 @@ class Lanes {
     if (task) selectTask(task);
     else goTo(line ? line.time : this.timeAt(x));
   }
+}
+
+// The way to a task: the tasks around it, and itself.
+function showPath(task) {
+  const names = [];
+  for (let at = task; at; at = at.parent) names.unshift(at.name);
+  const last = names.pop();
+  const path = $('path');
+  const text = last ? [...names, last].join(' › ') : '';
+  if (path.dataset.text === text) return;
+  path.dataset.text = text;
+  path.title = text;
+  path.replaceChildren(...(last ? [names.map((name) => `${name} › `).join(''), element('b', last)] : []));
 }
 
 // Shows another time than the page's, without going there; with null no more.
@@ -272,6 +336,8 @@ function failures() {
   return failed.sort((a, b) => a.t - b.t);
 }
 
+let silence;
+
 // Goes to the next (1) or the previous (-1) of some moments.
 function step(moments, way) {
   const now = page.time ?? past.span[1];
@@ -280,6 +346,9 @@ function step(moments, way) {
   const here = moments.findIndex((m) => m.task && m.task === page.task && Math.abs(m.t - now) < 1e-3);
   const same = here >= 0 && moments[here + way] && Math.abs(moments[here + way].t - now) < 1e-3 ? moments[here + way] : null;
   const found = same ?? (way > 0 ? moments.find((m) => off(m) > 1e-3) : moments.findLast((m) => off(m) > 1e-3));
+  notice('step', found ? '' : moments.length ? `There is none ${way > 0 ? 'after' : 'before'} this.` : 'There is none.');
+  clearTimeout(silence);
+  silence = setTimeout(() => notice('step', ''), 2500);
   if (!found) return;
   if (found.task) selectTask(found.task, found.t);
   else goTo(found.t);

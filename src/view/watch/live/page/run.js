@@ -34,7 +34,7 @@ class SavedPieces {
 async function openRun(text) {
   try {
     const run = JSON.parse(text);
-    const { views, span, nodes, news } = await textOf(run.head);
+    const { views, span, nodes, news, halt } = await textOf(run.head);
     HEARD.hello({ recording: true, saved: true, views });
     past.store = new SavedPieces(run.pieces);
     past.span = span;
@@ -43,6 +43,10 @@ async function openRun(text) {
     if (page.time < span[0]) page.time = span[0];
     const meshes = await unpacked(run.meshes);
     if (stage) for (const mesh of meshesIn(meshes)) stage.load(mesh);
+    if (halt) {
+      linked('halted', 'saved run, failed');
+      HEARD.halt(halt);
+    }
     showTransport();
     page.isDirty = true;
   } catch (error) {
