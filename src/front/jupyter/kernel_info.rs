@@ -23,7 +23,8 @@ pub(crate) fn kernel_info() -> Value {
             "mimetype": "text/x-common-lisp",
             "file_extension": ".plan",
             "pygments_lexer": "common-lisp",
-            "codemirror_mode": "commonlisp",
+            // A name that every version of CodeMirror knows.
+            "codemirror_mode": "text/x-common-lisp",
         },
         "help_links": [],
         "debugger": false,

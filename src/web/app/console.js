@@ -78,19 +78,31 @@ export class Console {
     return true;
   }
 
-  // Enter evaluates a whole input, and continues another on a new line.
+  // Enter evaluates a whole input, and continues another on a new line. The session knows which it is;
+  // keys that are pressed before it has answered lose nothing.
   enter() {
-    const text = textOf(this.editor);
-    if (completionStatus(this.editor.state) === 'active') return false;
-    const { main } = this.editor.state.selection;
-    // Within an input of several lines, a new line may be wanted.
-    if (!main.empty) return false;
-    this.engine.ask('enter', { text }, true).then(({ whole }) => {
-      if (textOf(this.editor) !== text) return;
-      if (whole || !text.trim()) this.submit(text);
-      else insertNewlineAndIndent(this.editor);
-    });
+    if (completionStatus(this.editor.state) === 'active' || !this.editor.state.selection.main.empty) return false;
+    this.entering = (this.entering ?? Promise.resolve()).then(() => this.enterNow());
     return true;
+  }
+
+  async enterNow() {
+    const text = textOf(this.editor);
+    const { head } = this.editor.state.selection.main;
+    const { whole } = await this.engine.ask('enter', { text }, true);
+    // What has been typed meanwhile comes after the line's end, or after the input.
+    const [before, after] = [text.slice(0, head), text.slice(head)];
+    const now = textOf(this.editor);
+    if (!now.startsWith(before) || !now.endsWith(after) || now.length < text.length) return;
+    const more = now.slice(before.length, now.length - after.length);
+    if (whole || !text.trim()) {
+      this.submit(text);
+      if (more) setText(this.editor, more);
+      return;
+    }
+    this.editor.dispatch({ selection: { anchor: before.length } });
+    insertNewlineAndIndent(this.editor);
+    if (more) this.editor.dispatch({ selection: { anchor: this.editor.state.selection.main.head + more.length } });
   }
 
   submit(text) {
@@ -125,7 +137,10 @@ export class Console {
       const text = textOf(this.editor);
       const at = this.editor.state.selection.main.head;
       const { hint } = text.trim() ? await this.engine.ask('hint', { text, at }) : {};
-      if (textOf(this.editor) === text) this.hint.textContent = hint ?? '';
+      if (textOf(this.editor) !== text) return;
+      // The parameter at the cursor stands between stars.
+      const parts = (hint ?? '').split(/(?<=[( ])\*(.+?)\*(?=[) ])/);
+      this.hint.replaceChildren(...parts.map((part, number) => (number % 2 ? element('b', '', part) : part)));
     }, 120);
   }
 

@@ -17,7 +17,7 @@ async function partBytes(id, file) {
 export class Engine extends EventTarget {
   constructor(files) {
     super();
-    // The user's files, which the session sees.
+    // The files that the session sees, by name.
     this.files = files;
     this.seed = 0;
     // The inputs of the session.
@@ -63,7 +63,7 @@ export class Engine extends EventTarget {
     worker.postMessage({ wasm: module, code, shared: this.shared?.buffer });
     this.ways = await ready;
     const opened = new Promise((go) => { this.isOpen = go; });
-    worker.postMessage({ open: { seed, files: Object.fromEntries(this.files()) } });
+    worker.postMessage({ open: { seed, files: this.files() } });
     const { failed } = await opened;
     if (failed) return;
     this.isBusy = false;

@@ -61,6 +61,11 @@ export class UserFiles {
     this.show();
   }
 
+  // The files that a session sees: the user's, and those of the program of which there is no own copy.
+  all() {
+    return { ...this.plans, ...Object.fromEntries(this.texts) };
+  }
+
   put(name, text) {
     if (text === null) this.texts.delete(name);
     else this.texts.set(name, text);
@@ -80,7 +85,7 @@ export class UserFiles {
     };
     const own = [...this.texts.keys()].sort().map((name) => button(name, true));
     const given = Object.keys(this.plans).filter((name) => !this.texts.has(name)).map((name) => button(name, false));
-    const head = (text) => Object.assign(document.createElement('h3'), { textContent: text });
+    const head = (text) => Object.assign(document.createElement('h2'), { textContent: text });
     this.list.replaceChildren(...(own.length ? [head('Yours'), ...own] : []), head('With the program'), ...given);
   }
 
@@ -136,7 +141,7 @@ export class UserFiles {
   delete() {
     const name = this.name.value;
     if (!this.texts.has(name) || !confirm(`Delete ${name}?`)) return;
-    this.engine.setFile(name, null);
+    this.engine.setFile(name, this.plans[name] ?? null);
     this.put(name, null);
     this.isSaved = true;
     setText(this.editor, '');

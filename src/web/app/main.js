@@ -19,7 +19,7 @@ function showPane(name) {
 }
 
 const files = new UserFiles(find('files'));
-const engine = new Engine(() => files.texts);
+const engine = new Engine(() => files.all());
 const prompt = new Console(engine, find('prompt'));
 const view = new LiveView(engine, find('view-frame'));
 const tutorial = new Tutorial(engine, prompt, find('tutorial'));

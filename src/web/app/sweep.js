@@ -58,7 +58,7 @@ export class Sweeper {
     this.progress.textContent = 'Loading …';
     const begin = performance.now();
     try {
-      for (const { worker } of hands) for (const [name, own] of this.files.texts) worker.postMessage({ file: { name, text: own } });
+      for (const { worker } of hands) for (const [name, own] of Object.entries(this.files.all())) worker.postMessage({ file: { name, text: own } });
       const known = await Promise.all(hands.map((hand) => hand.ask('sweep', { file, text, seed })));
       const { sweep, mistake } = known[0];
       if (!sweep) throw new Error(mistake);
