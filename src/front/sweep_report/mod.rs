@@ -1,7 +1,14 @@
 //! What came of a sweep, as documents and pictures: for files, and for notebooks.
 
-mod documents;
+mod csv;
+mod escape;
 mod heat_map;
+mod junit;
+mod names;
+mod page;
 
-pub(crate) use documents::{csv, escaped, fragment, html, junit};
+pub(crate) use csv::csv;
+pub(crate) use escape::escaped;
 pub(crate) use heat_map::{axes, heat_map};
+pub(crate) use junit::junit;
+pub(crate) use page::{fragment, html};

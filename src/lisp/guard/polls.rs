@@ -73,7 +73,11 @@ impl Polls {
     pub fn look(&self) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);
-        if let Some(breathe) = self.breathe.get().filter(|_| count % BETWEEN_BREATHS == 0) {
+        if let Some(breathe) = self
+            .breathe
+            .get()
+            .filter(|_| count.is_multiple_of(BETWEEN_BREATHS))
+        {
             breathe();
         }
         let is_due = self.due_at.get() == Some(count);

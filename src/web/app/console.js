@@ -4,10 +4,10 @@ import { insertNewlineAndIndent } from '@codemirror/commands';
 import { completionStatus } from '@codemirror/autocomplete';
 import { makeEditor, setText, textOf } from './lisp_editor.js';
 
-// Number of pieces of output that are kept.
-const MAX_PIECES = 4000;
+// Number of pieces and of characters that are kept of what was shown.
+const MAX_PIECES = 4000, MAX_CHARACTERS = 1000000;
 // Characters of one piece.
-const MAX_PIECE = 200000;
+const MAX_PIECE = 20000;
 
 const element = (name, className, text) => {
   const made = document.createElement(name);
@@ -28,7 +28,11 @@ export class Console {
     this.at = 0;
     this.draft = '';
     this.last = null;
-    this.isQuiet = false;
+    this.characters = 0;
+    this.isAway = false;
+    this.lines.addEventListener('scroll', () => {
+      this.isAway = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight > 60;
+    });
     const engineKeys = [
       { key: 'Enter', run: () => this.enter() },
       { key: 'Shift-Enter', run: insertNewlineAndIndent },
@@ -67,7 +71,9 @@ export class Console {
   }
 
   clear() {
+    this.flush();
     this.lines.replaceChildren();
+    this.characters = 0;
     this.last = null;
     return true;
   }
@@ -145,26 +151,58 @@ export class Console {
   }
 
   append(made) {
-    const isAtEnd = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight < 60;
+    this.flush();
     this.lines.append(made);
-    while (this.lines.childElementCount > MAX_PIECES) this.lines.firstElementChild.remove();
-    if (isAtEnd) this.toEnd();
+    this.characters += made.textContent.length;
+    this.trim();
+    this.follow();
     return made;
   }
 
-  toEnd() {
-    this.lines.scrollTop = this.lines.scrollHeight;
+  // Forgets the oldest.
+  trim() {
+    while (this.lines.childElementCount > MAX_PIECES || (this.characters > MAX_CHARACTERS && this.lines.childElementCount > 1)) {
+      this.characters -= this.lines.firstElementChild.textContent.length;
+      this.lines.firstElementChild.remove();
+    }
   }
 
+  // The end stays in sight, unless somebody has scrolled away from it.
+  follow() {
+    if (this.isAway) return;
+    cancelAnimationFrame(this.following);
+    this.following = requestAnimationFrame(() => { this.lines.scrollTop = this.lines.scrollHeight; });
+  }
+
+  toEnd() {
+    this.isAway = false;
+    this.follow();
+  }
+
+  // Text is shown with the next picture of the screen, however many pieces it comes in.
   write(text, kind) {
-    if (this.last?.className === kind && this.last.textContent.length < MAX_PIECE) {
-      const isAtEnd = this.lines.scrollHeight - this.lines.scrollTop - this.lines.clientHeight < 60;
-      this.last.append(text);
-      if (isAtEnd) this.toEnd();
-    } else this.last = this.append(element('span', kind, text));
+    if (this.written?.kind !== kind || this.written.text.length > MAX_PIECE) this.flush();
+    this.written ??= { kind, text: '' };
+    this.written.text += text;
+    this.flushing ??= setTimeout(() => this.flush(), 30);
+  }
+
+  flush() {
+    clearTimeout(this.flushing);
+    this.flushing = null;
+    const { written } = this;
+    this.written = null;
+    if (!written) return;
+    if (this.last?.className === written.kind && this.last.textContent.length < MAX_PIECE) {
+      this.last.append(written.text);
+      this.characters += written.text.length;
+      this.trim();
+      this.follow();
+    } else this.last = this.append(element('span', written.kind, written.text));
   }
 
   showInput(input) {
+    this.flush();
     this.last = null;
     const line = element('div', 'input');
     const name = input.file ? `; ${input.file}` : this.prompt.textContent;
@@ -184,6 +222,7 @@ export class Console {
 
   // In the list of restarts that has just been written, each line becomes a button.
   showRestarts() {
+    this.flush();
     const shown = this.last;
     this.last = null;
     if (!shown) return;
@@ -207,12 +246,14 @@ export class Console {
     const image = element('img');
     image.src = URL.createObjectURL(new Blob([bytes], { type: 'image/png' }));
     image.alt = 'A picture of the world, as the form above has asked for it';
-    image.addEventListener('load', () => this.toEnd());
+    image.addEventListener('load', () => this.follow());
+    this.flush();
     this.last = null;
     this.append(image);
   }
 
   finish({ prompt, draft, outcome, input }) {
+    this.flush();
     this.prompt.textContent = `${prompt}>`;
     this.progress.textContent = '';
     if (draft && !input.again) setText(this.editor, draft);
@@ -220,6 +261,7 @@ export class Console {
   }
 
   remark(text) {
+    this.flush();
     this.last = null;
     this.append(element('p', 'remark', text));
     this.toEnd();

@@ -1,9 +1,18 @@
 // The user's files: they are kept in the browser, and the session sees them.
 
-import { keep, kept } from './keep.js';
+import { forget, keep, keptWith } from './keep.js';
 import { makeEditor, setText, textOf } from './lisp_editor.js';
 
-const decoder = new TextDecoder();
+// The text that bytes are; the bytes themselves if they are no text, such as a picture.
+function contentsOf(bytes) {
+  try {
+    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+  } catch {
+    return new Uint8Array(bytes);
+  }
+}
+
+const isText = (contents) => typeof contents === 'string';
 
 export class UserFiles {
   constructor(root) {
@@ -17,7 +26,7 @@ export class UserFiles {
   }
 
   async load() {
-    this.texts = new Map(Object.entries(await kept('files', {})));
+    this.texts = await keptWith('file:');
   }
 
   attach(engine, prompt) {
@@ -54,22 +63,26 @@ export class UserFiles {
       this.take(event.dataTransfer.files);
     });
     engine.addEventListener('bytes', ({ detail: { what, bytes } }) => {
-      if (what.startsWith('file ')) this.put(what.slice(5), decoder.decode(bytes));
+      if (what.startsWith('file ')) this.put(what.slice(5), contentsOf(bytes));
       if (what.startsWith('deleted ')) this.put(what.slice(8), null);
     });
     engine.addEventListener('message', ({ detail }) => { if (detail.findings) this.showFindings(detail.findings); });
     this.show();
   }
 
-  // The files that a session sees: the user's, and those of the program of which there is no own copy.
+  // The texts that a session sees: the user's, and those of the program of which there is no own copy.
   all() {
-    return { ...this.plans, ...Object.fromEntries(this.texts) };
+    return { ...this.plans, ...Object.fromEntries([...this.texts].filter(([, contents]) => isText(contents))) };
   }
 
   put(name, text) {
-    if (text === null) this.texts.delete(name);
-    else this.texts.set(name, text);
-    keep('files', Object.fromEntries(this.texts));
+    if (text === null) {
+      this.texts.delete(name);
+      forget(`file:${name}`);
+    } else {
+      this.texts.set(name, text);
+      keep(`file:${name}`, text);
+    }
     this.show();
   }
 
@@ -93,15 +106,17 @@ export class UserFiles {
     if (!this.isSaved && !confirm(`${this.name.value} has changes that are not saved. Leave them?`)) return;
     this.open = name;
     this.name.value = name;
-    setText(this.editor, text);
+    this.bytes = isText(text) ? null : text;
+    setText(this.editor, isText(text) ? text : '');
     this.editor.dispatch({ selection: { anchor: 0 }, scrollIntoView: true });
     this.isSaved = true;
-    this.status.textContent = isNew && this.plans[name] ? 'A plan of the program: saving keeps a copy of your own.' : '';
+    this.status.textContent = this.bytes ? 'This is no text: it can be downloaded or deleted.' : isNew && this.plans[name] ? 'A plan of the program: saving keeps a copy of your own.' : '';
     this.show();
   }
 
   save() {
     const name = this.name.value.trim().replace(/^\/+/, '');
+    if (this.bytes) return false;
     if (!name || name.endsWith('/')) {
       this.status.textContent = 'A file needs a name, such as my.plan.';
       return false;
@@ -132,7 +147,7 @@ export class UserFiles {
 
   download() {
     const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([textOf(this.editor)], { type: 'text/plain' }));
+    link.href = URL.createObjectURL(new Blob([this.bytes ?? textOf(this.editor)]));
     link.download = (this.name.value || 'my.plan').split('/').at(-1);
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
@@ -150,8 +165,8 @@ export class UserFiles {
 
   async take(files) {
     for (const file of files) {
-      const text = await file.text();
-      this.engine.setFile(file.name, text);
+      const text = contentsOf(await file.arrayBuffer());
+      if (isText(text)) this.engine.setFile(file.name, text);
       this.put(file.name, text);
       this.isSaved = true;
       this.edit(file.name, text, false);

@@ -1,4 +1,5 @@
-// What the page keeps in the browser: one record for each thing, by name.
+// What the page keeps in the browser: one record for each thing, by name, so that several tabs do not
+// overwrite what the others keep.
 
 const database = new Promise((go) => {
   try {
@@ -29,9 +30,22 @@ export async function kept(name, otherwise) {
   return memory.get(name) ?? (await store('readonly', (all) => all.get(name))) ?? otherwise;
 }
 
+// All whose names begin in the same way, by the rest of their names.
+export async function keptWith(prefix) {
+  const names = (await store('readonly', (all) => all.getAllKeys())) ?? [...memory.keys()];
+  const found = new Map();
+  for (const name of names) if (name.startsWith(prefix)) found.set(name.slice(prefix.length), await kept(name));
+  return found;
+}
+
 export async function keep(name, value) {
   memory.set(name, value);
   await store('readwrite', (all) => all.put(value, name));
+}
+
+export async function forget(name) {
+  memory.delete(name);
+  await store('readwrite', (all) => all.delete(name));
 }
 
 export async function isLasting() {

@@ -3,8 +3,9 @@
 import { Console } from './console.js';
 import { Engine } from './engine.js';
 import { UserFiles } from './files.js';
-import { isLasting, keep, kept } from './keep.js';
+import { isLasting } from './keep.js';
 import { LiveView } from './live_view.js';
+import { keepSession, lastSession, ownSession } from './sessions.js';
 import { linkOf, sharedSession } from './share.js';
 import { Sweeper } from './sweep.js';
 import { Tutorial } from './tutorial.js';
@@ -33,11 +34,11 @@ find('panes').addEventListener('click', (event) => {
 });
 find('new-session').addEventListener('click', () => {
   prompt.clear();
-  keep('session', { seed: engine.seed, inputs: [] });
+  keepSession({ seed: 0, inputs: [] });
   engine.begin();
 });
 find('share').addEventListener('click', async () => {
-  const link = await linkOf({ seed: engine.seed, inputs: engine.inputs, files: Object.fromEntries(files.texts) });
+  const link = await linkOf({ seed: engine.seed, inputs: engine.inputs, files: Object.fromEntries([...files.texts].filter(([, contents]) => typeof contents === 'string')) });
   const isCopied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
   prompt.remark(isCopied ? 'The link is copied: it holds the inputs of this session and your files.' : `This link holds the session: ${link}`);
 });
@@ -46,7 +47,7 @@ document.addEventListener('keydown', (event) => {
   if (event.key === 'c' && event.ctrlKey && !getSelection().toString() && engine.isBusy) engine.interrupt();
 });
 
-engine.addEventListener('done', () => keep('session', { seed: engine.seed, inputs: engine.inputs }));
+engine.addEventListener('done', () => keepSession(engine));
 window.addEventListener('beforeunload', (event) => { if (!files.isSaved) event.preventDefault(); });
 // For tests and for the curious.
 window.planwright = { engine, prompt, view, tutorial, files, sweeper, showPane };
@@ -57,12 +58,17 @@ async function start() {
   await files.load();
   files.attach(engine, prompt);
   const shared = await sharedSession();
-  const earlier = await kept('session', { seed: 0, inputs: [] });
+  const earlier = shared ? null : await ownSession();
   if (!(await isLasting())) prompt.remark('This browser keeps nothing: files and the session are lost when the page is left.');
-  const inputs = shared ? [] : earlier.inputs;
-  await engine.begin({ seed: earlier.seed, inputs });
-  if (inputs.length) prompt.remark('This is the session that you left. “New session” begins another one.');
+  await engine.begin(earlier ?? {});
+  if (earlier) prompt.remark('This is the session that you left. “New session” begins another one.');
   else prompt.remark('A simulated PR2 in its kitchen, programmed in plans. Enter evaluates a whole form, Tab completes, Ctrl-C interrupts. (help) lists what you can do.');
+  const last = earlier || shared ? null : await lastSession();
+  if (last) {
+    const back = Object.assign(document.createElement('button'), { type: 'button', textContent: `Bring back the last session (${last.inputs.length} inputs)` });
+    back.addEventListener('click', () => { back.disabled = true; engine.begin(last); });
+    prompt.append(back);
+  }
   if (shared?.error) prompt.remark(shared.error);
   else if (shared) offer(shared);
   prompt.editor.focus();

@@ -99,7 +99,11 @@ export class Sweeper {
 
   report(name, summary, records) {
     this.prompt.remark(`The sweep ${name} has ended:`);
-    this.prompt.write(summary, 'output');
+    const table = document.createElement('pre');
+    table.className = 'wide';
+    table.tabIndex = 0;
+    table.textContent = summary;
+    this.prompt.append(table);
     const link = document.createElement('a');
     const lines = records.map((line) => `${line}\n`).join('');
     link.href = URL.createObjectURL(new Blob([lines], { type: 'application/x-ndjson' }));

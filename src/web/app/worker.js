@@ -41,8 +41,24 @@ function readShared() {
   hear({ pace: pace === -1 ? 'pause' : pace === -2 ? 'go' : pace === -3 ? 'speed max' : `speed ${pace / 1000}` });
 }
 
+// Output is collected, so that a program that prints much does not send as many messages.
+let output = null;
+
+function send(message, transfer) {
+  if (message.text !== undefined && output?.kind === message.kind && output.text.length < 50000) {
+    output.text += message.text;
+    return;
+  }
+  const before = output;
+  output = message.text !== undefined ? message : null;
+  if (before) postMessage(before);
+  if (message.text === undefined) postMessage(message, transfer);
+}
+
 function sendNews() {
   lastNews = performance.now();
+  if (output) postMessage(output);
+  output = null;
   wasm.show_news();
 }
 
@@ -79,7 +95,7 @@ const imports = {
     breathe: pausing(breathe),
     text(at, count) {
       const message = JSON.parse(textAt(at, count));
-      postMessage(message);
+      send(message);
       // A page that gets nodes needs their meshes.
       const nodes = message.news?.find(([name]) => name === 'nodes');
       if (nodes) waiting.unshift({ meshes: nodes[1][0].id });
@@ -87,7 +103,7 @@ const imports = {
     },
     bytes(whatAt, whatCount, at, count) {
       const bytes = bytesAt(at, count).slice();
-      postMessage({ what: textAt(whatAt, whatCount), bytes: bytes.buffer }, [bytes.buffer]);
+      send({ what: textAt(whatAt, whatCount), bytes: bytes.buffer }, [bytes.buffer]);
     },
   },
 };

@@ -386,7 +386,9 @@ fn write_all(
     };
     write(&wanted.csv, &|| sweep_report::csv(records));
     write(&wanted.junit, &|| sweep_report::junit(title, records));
-    write(&wanted.html, &|| sweep_report::html(title, records));
+    let file = wanted.file.as_ref();
+    let file = file.map_or_else(|| "…".to_owned(), |file| file.display().to_string());
+    write(&wanted.html, &|| sweep_report::html(title, records, &file));
     unwritten.extend(write_heat_map(wanted, records).err());
     if let (Some(folder), Some(worlds)) = (&wanted.record_failures, worlds) {
         unwritten.extend(record_failures(worlds, records, folder, wanted.most).err());
