@@ -134,9 +134,9 @@ async function isKept(browser, tab) {
   const inputs = await tab.value('planwright.engine.inputs.length');
   const hash = (await evaluate(tab, '(six)')).hash;
   await sleep(0.5);
+  await tab.value('window.isOld = true');
   await tab.send('Page.reload');
-  await sleep(0.5);
-  await tab.until(`window.planwright?.engine.inputs.length === ${inputs + 1} && ${IDLE}`, 60);
+  await tab.until(`!window.isOld && window.planwright?.engine.inputs.length === ${inputs + 1} && ${IDLE}`, 60);
   const again = await evaluate(tab, '(six)');
   check(again.hash === hash && (await tab.value(LINES)).includes('that you left'), 'files and the session are there after the page was loaded again, to the bit');
   const link = await tab.value(`(async () => {

@@ -28,10 +28,10 @@ export const ownSession = () => kept(`session:${name}`, null);
 export async function lastSession() {
   const all = [...await keptWith('session:')].filter(([tab]) => tab !== name).sort(([, a], [, b]) => b.at - a.at);
   for (const [tab] of all.splice(MAX_KEPT)) forget(`session:${tab}`);
-  const { held = [] } = (await navigator.locks?.query()) ?? {};
+  const { held = [] } = (await navigator.locks?.query().catch(() => null)) ?? {};
   const open = new Set(held.map((lock) => lock.name));
   return all.find(([tab]) => !open.has(`planwright:${tab}`))?.[1] ?? null;
 }
 
 // Others see that the tab is open.
-navigator.locks?.request(`planwright:${name}`, () => new Promise(() => {}));
+navigator.locks?.request(`planwright:${name}`, () => new Promise(() => {})).catch(() => {});
