@@ -29,6 +29,8 @@ mod queries;
 mod record;
 mod serving;
 pub mod simulation;
+mod sweep_file;
+mod sweep_worlds;
 pub mod sweeping;
 mod tabulated;
 

@@ -1,8 +1,5 @@
 //! The state of sweeps in a session: the world at hand with its draws, and how programs run worlds.
 
-mod file;
-mod worlds;
-
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -19,8 +16,8 @@ use lisp::value::copy::Copier;
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Draws, Ending, Record};
 
-pub use file::SweepFile;
-pub use worlds::{Worlds, mistake};
+pub use crate::sweep_file::SweepFile;
+pub use crate::sweep_worlds::{Worlds, mistake};
 
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
 /// computing. A plan that moves looks some thousands of times.

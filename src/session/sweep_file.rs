@@ -1,8 +1,8 @@
 //! The text that defines a sweep.
 
-use super::Known;
 use crate::Session;
 use crate::dialogue::{Abort, Evaluate, Event, Outcome};
+use crate::sweeping::Known;
 use closest_name::closest_name;
 
 /// A file that defines a sweep.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::MAX_POLLS;
+use crate::sweeping::MAX_POLLS;
 use crate::{Session, defect};
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Ending, Record};
