@@ -187,3 +187,12 @@ fn an_interrupt_in_a_method_of_a_stream_leaves_the_session_whole() {
     }
     assert!(stopped > 5, "{stopped} interrupts");
 }
+
+#[test]
+fn a_name_with_a_question_mark_is_the_local_variable_first() {
+    let form = "(let ((?x 1)) (loop while (= ?x 1) do (setq ?x 1)) ?x)";
+    let mut talk = interrupted(form, 300);
+    assert_eq!(talk.say("?x"), "?X = 1\n; in frame 0\n");
+    let known = talk.say("?car");
+    assert!(known.contains("The car of a list"), "{known}");
+}

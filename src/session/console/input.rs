@@ -25,6 +25,9 @@ impl Evaluator {
         }
         match Command::of(text) {
             Command::Evaluate(text) => {
+                if let Some(local) = self.local_asked(text) {
+                    return self.tell(&local, sink);
+                }
                 let whole = self.in_full(source_name, text);
                 self.console.typed = Some(text.to_owned());
                 self.evaluate_aside(source_name, whole.as_deref().unwrap_or(text), sink)

@@ -167,6 +167,32 @@ impl Evaluator {
         self.tell(&format!("{number}: {call}{place}\n{source}"), sink)
     }
 
+    /// What `?place` shows where a plan has stopped that has a variable of that name: its value in the
+    /// selected frame, or in the nearest one around it, or else in the innermost one.
+    pub(super) fn local_asked(&mut self, text: &str) -> Option<String> {
+        let name = text.trim();
+        if !name.starts_with('?') || name.contains(|c: char| c.is_whitespace()) {
+            return None;
+        }
+        let name = name.to_uppercase();
+        let selected = self.console.levels.last()?.frame;
+        let frames = self.frames();
+        let around = (selected..frames.len()).chain(0..selected);
+        let fibers = self.scheduler.stopped_fibers();
+        let (number, value) = around
+            .filter_map(|number| {
+                let told = frames.get(number)?;
+                let mut variables = fibers.get(told.link)?.variables(told.view.index).into_iter();
+                let found = variables.find(|variable| {
+                    self.image.name(variable.name) == name && !variable.value.is_unbound()
+                })?;
+                Some((number, found.value))
+            })
+            .next()?;
+        let value = printing::printed(&mut self.image, &value);
+        Some(format!("{name} = {value}\n; in frame {number}"))
+    }
+
     pub(super) fn tell_locals(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
         let Some((link, frame)) = self.selected_frame() else {
             return self.tell("; There are no frames.", sink);
