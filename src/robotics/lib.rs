@@ -2,6 +2,7 @@
 //! moves, and where it and things could be. Nothing here knows of a plan language.
 
 pub mod location;
+pub mod mesh;
 pub mod motion;
 pub mod perception;
 pub mod robot;
