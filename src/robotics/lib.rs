@@ -13,6 +13,7 @@ pub mod world;
 #[cfg(test)]
 #[allow(clippy::print_stdout)]
 mod tests {
+    mod mesh;
     mod motion;
     mod robot;
     pub(crate) mod world;

@@ -37,14 +37,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MeshPart>, String> {
     }
     let ids = root.descendants();
     let mut reader = Reader {
-        ids: ids.filter_map(|node| Some((node.attribute("id")?, node))).collect(),
+        ids: ids
+            .filter_map(|node| Some((node.attribute("id")?, node)))
+            .collect(),
         parts: Vec::new(),
         triangles: 0,
         nodes: 0,
     };
     let unit = child(root, "asset").and_then(|asset| child(asset, "unit"));
     let unit = unit.and_then(|unit| unit.attribute("meter")?.trim().parse().ok());
-    let unit = unit.filter(|unit: &f64| unit.is_finite() && *unit > 0.0).unwrap_or(1.0);
+    let unit = unit
+        .filter(|unit: &f64| unit.is_finite() && *unit > 0.0)
+        .unwrap_or(1.0);
     let start = Matrix4::new_scaling(unit);
     let scene = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let scene = scene.and_then(|scene| reader.referred(scene, "url"));
@@ -65,11 +69,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<MeshPart>, String> {
     Ok(reader.parts)
 }
 
-fn children<'a, 'd>(
-    node: Node<'a, 'd>,
-    name: &'a str,
-) -> impl Iterator<Item = Node<'a, 'd>> {
-    node.children().filter(move |child| child.tag_name().name() == name)
+fn children<'a, 'd>(node: Node<'a, 'd>, name: &'a str) -> impl Iterator<Item = Node<'a, 'd>> {
+    node.children()
+        .filter(move |child| child.tag_name().name() == name)
 }
 
 fn child<'a, 'd>(node: Node<'a, 'd>, name: &'a str) -> Option<Node<'a, 'd>> {
@@ -207,7 +209,9 @@ impl<'a, 'd> Reader<'a, 'd> {
             };
             filler.fill(group, kind, &layout)?;
             self.triangles += filler.surface.triangles.len();
-            let color = group.attribute("material").and_then(|name| colors.get(name));
+            let color = group
+                .attribute("material")
+                .and_then(|name| colors.get(name));
             self.parts.push(MeshPart {
                 surface: filler.surface,
                 color: color.copied(),
@@ -221,14 +225,18 @@ impl<'a, 'd> Reader<'a, 'd> {
         let mut stride = 0;
         let mut found = None;
         for input in children(group, "input") {
-            let offset = input.attribute("offset").map_or(Some(0), |o| o.trim().parse().ok());
-            let offset = offset.filter(|offset| *offset < 64).ok_or_else(|| {
-                format!("{}: <input> has a wrong offset", place(input))
-            })?;
+            let offset = input
+                .attribute("offset")
+                .map_or(Some(0), |o| o.trim().parse().ok());
+            let offset = offset
+                .filter(|offset| *offset < 64)
+                .ok_or_else(|| format!("{}: <input> has a wrong offset", place(input)))?;
             stride = stride.max(offset + 1);
             if input.attribute("semantic") == Some("VERTEX") {
                 let vertices = self.referred(input, "source");
-                let mut inputs = vertices.into_iter().flat_map(|node| children(node, "input"));
+                let mut inputs = vertices
+                    .into_iter()
+                    .flat_map(|node| children(node, "input"));
                 let position = inputs.find(|i| i.attribute("semantic") == Some("POSITION"));
                 let source = position.and_then(|position| position.attribute("source"));
                 found = source.map(|source| (offset, source));
@@ -247,10 +255,17 @@ impl<'a, 'd> Reader<'a, 'd> {
         source: &str,
         pose: &Matrix4<f64>,
     ) -> Result<Vec<[f64; 3]>, String> {
-        let missing = || format!("{}: there is no source {source:?} of positions", place(group));
+        let missing = || {
+            format!(
+                "{}: there is no source {source:?} of positions",
+                place(group)
+            )
+        };
         let source = self.ids.get(source).copied().ok_or_else(missing)?;
         let array = child(source, "float_array").ok_or_else(missing)?;
-        let accessor = source.descendants().find(|n| n.tag_name().name() == "accessor");
+        let accessor = source
+            .descendants()
+            .find(|n| n.tag_name().name() == "accessor");
         let count = |name: &str, usual: usize| {
             let given = accessor.and_then(|accessor| accessor.attribute(name)?.trim().parse().ok());
             given.unwrap_or(usual)
@@ -314,9 +329,9 @@ struct Filler<'p> {
 impl Filler<'_> {
     fn fill(&mut self, group: Node<'_, '_>, kind: &str, layout: &Layout) -> Result<(), String> {
         let mut counts = child(group, "vcount").map(numbers::<usize>);
-        for list in children(group, "p").chain(
-            children(group, "ph").filter_map(|holed| child(holed, "p")),
-        ) {
+        for list in
+            children(group, "p").chain(children(group, "ph").filter_map(|holed| child(holed, "p")))
+        {
             let mut corners = Vec::new();
             for (i, index) in numbers::<usize>(list).enumerate() {
                 if i % layout.stride == layout.at {
@@ -376,7 +391,9 @@ impl Filler<'_> {
 
     fn add_fan(&mut self, polygon: &[u32]) -> Result<(), String> {
         for i in 2..polygon.len() {
-            self.surface.triangles.push([polygon[0], polygon[i - 1], polygon[i]]);
+            self.surface
+                .triangles
+                .push([polygon[0], polygon[i - 1], polygon[i]]);
         }
         match self.surface.triangles.len() > self.room {
             true => Err(too_many(MAX_TRIANGLES)),

@@ -6,8 +6,11 @@ use parry3d_f64::shape::{TriMesh, TriMeshBuilderError};
 
 use spatial::Polyhedron;
 
-/// So many points of a body are measured, about.
-const SAMPLES: f64 = 300.0;
+/// So many points of bodies are measured, about.
+const SAMPLES: f64 = 600.0;
+
+/// Bodies closer than this (m) touch.
+const TOUCH: f64 = 1e-3;
 
 /// A surface to which distances are measured.
 pub(super) struct Measured {
@@ -21,38 +24,67 @@ impl Measured {
         Ok(Self { mesh })
     }
 
-    /// Distances (m) from points spread over a body to the surface, shortest first.
-    pub(super) fn bulges(&self, body: &Polyhedron) -> Vec<f64> {
-        let corners = vectors(body);
-        let areas = body.triangles.iter().map(|triangle| {
-            let [a, b, c] = triangle.map(|i| corners[i as usize]);
-            (b - a).cross(c - a).length() / 2.0
-        });
-        let areas: Vec<f64> = areas.collect();
-        let whole: f64 = areas.iter().sum();
+    /// Distances (m) from points spread over bodies to the surface, shortest first. Points where bodies
+    /// touch are inside all of them together, and do not count.
+    pub(super) fn bulges(&self, bodies: &[Polyhedron]) -> Vec<f64> {
+        let whole: f64 = bodies.iter().map(area).sum();
         let mut distances = Vec::new();
         // What the triangles before had too few points for.
         let mut owed = 0.0;
-        for (triangle, area) in body.triangles.iter().zip(areas) {
-            let [a, b, c] = triangle.map(|i| corners[i as usize]);
-            owed += SAMPLES * area / whole.max(1e-12);
-            let mut number = 0u32;
-            while owed >= 1.0 {
-                owed -= 1.0;
-                number += 1;
-                // Points of a sequence that fills a square evenly, folded into the triangle.
-                let mut u = (f64::from(number) * 0.754_877_666_246_692_8).fract();
-                let mut v = (f64::from(number) * 0.569_840_290_998_053_3).fract();
-                if u + v > 1.0 {
-                    (u, v) = (1.0 - u, 1.0 - v);
-                }
-                let point = a + (b - a) * u + (c - a) * v;
-                distances.push(self.mesh.distance_to_local_point(point, true));
+        for (place, body) in bodies.iter().enumerate() {
+            let others = bodies.iter().enumerate();
+            let others = others.filter(|(other, _)| *other != place);
+            let others: Vec<_> = others.map(|(_, other)| other).collect();
+            for triangle in &body.triangles {
+                let corners = body.triangle(*triangle);
+                owed += SAMPLES * area_of(corners) / whole.max(1e-12);
+                self.add(corners, &mut owed, &others, &mut distances);
             }
         }
         distances.sort_by(f64::total_cmp);
         distances
     }
+
+    /// Adds the distances from as many points of a triangle as are owed.
+    fn add(
+        &self,
+        corners: [[f64; 3]; 3],
+        owed: &mut f64,
+        others: &[&Polyhedron],
+        distances: &mut Vec<f64>,
+    ) {
+        let [a, b, c] = corners.map(Vector::from_array);
+        let outward = (b - a).cross(c - a).normalize_or_zero();
+        let mut number = 0u32;
+        while *owed >= 1.0 {
+            *owed -= 1.0;
+            number += 1;
+            // Points of a sequence that fills a square evenly, folded into the triangle.
+            let mut u = (f64::from(number) * 0.754_877_666_246_692_8).fract();
+            let mut v = (f64::from(number) * 0.569_840_290_998_053_3).fract();
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let point = a + (b - a) * u + (c - a) * v;
+            let ahead = (point + outward * TOUCH).to_array();
+            if !others.iter().any(|other| other.convex_contains(ahead)) {
+                distances.push(self.mesh.distance_to_local_point(point, true));
+            }
+        }
+    }
+}
+
+/// Area (m²) of a body's surface.
+fn area(body: &Polyhedron) -> f64 {
+    body.triangles
+        .iter()
+        .map(|triangle| area_of(body.triangle(*triangle)))
+        .sum()
+}
+
+fn area_of(corners: [[f64; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(Vector::from_array);
+    (b - a).cross(c - a).length() / 2.0
 }
 
 /// The value below which a share of them lies; they are in order.

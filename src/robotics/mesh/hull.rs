@@ -21,9 +21,15 @@ const THINNEST: f64 = 1e-3;
 /// The convex hull of some points (m), which may be short of them by [`SHORT`]. Points in a plane or on a
 /// line get a thickness. `None` without points.
 pub(super) fn hull(points: &[[f64; 3]]) -> Option<Polyhedron> {
-    let points: Vec<Vector> = points.iter().map(|[x, y, z]| Vector::new(*x, *y, *z)).collect();
+    let points: Vec<Vector> = points
+        .iter()
+        .map(|[x, y, z]| Vector::new(*x, *y, *z))
+        .collect();
     let (mins, maxs) = points.iter().fold(
-        (Vector::splat(f64::INFINITY), Vector::splat(f64::NEG_INFINITY)),
+        (
+            Vector::splat(f64::INFINITY),
+            Vector::splat(f64::NEG_INFINITY),
+        ),
         |(mins, maxs), point| (mins.min(*point), maxs.max(*point)),
     );
     if !(maxs - mins).is_finite() {
@@ -31,7 +37,9 @@ pub(super) fn hull(points: &[[f64; 3]]) -> Option<Polyhedron> {
     }
     if let Some(normal) = flat_along(&points, mins, maxs) {
         let half = normal * (THINNEST / 2.0);
-        let both = points.iter().flat_map(|point| [*point - half, *point + half]);
+        let both = points
+            .iter()
+            .flat_map(|point| [*point - half, *point + half]);
         let both: Vec<Vector> = both.collect();
         return reduced(&both).or_else(|| body_of_box(mins - half.abs(), maxs + half.abs()));
     }
@@ -42,10 +50,17 @@ pub(super) fn hull(points: &[[f64; 3]]) -> Option<Polyhedron> {
 fn flat_along(points: &[Vector], mins: Vector, maxs: Vector) -> Option<Vector> {
     let first = *points.first()?;
     let far = |from: Vector| {
-        points.iter().copied().fold((from, -1.0), |(best, most), point| {
-            let distance = (point - from).length_squared();
-            if distance > most { (point, distance) } else { (best, most) }
-        })
+        points
+            .iter()
+            .copied()
+            .fold((from, -1.0), |(best, most), point| {
+                let distance = (point - from).length_squared();
+                if distance > most {
+                    (point, distance)
+                } else {
+                    (best, most)
+                }
+            })
     };
     let (one, _) = far(first);
     let (two, length) = far(one);
@@ -62,7 +77,11 @@ fn flat_along(points: &[Vector], mins: Vector, maxs: Vector) -> Option<Vector> {
         (Vector::ZERO, 0.0),
         |(best, most), offset| {
             let distance = offset.length_squared();
-            if distance > most { (offset, distance) } else { (best, most) }
+            if distance > most {
+                (offset, distance)
+            } else {
+                (best, most)
+            }
         },
     );
     if width < 1e-12 {
@@ -168,7 +187,10 @@ fn checked(points: &[Vector]) -> Option<Polyhedron> {
 fn sound(corners: Vec<Vector>, triangles: Vec<[u32; 3]>) -> Option<Polyhedron> {
     ConvexPolyhedron::from_convex_mesh(corners.clone(), &triangles)?;
     let body = Polyhedron {
-        corners: corners.iter().map(|corner| [corner.x, corner.y, corner.z]).collect(),
+        corners: corners
+            .iter()
+            .map(|corner| [corner.x, corner.y, corner.z])
+            .collect(),
         triangles,
     };
     (volume(&body) > 1e-12).then_some(body)
@@ -182,9 +204,8 @@ pub(super) fn volume(body: &Polyhedron) -> f64 {
         .iter()
         .map(|triangle| {
             let corners = body.triangle(*triangle);
-            let [a, b, c] = corners.map(|p| {
-                Vector::new(p[0] - origin[0], p[1] - origin[1], p[2] - origin[2])
-            });
+            let [a, b, c] =
+                corners.map(|p| Vector::new(p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]));
             a.dot(b.cross(c))
         })
         .sum();

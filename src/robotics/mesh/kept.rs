@@ -73,7 +73,12 @@ pub(super) fn parts_of(bytes: &[u8]) -> Option<Vec<MeshPart>> {
             let mut next = || places.next().map(u32::from_le_bytes);
             surface.triangles.push([next()?, next()?, next()?]);
         }
-        if surface.triangles.iter().flatten().any(|place| *place as usize >= corners) {
+        if surface
+            .triangles
+            .iter()
+            .flatten()
+            .any(|place| *place as usize >= corners)
+        {
             return None;
         }
         rest = after;

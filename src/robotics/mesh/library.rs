@@ -16,7 +16,7 @@ use super::part::MeshPart;
 use super::wavefront;
 
 /// Longer files are refused (bytes).
-const MAX_BYTES: u64 = 100_000_000;
+const MAX_BYTES: u64 = 1 << 26;
 
 /// Stack (bytes) of a thread that takes meshes apart.
 const STACK: usize = 32 << 20;
@@ -62,10 +62,12 @@ impl<'f> MeshLibrary<'f> {
     /// The library for a URDF with that path; `packages` are folders that hold packages or are some. The
     /// parts of paths are separated by `/`.
     pub fn new(files: &'f dyn MeshFiles, urdf: &str, packages: &[String]) -> Self {
-        let folder = urdf.rsplit_once('/').map_or("", |(folder, _)| match folder {
-            "" => "/",
-            folder => folder,
-        });
+        let folder = urdf
+            .rsplit_once('/')
+            .map_or("", |(folder, _)| match folder {
+                "" => "/",
+                folder => folder,
+            });
         let places = Places {
             folder: folder.to_owned(),
             packages: packages.to_vec(),
@@ -91,13 +93,17 @@ impl<'f> MeshLibrary<'f> {
             })
             .collect();
         let found = self.load_each(&different);
-        let found = places.into_iter().map(|place| found.get(place).cloned().flatten());
+        let found = places
+            .into_iter()
+            .map(|place| found.get(place).cloned().flatten());
         let missing = |request: &MeshRequest| MeshError::NotFound {
             file: request.file.clone(),
             tried: Vec::new(),
         };
         let pairs = found.zip(wanted);
-        pairs.map(|(found, request)| found.unwrap_or_else(|| Err(missing(request)))).collect()
+        pairs
+            .map(|(found, request)| found.unwrap_or_else(|| Err(missing(request))))
+            .collect()
     }
 
     /// Reads meshes on as many threads as there are.
@@ -115,7 +121,9 @@ impl<'f> MeshLibrary<'f> {
                 }
             }
         };
-        let threads = thread::available_parallelism().map_or(1, NonZero::get).min(wanted.len());
+        let threads = thread::available_parallelism()
+            .map_or(1, NonZero::get)
+            .min(wanted.len());
         thread::scope(|scope| {
             let started = (0..threads).filter(|_| {
                 let thread = thread::Builder::new().stack_size(STACK);
@@ -126,7 +134,9 @@ impl<'f> MeshLibrary<'f> {
                 work();
             }
         });
-        let found = found.into_iter().map(|place| place.into_inner().ok().flatten());
+        let found = found
+            .into_iter()
+            .map(|place| place.into_inner().ok().flatten());
         found.collect()
     }
 
@@ -142,13 +152,15 @@ impl<'f> MeshLibrary<'f> {
                 "the file has {length} bytes; {MAX_BYTES} are allowed at most"
             )));
         }
-        let bytes = self.files.read(&path).map_err(|error| MeshError::Unreadable {
-            path: path.clone(),
-            error: error.to_string(),
-        })?;
-        let format = Format::of(&path, &bytes).ok_or_else(|| MeshError::Format {
-            path: path.clone(),
-        })?;
+        let bytes = self
+            .files
+            .read(&path)
+            .map_err(|error| MeshError::Unreadable {
+                path: path.clone(),
+                error: error.to_string(),
+            })?;
+        let format =
+            Format::of(&path, &bytes).ok_or_else(|| MeshError::Format { path: path.clone() })?;
         let materials = match (format, request.purpose) {
             (Format::Wavefront, MeshPurpose::Looks) => self.materials(&path, &bytes),
             _ => Vec::new(),
@@ -156,7 +168,11 @@ impl<'f> MeshLibrary<'f> {
         let scale = request.scale.map(f64::to_le_bytes).concat();
         let kind = format!("{format:?} {:?}", request.purpose);
         let name = kept::name(&[kind.as_bytes(), &scale, &bytes, &materials]);
-        if let Some(parts) = self.files.kept(&name).and_then(|bytes| kept::parts_of(&bytes)) {
+        if let Some(parts) = self
+            .files
+            .kept(&name)
+            .and_then(|bytes| kept::parts_of(&bytes))
+        {
             return Ok(parts);
         }
         let colors = wavefront::colors(&materials);
@@ -187,7 +203,11 @@ impl<'f> MeshLibrary<'f> {
                 "" => name,
                 folder => format!("{folder}/{name}"),
             };
-            if self.files.length(&path).is_some_and(|length| length < MAX_BYTES / 10) {
+            if self
+                .files
+                .length(&path)
+                .is_some_and(|length| length < MAX_BYTES / 10)
+            {
                 all.extend(self.files.read(&path).unwrap_or_default());
                 all.push(b'\n');
             }

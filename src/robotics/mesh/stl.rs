@@ -87,8 +87,9 @@ fn ascii(bytes: &[u8]) -> Result<Polyhedron, String> {
                 // Facets with more corners are fans of triangles.
                 for i in 1..(numbers.len() / 3).saturating_sub(1) {
                     let corners = [0, i, i + 1].into_iter();
-                    let corners: Vec<f64> =
-                        corners.flat_map(|c| numbers[3 * c..3 * c + 3].to_vec()).collect();
+                    let corners: Vec<f64> = corners
+                        .flat_map(|c| numbers[3 * c..3 * c + 3].to_vec())
+                        .collect();
                     add(&mut surface, &corners);
                 }
                 numbers.clear();

@@ -4,10 +4,7 @@ use super::clean::{MAX_TRIANGLES, too_many};
 use super::part::MeshPart;
 
 /// The objects and groups of a file, each a part of its own; `colors` are those of materials by name.
-pub(super) fn read(
-    bytes: &[u8],
-    colors: &[(String, [f32; 4])],
-) -> Result<Vec<MeshPart>, String> {
+pub(super) fn read(bytes: &[u8], colors: &[(String, [f32; 4])]) -> Result<Vec<MeshPart>, String> {
     let mut corners: Vec<[f64; 3]> = Vec::new();
     let mut parts: Vec<MeshPart> = vec![MeshPart::default()];
     // The place of each corner of the file in the present part, and the part for which it holds.
@@ -28,7 +25,10 @@ pub(super) fn read(
                 }
             }
             Some("o" | "g") => {
-                if parts.last().is_some_and(|part| !part.surface.triangles.is_empty()) {
+                if parts
+                    .last()
+                    .is_some_and(|part| !part.surface.triangles.is_empty())
+                {
                     parts.push(MeshPart {
                         color,
                         ..MeshPart::default()
@@ -36,8 +36,15 @@ pub(super) fn read(
                 }
             }
             Some("usemtl") => {
-                let name = content.trim_start().strip_prefix("usemtl").unwrap_or_default().trim();
-                color = colors.iter().find(|(known, _)| known == name).map(|(_, color)| *color);
+                let name = content
+                    .trim_start()
+                    .strip_prefix("usemtl")
+                    .unwrap_or_default()
+                    .trim();
+                color = colors
+                    .iter()
+                    .find(|(known, _)| known == name)
+                    .map(|(_, color)| *color);
                 match parts.last_mut() {
                     Some(part) if part.surface.triangles.is_empty() => part.color = color,
                     Some(part) if part.color == color => {}
@@ -57,7 +64,11 @@ pub(super) fn read(
                 let mut place = |word: &str| {
                     let number = word.split('/').next()?.parse::<i64>().ok()?;
                     let known = i64::try_from(corners.len()).ok()?;
-                    let index = if number < 0 { known + number } else { number - 1 };
+                    let index = if number < 0 {
+                        known + number
+                    } else {
+                        number - 1
+                    };
                     let index = usize::try_from(index).ok()?;
                     let corner = corners.get(index)?;
                     let entry = place_of.get_mut(index)?;
@@ -70,7 +81,10 @@ pub(super) fn read(
                 let mut polygon = Vec::with_capacity(4);
                 for word in words {
                     polygon.push(place(word).ok_or_else(|| {
-                        format!("line {line}: {word:?} is no corner; there are {} so far", corners.len())
+                        format!(
+                            "line {line}: {word:?} is no corner; there are {} so far",
+                            corners.len()
+                        )
                     })?);
                 }
                 count += polygon.len().saturating_sub(2);
@@ -78,7 +92,9 @@ pub(super) fn read(
                     return Err(too_many(count));
                 }
                 for i in 2..polygon.len() {
-                    surface.triangles.push([polygon[0], polygon[i - 1], polygon[i]]);
+                    surface
+                        .triangles
+                        .push([polygon[0], polygon[i - 1], polygon[i]]);
                 }
             }
             _ => {}
@@ -103,8 +119,16 @@ pub(super) fn colors(bytes: &[u8]) -> Vec<(String, [f32; 4])> {
     for line in text.lines() {
         let line = line.trim();
         let (word, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let mut numbers = rest.split_whitespace().map_while(|word| word.parse::<f32>().ok());
-        let shade = |number: f32| if number.is_finite() { number.clamp(0.0, 1.0) } else { 0.5 };
+        let mut numbers = rest
+            .split_whitespace()
+            .map_while(|word| word.parse::<f32>().ok());
+        let shade = |number: f32| {
+            if number.is_finite() {
+                number.clamp(0.0, 1.0)
+            } else {
+                0.5
+            }
+        };
         match (word, found.last_mut()) {
             ("newmtl", _) => found.push((rest.trim().to_owned(), [0.6, 0.6, 0.6, 1.0])),
             ("Kd", Some((_, color))) => {

@@ -154,7 +154,9 @@ fn build(
     let mut shapes = Shapes::read(robot, &link_nodes, meshes, usage, remarks)?;
     let link_parts = link_nodes.iter().enumerate().map(|(i, node)| {
         let (collisions, visuals) = shapes.take(i);
-        let mass = node.child("inertial").and_then(|inertial| inertial.child("mass"));
+        let mass = node
+            .child("inertial")
+            .and_then(|inertial| inertial.child("mass"));
         LinkPart {
             name: node.text("name").to_owned(),
             collisions,
@@ -205,11 +207,7 @@ fn find_root(links: &Named<'_>, joints: &Named<'_>, parts: &[JointPart]) -> Resu
     }
 }
 
-fn joint_part(
-    joint: Node<'_>,
-    links: &[&str],
-    joints: &[&str],
-) -> Result<JointPart, UrdfProblem> {
+fn joint_part(joint: Node<'_>, links: &[&str], joints: &[&str]) -> Result<JointPart, UrdfProblem> {
     let joint_name = joint.text("name");
     let find = |role, name: &str, names: &[&str]| {
         let index = names.iter().position(|n| *n == name);
@@ -229,7 +227,9 @@ fn joint_part(
         // The schema lets nothing else pass.
         _ => JointKind::Fixed,
     };
-    let axis = joint.child("axis").filter(|axis| axis.value("xyz").is_some());
+    let axis = joint
+        .child("axis")
+        .filter(|axis| axis.value("xyz").is_some());
     let axis = axis.map_or([1.0, 0.0, 0.0], |axis| axis.vector("xyz"));
     let axis = match Unit::try_new(Vector3::from(axis), 1e-9) {
         Some(axis) => axis,
@@ -252,7 +252,9 @@ fn joint_part(
     let limits = limit.map_or([0.0; 2], |limit| {
         ["lower", "upper"].map(|end| limit.number_or_zero(end))
     });
-    let limits = limited.then(|| range("limits", limits[0], limits[1])).transpose()?;
+    let limits = limited
+        .then(|| range("limits", limits[0], limits[1]))
+        .transpose()?;
     // A safety controller without limits reads as 0..0 and limits the speed only.
     let safety = joint.child("safety_controller").map(|safety| {
         ["soft_lower_limit", "soft_upper_limit"].map(|end| safety.number_or_zero(end))
@@ -269,7 +271,11 @@ fn joint_part(
         }
         None => None,
     };
-    let most = |what| limit.and_then(|limit| limit.number(what)).filter(|v| *v > 0.0);
+    let most = |what| {
+        limit
+            .and_then(|limit| limit.number(what))
+            .filter(|v| *v > 0.0)
+    };
     Ok(JointPart {
         name: joint_name.to_owned(),
         kind,
@@ -288,9 +294,9 @@ fn joint_part(
 /// Gives joints that follow others, and have no limits of their own, those that follow from the others'.
 fn follow_ranges(nodes: &[Node<'_>], parts: &mut [JointPart]) -> Result<(), Wrong> {
     for (i, node) in nodes.iter().enumerate() {
-        let has_own = node.child("limit").is_some_and(|limit| {
-            limit.value("lower").is_some() || limit.value("upper").is_some()
-        });
+        let has_own = node
+            .child("limit")
+            .is_some_and(|limit| limit.value("lower").is_some() || limit.value("upper").is_some());
         if has_own || parts[i].limits.is_none() || parts[i].mimic.is_none() {
             continue;
         }

@@ -106,7 +106,10 @@ impl fmt::Display for Leniency {
             Self::NoDirection => f.write_str("<axis> has no xyz; it is taken as 1 0 0"),
             Self::OneScale => f.write_str("scale is one number; it is taken for all three axes"),
             Self::Color(value) => {
-                write!(f, "rgba={value:?} is not from 0 to 1; it is taken as near as can be")
+                write!(
+                    f,
+                    "rgba={value:?} is not from 0 to 1; it is taken as near as can be"
+                )
             }
             Self::LoopJoint => f.write_str("<loop_joint> is left out: joints form a tree here"),
             Self::NoCollisions => {
@@ -144,7 +147,11 @@ pub(super) struct Remarks {
 impl Remarks {
     /// Notes something found at a byte offset.
     pub(super) fn add(&mut self, offset: usize, leniency: Leniency) {
-        match self.found.iter_mut().find(|(_, known, _)| known.is_like(&leniency)) {
+        match self
+            .found
+            .iter_mut()
+            .find(|(_, known, _)| known.is_like(&leniency))
+        {
             Some((_, _, others)) => *others += 1,
             None => self.found.push((offset, leniency, 0)),
         }

@@ -254,7 +254,8 @@ const PLACES: &[(&str, &[&str])] = &[
 fn matters(elements: &[Element<'_>], mut i: usize) -> bool {
     while let Some(parent) = elements[i].parent {
         let holders = PLACES.iter().find(|(name, _)| *name == elements[i].name);
-        let is_in_place = holders.is_some_and(|(_, holders)| holders.contains(&elements[parent].name));
+        let is_in_place =
+            holders.is_some_and(|(_, holders)| holders.contains(&elements[parent].name));
         if !is_in_place {
             return false;
         }
@@ -348,7 +349,10 @@ fn check_children(
         .collect();
     // Of each name, all but the first, in the order of the file.
     singles.sort_by_key(|child| child.name);
-    for pair in singles.windows(2).filter(|pair| pair[0].name == pair[1].name) {
+    for pair in singles
+        .windows(2)
+        .filter(|pair| pair[0].name == pair[1].name)
+    {
         let second = Leniency::SecondChild {
             element: element.name.to_owned(),
             child: pair[1].name.to_owned(),
@@ -363,9 +367,8 @@ fn check_children(
             Some("revolute" | "prismatic")
         );
         let limits = children().filter(|e| e.name == "limit").last();
-        let has_range = |e: &Element<'_>| {
-            e.attribute("lower").is_some() || e.attribute("upper").is_some()
-        };
+        let has_range =
+            |e: &Element<'_>| e.attribute("lower").is_some() || e.attribute("upper").is_some();
         match limits {
             None if is_limited && has("mimic") => {
                 remarks.add(element.offset, Leniency::FollowersRange(name.to_owned()));

@@ -119,7 +119,11 @@ impl Shapes {
 
     /// Takes the solid and the visible shapes of a link.
     pub(super) fn take(&mut self, link: usize) -> (Vec<PlacedShape>, Vec<PlacedShape>) {
-        let shapes = self.links.get_mut(link).map(std::mem::take).unwrap_or_default();
+        let shapes = self
+            .links
+            .get_mut(link)
+            .map(std::mem::take)
+            .unwrap_or_default();
         (shapes.collisions, shapes.visuals)
     }
 }
@@ -127,16 +131,14 @@ impl Shapes {
 /// The shape in a geometry.
 fn shape_in(geometry: Node<'_>) -> Option<Node<'_>> {
     let shapes = ["box", "cylinder", "sphere", "capsule", "mesh"];
-    geometry.contents().filter(|node| shapes.contains(&node.name())).last()
+    geometry
+        .contents()
+        .filter(|node| shapes.contains(&node.name()))
+        .last()
 }
 
 /// Says that a mesh is in another unit, if it has no scale and is as large as a house.
-fn remark_on_unit(
-    parts: &[MeshPart],
-    request: &MeshRequest,
-    offset: usize,
-    remarks: &mut Remarks,
-) {
+fn remark_on_unit(parts: &[MeshPart], request: &MeshRequest, offset: usize, remarks: &mut Remarks) {
     let all = parts.iter().filter_map(|part| part.surface.bounds());
     let bounds = all.reduce(|[a, b], [c, d]| {
         [0, 1].map(|end| {
@@ -149,7 +151,9 @@ fn remark_on_unit(
     let Some([low, high]) = bounds else {
         return;
     };
-    let length = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
+    let length = (0..3)
+        .map(|axis| high[axis] - low[axis])
+        .fold(0.0, f64::max);
     if length > LONGEST && request.scale == [1.0; 3] {
         let file = request.file.clone();
         remarks.add(offset, Leniency::Unit { file, length });
@@ -231,7 +235,9 @@ fn color(material: Node<'_>, materials: &[Node<'_>]) -> Option<[f32; 4]> {
     let name = material.text("name").trim();
     let shared = || {
         let mut known = materials.iter().filter(|_| !name.is_empty());
-        known.find(|known| known.text("name").trim() == name)?.child("color")
+        known
+            .find(|known| known.text("name").trim() == name)?
+            .child("color")
     };
     let color = material.child("color").or_else(shared)?;
     let shades = color.numbers("rgba").unwrap_or([0.0; 4]);

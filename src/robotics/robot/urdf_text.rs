@@ -31,7 +31,10 @@ pub(super) fn declared(text: &str) -> Option<&'static str> {
     let declaration = declaration.get(..declaration.find("?>")?)?;
     let encoding = declaration.split_once("encoding")?.1;
     let name = encoding.trim_start().strip_prefix('=')?.trim_start();
-    let quote = name.chars().next().filter(|letter| ['"', '\''].contains(letter))?;
+    let quote = name
+        .chars()
+        .next()
+        .filter(|letter| ['"', '\''].contains(letter))?;
     let name = name.get(1..)?.split(quote).next()?.to_ascii_lowercase();
     LATIN_1.contains(&name.as_str()).then_some("ISO-8859-1")
 }

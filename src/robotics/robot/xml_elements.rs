@@ -70,7 +70,9 @@ fn unescaped(text: &str) -> Cow<'_, str> {
     while let Some(at) = rest.find('&') {
         whole.push_str(&rest[..at]);
         rest = &rest[at..];
-        let found = rest.find(';').and_then(|end| Some((referred(&rest[1..end])?, end + 1)));
+        let found = rest
+            .find(';')
+            .and_then(|end| Some((referred(&rest[1..end])?, end + 1)));
         let (letter, length) = found.unwrap_or(('&', 1));
         whole.push(letter);
         rest = &rest[length..];

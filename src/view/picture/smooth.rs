@@ -38,7 +38,11 @@ pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surfac
     for (triangle, _, own) in &known {
         let corner = |i: u32| {
             let around = around.get(i as usize).map_or(&[][..], Vec::as_slice);
-            let around = if around.len() > MAX_AROUND { &[] } else { around };
+            let around = if around.len() > MAX_AROUND {
+                &[]
+            } else {
+                around
+            };
             let gentle = around.iter().map(|t| &known[*t as usize]);
             let gentle = gentle.filter(|(_, _, other)| other.dot(own) > EDGE);
             let sum = gentle.fold(Vector3::zeros(), |sum, (_, outward, _)| sum + outward);

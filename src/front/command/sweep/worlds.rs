@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::file::SweepFile;
 use crate::command::failure::CommandError;
-use crate::command::open::open_session;
+use crate::command::open::{open_session, tell_remarks};
 use crate::command::options::{LogLevel, Options};
 use crate::command::stack::COMPILER_STACK;
 use lisp::guard::set_stack_budget;
@@ -44,6 +44,7 @@ impl Worlds {
             ..options.clone()
         };
         let mut session = open_session(&quiet)?;
+        tell_remarks(&session, options)?;
         if let Some(abort) = file.load(&mut session) {
             let place = abort
                 .main_place()
