@@ -23,7 +23,7 @@ const LARGE_BULGE: f64 = 9e-3;
 const MAX_PARTS: usize = 200;
 
 /// So many connected parts are taken apart one by one, the rest together.
-const MAX_APART: usize = 12;
+const MAX_APART: usize = 6;
 
 /// Against so many bodies it is looked whether something is inside them.
 const MAX_COMPARED: usize = 64;

@@ -7,7 +7,7 @@ use parry3d_f64::transformation::try_convex_hull;
 use spatial::Polyhedron;
 
 /// So far (m) may points stick out of their hull, in favour of fewer corners.
-const SHORT: f64 = 2e-4;
+const SHORT: f64 = 3e-4;
 
 /// A hull of so many points is taken as it is.
 const FEW: usize = 24;
@@ -129,29 +129,41 @@ fn reduced(points: &[Vector]) -> Option<Polyhedron> {
     chosen.sort_unstable();
     chosen.dedup();
     let mut found = None;
+    let mut candidates: Vec<usize> = (0..points.len()).collect();
     for _ in 0..ROUNDS {
         let some: Vec<Vector> = chosen.iter().map(|i| points[*i]).collect();
         let Some((corners, triangles)) = raw(&some) else {
             break;
         };
-        let mut outside = Vec::new();
-        for triangle in &triangles {
+        let planes = triangles.iter().filter_map(|triangle| {
             let [a, b, c] = triangle.map(|i| corners[i as usize]);
-            let normal = (b - a).cross(c - a);
-            let length = normal.length();
-            if length <= 0.0 {
-                continue;
+            let normal = (b - a).cross(c - a).try_normalize()?;
+            Some((normal, normal.dot(a)))
+        });
+        let planes: Vec<_> = planes.collect();
+        // The farthest candidate ahead of each plane.
+        let mut outside = vec![(SHORT, None); planes.len()];
+        // What is inside stays inside, since the hull only grows.
+        candidates.retain(|candidate| {
+            let point = points[*candidate];
+            let mut most = (SHORT, None);
+            for (plane, (normal, offset)) in planes.iter().enumerate() {
+                let ahead = normal.dot(point) - offset;
+                if ahead > most.0 {
+                    most = (ahead, Some(plane));
+                }
             }
-            let place = farthest(points, normal);
-            if (points[place] - a).dot(normal) > SHORT * length {
-                outside.push(place);
+            let Some(plane) = most.1 else {
+                return false;
+            };
+            if most.0 > outside[plane].0 {
+                outside[plane] = (most.0, Some(*candidate));
             }
-        }
+            true
+        });
         found = Some((corners, triangles));
-        outside.sort_unstable();
-        outside.dedup();
         let before = chosen.len();
-        chosen.extend(outside);
+        chosen.extend(outside.into_iter().filter_map(|(_, place)| place));
         chosen.sort_unstable();
         chosen.dedup();
         if chosen.len() == before {

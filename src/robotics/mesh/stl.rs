@@ -14,11 +14,9 @@ const RECORD: usize = 50;
 /// ones pretend to be.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<MeshPart>, String> {
     let surface = match binary_count(bytes) {
-        Some(count) if bytes.len() >= HEADER + RECORD * count || !begins_solid(bytes) => {
-            binary(bytes, count)?
-        }
-        _ if begins_solid(bytes) => ascii(bytes)?,
-        _ => return Err("the file ends before the number of its triangles".to_owned()),
+        _ if is_text(bytes) => ascii(bytes)?,
+        Some(count) => binary(bytes, count)?,
+        None => return Err("the file ends before the number of its triangles".to_owned()),
     };
     Ok(vec![MeshPart {
         surface,
@@ -32,20 +30,29 @@ fn binary_count(bytes: &[u8]) -> Option<usize> {
     usize::try_from(u32::from_le_bytes(count)).ok()
 }
 
-fn begins_solid(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().starts_with(b"solid")
+/// Whether a file is of text. Many binary ones begin like one, but no text has bytes of value 0.
+fn is_text(bytes: &[u8]) -> bool {
+    let head = bytes.get(..bytes.len().min(HEADER)).unwrap_or_default();
+    head.trim_ascii_start().starts_with(b"solid")
+        && !head.contains(&0)
+        && binary_count(bytes).is_none_or(|count| !fills(bytes, count))
+}
+
+/// Whether a binary file with so many triangles has just so many bytes.
+fn fills(bytes: &[u8], count: usize) -> bool {
+    bytes.len() as u64 == HEADER as u64 + RECORD as u64 * count as u64
 }
 
 fn binary(bytes: &[u8], count: usize) -> Result<Polyhedron, String> {
-    if count > MAX_TRIANGLES {
-        return Err(super::clean::too_many(count));
-    }
     let records = bytes.get(HEADER..).unwrap_or_default();
-    if records.len() < count * RECORD {
+    if records.len() / RECORD < count {
         return Err(format!(
             "the file ends after {} of {count} triangles",
             records.len() / RECORD
         ));
+    }
+    if count > MAX_TRIANGLES {
+        return Err(super::clean::too_many(count));
     }
     let mut surface = Polyhedron {
         corners: Vec::with_capacity(3 * count),

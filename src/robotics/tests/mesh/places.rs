@@ -83,7 +83,7 @@ fn a_missing_mesh_is_an_error_for_solids_and_a_remark_for_looks() {
     assert_eq!(
         remarks,
         [
-            "k.urdf:1:51: there is no file for the mesh b.stl; tried /k/b.stl; what is solid there is \
+            "k.urdf:1:50: there is no file for the mesh b.stl; tried /k/b.stl; what is solid there is \
           shown instead"
         ]
     );
