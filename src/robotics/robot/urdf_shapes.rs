@@ -198,9 +198,9 @@ impl Given<'_> {
     fn primitives(&self) -> Vec<PlacedShape> {
         let node = self.node;
         let [radius, length] = ["radius", "length"].map(|name| node.number_or_zero(name));
-        let placed = |shape, at: Pose| PlacedShape {
+        let placed = |shape, pose| PlacedShape {
             shape,
-            pose: self.pose * at,
+            pose,
             color: self.color,
         };
         let shape = match node.name() {
@@ -211,19 +211,13 @@ impl Given<'_> {
             "sphere" => (radius > 0.0).then_some(Shape::Sphere { radius }),
             _ => (radius > 0.0 && length > 0.0).then_some(Shape::Cylinder { radius, length }),
         };
-        let ball = |z| {
-            let at = from_xyz_rpy([0.0, 0.0, z], [0.0; 3]);
-            placed(Shape::Sphere { radius }, at)
-        };
-        let mut shapes: Vec<_> = shape
-            .into_iter()
-            .map(|shape| PlacedShape {
-                shape,
-                pose: self.pose,
-                color: self.color,
-            })
-            .collect();
+        let shape = shape.map(|shape| placed(shape, self.pose));
+        let mut shapes: Vec<_> = shape.into_iter().collect();
         if node.name() == "capsule" && radius > 0.0 {
+            let ball = |z| {
+                let at = self.pose * from_xyz_rpy([0.0, 0.0, z], [0.0; 3]);
+                placed(Shape::Sphere { radius }, at)
+            };
             shapes.extend([ball(-length / 2.0), ball(length / 2.0)]);
         }
         shapes
