@@ -2,6 +2,7 @@
 //! moves, and where it and things could be. Nothing here knows of a plan language.
 
 pub mod location;
+pub mod mesh;
 pub mod motion;
 pub mod perception;
 pub mod robot;
@@ -12,6 +13,7 @@ pub mod world;
 #[cfg(test)]
 #[allow(clippy::print_stdout)]
 mod tests {
+    mod mesh;
     mod motion;
     mod robot;
     pub(crate) mod world;

@@ -18,6 +18,7 @@ mod host;
 mod illustrate;
 mod live_host;
 mod log_level;
+mod mesh_files;
 mod objects;
 mod options;
 pub mod outside;
@@ -29,6 +30,7 @@ mod queries;
 mod record;
 mod serving;
 pub mod simulation;
+mod start;
 mod sweep_file;
 mod sweep_worlds;
 pub mod sweeping;
@@ -200,6 +202,17 @@ impl Session {
     /// The descriptions of robot, kitchen and objects.
     pub fn models(&self) -> &Arc<Models> {
         &self.evaluator.host.simulation.models
+    }
+
+    /// What a person should know of the robot and the kitchen that were given: what was taken leniently in
+    /// their files, and whether the robot starts where it cannot be.
+    pub fn remarks(&self) -> Vec<String> {
+        let models = self.models();
+        let mut remarks: Vec<String> = models.remarks.iter().map(ToString::to_string).collect();
+        if self.options.robot.is_some() || self.options.world.is_some() {
+            remarks.extend(start::remark(models, self.simulation().world()));
+        }
+        remarks
     }
 
     /// The robot in its world.

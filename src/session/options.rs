@@ -1,12 +1,16 @@
 //! What a session starts with.
 
+use std::sync::Arc;
+
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
+use super::mesh_files::SessionMeshes;
 use super::outside::Outside;
 use lisp::guard::heap::HeapLimit;
-use robotics::robot::{KinematicTree, MissingNames, RobotDescription};
+use robotics::mesh::MeshLibrary;
+use robotics::robot::{KinematicTree, MissingNames, RobotDescription, UrdfReading, UrdfUse};
 use robotics::sexp::DataError;
 use robotics::world::noise::NoiseLevels;
 use robotics::world::object_library::{OBJECTS, ObjectLibrary};
@@ -27,6 +31,12 @@ pub struct SessionOptions {
     /// Name and text of a description of the kitchen's furniture. Without one, what of the built-in
     /// kitchen's description names only furniture that is there is true of a given kitchen, too.
     pub world_description: Option<(String, String)>,
+    /// Folders in which the packages are that URDFs name in `package://…`, or which are such packages;
+    /// the folders around a URDF are looked through, too.
+    pub package_paths: Vec<String>,
+    /// The folder in which is kept what meshes are made into, so that it need not be made again; nothing
+    /// is kept if `None`.
+    pub mesh_cache: Option<String>,
     /// How large the errors of the robot's sensors and motors are, such as
     /// `position=0.01,misses=0.1`; an empty text stands for usual errors, `None` for none.
     pub noise: Option<String>,
@@ -53,6 +63,8 @@ impl Default for SessionOptions {
             robot_description: None,
             world: None,
             world_description: None,
+            package_paths: Vec::new(),
+            mesh_cache: None,
             noise: None,
             systems: Vec::new(),
             log_level: LogLevel::Info,
@@ -106,26 +118,42 @@ impl SessionOptions {
 
     /// Reads the descriptions of robot, kitchen and objects.
     pub(super) fn models(&self) -> Result<Models, SessionError> {
-        let tree = |given: &Option<(String, String)>, text: &str, name: &str| {
-            let read = match given {
-                Some((name, text)) => KinematicTree::from_urdf(text, name),
-                None => KinematicTree::built_in(text, name),
-            };
-            read.map_err(|e| SessionError::Models(e.to_string()))
-        };
-        let robot = tree(&self.robot, PR2_URDF, "pr2.urdf")?;
-        let kitchen = tree(&self.world, KITCHEN_URDF, "kitchen.urdf")?;
+        let robot = self.tree(&self.robot, [PR2_URDF, "pr2.urdf"], UrdfUse::Robot)?;
+        let kitchen = self.tree(&self.world, [KITCHEN_URDF, "kitchen.urdf"], UrdfUse::World)?;
+        let remarks = [robot.remarks, kitchen.remarks].concat();
+        let (robot, kitchen) = (robot.tree, kitchen.tree);
         let description = self.description(&robot)?;
         let furnishing = self.furnishing(&kitchen)?;
         let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")
             .map_err(|e| SessionError::Models(e.to_string()))?;
-        Ok(Models::new(
-            robot,
-            description,
-            kitchen,
-            furnishing,
-            objects,
-        ))
+        let mut models = Models::new(robot, description, kitchen, furnishing, objects);
+        models.remarks = remarks;
+        Ok(models)
+    }
+
+    /// Reads the tree in a URDF that is given as its name and text, or in the one that is built in.
+    fn tree(
+        &self,
+        given: &Option<(String, String)>,
+        [text, name]: [&str; 2],
+        usage: UrdfUse,
+    ) -> Result<UrdfReading, SessionError> {
+        let read = match given {
+            Some((name, text)) => {
+                let files = SessionMeshes {
+                    files: Arc::clone(&self.outside.files),
+                    kept_in: self.mesh_cache.clone(),
+                };
+                let path = name.replace('\\', "/");
+                let meshes = MeshLibrary::new(&files, &path, &self.package_paths);
+                KinematicTree::read_urdf(text, name, &meshes, usage)
+            }
+            None => KinematicTree::built_in(text, name).map(|tree| UrdfReading {
+                tree,
+                remarks: Vec::new(),
+            }),
+        };
+        read.map_err(|error| SessionError::Models(error.to_string()))
     }
 
     /// Reads the description of the kitchen's furniture.

@@ -5,6 +5,7 @@
 //! robots, worlds or the plan language.
 
 pub mod number;
+pub mod polyhedron;
 pub mod pose;
 pub mod shape;
 pub mod trig;
@@ -13,5 +14,6 @@ pub mod trig;
 use portable_math as _;
 
 pub use number::Shortest;
+pub use polyhedron::Polyhedron;
 pub use pose::Pose;
 pub use shape::{PlacedShape, Shape};

@@ -1,8 +1,10 @@
-//! Convex primitives that robots, furniture and objects are made of.
+//! Shapes that robots, furniture and objects are made of.
 
-use super::Pose;
+use std::sync::Arc;
 
-/// A convex solid in its own frame.
+use super::{Polyhedron, Pose};
+
+/// A shape in its own frame. All but [`Mesh`](Shape::Mesh) are convex solids.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A box centred on the origin; full edge lengths (m) along x, y, z.
@@ -22,6 +24,10 @@ pub enum Shape {
         /// Radius (m).
         radius: f64,
     },
+    /// A convex body, which a triangle mesh was taken apart into.
+    Hull(Arc<Polyhedron>),
+    /// A surface for the eye only: it need be neither convex nor closed.
+    Mesh(Arc<Polyhedron>),
 }
 
 impl Shape {
@@ -31,6 +37,7 @@ impl Shape {
             Self::Box { size: [x, y, z] } => libm::hypot(libm::hypot(*x, *y), *z) / 2.0,
             Self::Cylinder { radius, length } => libm::hypot(*radius, length / 2.0),
             Self::Sphere { radius } => *radius,
+            Self::Hull(body) | Self::Mesh(body) => body.bounding_radius(),
         }
     }
 }

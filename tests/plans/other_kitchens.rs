@@ -194,3 +194,72 @@ fn a_wrong_description_is_told_where() {
         );
     }
 }
+
+/// A box of triangles, 1 m wide, as a file of text.
+fn cube_stl() -> String {
+    let corner = |i: usize| [i & 1, i >> 1 & 1, i >> 2 & 1];
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let mut text = "solid cube\n".to_owned();
+    for [a, b, c, d] in sides {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "outer loop\n";
+            for [x, y, z] in triangle.map(corner) {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\n";
+        }
+    }
+    text + "endsolid\n"
+}
+
+#[test]
+fn a_kitchen_of_meshes_says_what_is_wrong_with_it() {
+    let folder = std::env::temp_dir().join(format!("planwright-meshes-{}", std::process::id()));
+    let meshes = folder.join("room").join("meshes");
+    std::fs::create_dir_all(&meshes).unwrap();
+    std::fs::write(meshes.join("desk.stl"), cube_stl()).unwrap();
+    let urdf = folder.join("room").join("room.urdf");
+    let mesh = "package://room/meshes/desk.stl";
+    let text = format!(
+        "<robot name=\"room\"><link name=\"desk\">\n\
+         <visual><geometry><mesh filename=\"package://room/desk.dae\"/></geometry></visual>\n\
+         <collision><geometry><mesh filename=\"{mesh}\" scale=\"1 1 0.7\"/></geometry></collision>\n\
+         </link></robot>"
+    );
+    let options = SessionOptions {
+        world: Some((urdf.to_str().unwrap().replace('\\', "/"), text)),
+        mesh_cache: Some(folder.join("cache").to_str().unwrap().replace('\\', "/")),
+        ..SessionOptions::default()
+    };
+    let hash = |session: &Session| session.simulation().world().hash();
+    let session = Session::new(&options).unwrap();
+    let remarks = session.remarks();
+    assert_eq!(remarks.len(), 2, "{remarks:?}");
+    assert!(remarks[0].contains("there is no file for the mesh package://room/desk.dae"));
+    assert!(
+        remarks[0].ends_with("what is solid there is shown instead"),
+        "{}",
+        remarks[0]
+    );
+    assert!(
+        remarks[1].starts_with("the robot starts inside desk, "),
+        "{}",
+        remarks[1]
+    );
+    assert!(
+        remarks[1].contains(" is free: (btr-utils:move-robot "),
+        "{}",
+        remarks[1]
+    );
+    // What was kept gives the same world.
+    assert_eq!(std::fs::read_dir(folder.join("cache")).unwrap().count(), 1);
+    assert_eq!(hash(&Session::new(&options).unwrap()), hash(&session));
+    std::fs::remove_dir_all(&folder).unwrap();
+}

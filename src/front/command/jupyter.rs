@@ -183,9 +183,11 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     ];
     let files = files.into_iter();
     let files = files.filter_map(|(name, path)| Some((name, path.as_ref()?)));
+    let packages = options.package_path.iter();
+    let packages = packages.map(|path| ("package-path", path));
     let systems = options.systems.iter().map(|path| ("systems", path));
     let setup = options.setup.iter().map(|path| ("setup", path));
-    for (name, path) in files.chain(systems).chain(setup) {
+    for (name, path) in files.chain(packages).chain(systems).chain(setup) {
         add(
             name,
             std::path::absolute(path)?.to_string_lossy().into_owned(),

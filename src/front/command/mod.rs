@@ -8,6 +8,7 @@
 //! Only this folder and the prompt write to the terminal.
 
 mod arguments;
+mod cache;
 mod check;
 mod completions;
 mod failure;

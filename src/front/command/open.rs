@@ -1,5 +1,6 @@
 //! Sets up evaluators, in this one place.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 #[cfg(test)]
@@ -7,12 +8,15 @@ use clap::Parser;
 
 #[cfg(test)]
 use super::arguments::Arguments;
+use super::cache;
 use super::failure::CommandError;
 use super::heap;
 use super::options::{LogLevel, Options};
 use super::stack::COMPILER_STACK;
-use lisp::files::text_of;
+use lisp::files::{bytes_of, text_of};
 use lisp::guard::set_stack_budget;
+use lisp::visible::visible;
+use robotics::robot::urdf_text;
 use session::dialogue::Evaluate;
 use session::{self, Session, SessionOptions};
 
@@ -28,17 +32,25 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
         Ok((path.display().to_string(), text))
     };
+    let read_urdf = |path: &Path| -> Result<(String, String), CommandError> {
+        let wrong = |error: String| CommandError::Open(format!("{}: {error}", path.display()));
+        let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
+        let text = urdf_text(&bytes).map_err(wrong)?;
+        Ok((path.display().to_string(), text))
+    };
     let session_options = SessionOptions {
         seed: options.seed,
-        robot: options.robot.as_deref().map(read).transpose()?,
+        robot: options.robot.as_deref().map(read_urdf).transpose()?,
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
-        world: options.world.as_deref().map(read).transpose()?,
+        world: options.world.as_deref().map(read_urdf).transpose()?,
         world_description: world_description(options)
             .as_deref()
             .map(read)
             .transpose()?,
+        package_paths: package_paths(&options.package_path)?,
+        mesh_cache: cache::directory("meshes"),
         noise: options.noise.clone(),
-        systems: folders(&options.systems)?,
+        systems: folders("--systems", &options.systems)?,
         log_level: match options.log_level {
             LogLevel::Debug => session::LogLevel::Debug,
             LogLevel::Info => session::LogLevel::Info,
@@ -54,6 +66,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     set_stack_budget(COMPILER_STACK);
     let mut session =
         Session::new(&session_options).map_err(|error| CommandError::Open(error.to_string()))?;
+    tell_remarks(&session, options)?;
     for file in &options.setup {
         let set_up = session.run_file(file);
         set_up.map_err(|failure| CommandError::Open(format!("{}: {failure}", file.display())))?;
@@ -82,14 +95,34 @@ pub(crate) fn open_default() -> Result<Session, String> {
     open_session(&arguments.options).map_err(|error| error.to_string())
 }
 
+/// The folders of packages: those that are given, then those of ROS.
+fn package_paths(given: &[PathBuf]) -> Result<Vec<String>, CommandError> {
+    let mut paths = folders("--package-path", given)?;
+    let of_ros = std::env::var_os("ROS_PACKAGE_PATH").unwrap_or_default();
+    let of_ros = std::env::split_paths(&of_ros).filter(|path| path.is_absolute());
+    paths.extend(of_ros.filter_map(|path| path.to_str().map(str::to_owned)));
+    Ok(paths)
+}
+
+/// Tells a person what the session remarks on the robot and the kitchen that were given, unless
+/// warnings are not to be shown.
+pub(in crate::command) fn tell_remarks(session: &Session, options: &Options) -> io::Result<()> {
+    if options.log_level <= LogLevel::Warn {
+        for remark in session.remarks() {
+            writeln!(io::stderr(), "; Warning: {}", visible(&remark))?;
+        }
+    }
+    Ok(())
+}
+
 /// The names of folders, independent of the working directory; an error if one is none.
-fn folders(paths: &[PathBuf]) -> Result<Vec<String>, CommandError> {
+fn folders(option: &str, paths: &[PathBuf]) -> Result<Vec<String>, CommandError> {
     let name = |path: &PathBuf| {
         let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
         match absolute.to_str() {
             Some(name) if absolute.is_dir() => Ok(name.to_owned()),
             _ => Err(CommandError::Open(format!(
-                "--systems {}: there is no such folder",
+                "{option} {}: there is no such folder",
                 path.display()
             ))),
         }

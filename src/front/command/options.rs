@@ -27,6 +27,10 @@ pub(crate) struct Options {
     /// whose names are not those of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot_description: Option<PathBuf>,
+    /// Folder with the packages that a URDF names in package://NAME/…, besides those around the file and
+    /// in ROS_PACKAGE_PATH; may be given several times
+    #[arg(long, global = true, value_name = "FOLDER")]
+    pub(crate) package_path: Vec<PathBuf>,
     /// Folder in which (asdf:load-system …) and (ql:quickload …) look for systems, with the
     /// folders inside it; may be given several times
     #[arg(long, global = true, value_name = "FOLDER")]

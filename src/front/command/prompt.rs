@@ -97,6 +97,7 @@ pub(super) fn open_journals(
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
         noise: options.noise.clone(),
+        package_path: options.package_path.clone(),
         systems: options.systems.clone(),
         setup: options.setup.clone(),
         is_closed: options.closed,
@@ -129,6 +130,11 @@ pub(super) fn open_journals(
                 differs(&options.robot_description, &beginning.robot_description),
             ),
             (
+                "--package-path",
+                !options.package_path.is_empty()
+                    && absolute(&options.package_path) != beginning.package_path,
+            ),
+            (
                 "--systems",
                 !options.systems.is_empty() && absolute(&options.systems) != beginning.systems,
             ),
@@ -153,6 +159,7 @@ pub(super) fn open_journals(
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
         options.noise = beginning.noise;
+        options.package_path = beginning.package_path;
         options.systems = beginning.systems;
         // Who resumes a session as a closed one trusts neither its inputs nor the files that it names.
         if !options.closed {

@@ -71,8 +71,13 @@ pub trait Files: Debug + Send + Sync {
 
 /// The text of a file of forms on the machine, or of another file that is as small.
 pub fn text_of(path: &Path) -> io::Result<String> {
+    bytes_of(path).and_then(utf8)
+}
+
+/// The bytes of such a file.
+pub fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
     let name = path.to_str().ok_or(io::ErrorKind::InvalidFilename)?;
-    Disk.read_plan(name).and_then(utf8)
+    Disk.read_plan(name)
 }
 
 /// A file that is written.

@@ -27,6 +27,10 @@ impl Mesh {
             Shape::Box { size } => Self::cuboid(size.map(|s| s / 2.0)),
             Shape::Cylinder { radius, length } => Self::cylinder(*radius, length / 2.0),
             Shape::Sphere { radius } => Self::ball(*radius),
+            Shape::Hull(body) | Shape::Mesh(body) => Self {
+                corners: body.corners.iter().copied().map(Point3::from).collect(),
+                triangles: body.triangles.clone(),
+            },
         }
     }
 

@@ -4,6 +4,8 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::mesh::MeshError;
+
 /// The first thing that is wrong with a URDF.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{place}: {problem}")]
@@ -110,14 +112,15 @@ pub enum UrdfProblem {
         /// What it could look like.
         example: &'static str,
     },
-    /// A child element that may appear only once appears twice.
-    #[error("<{element}> has a second <{child}>; keep one")]
-    RepeatedChild {
-        /// Name of the element.
-        element: String,
-        /// Name of the child.
-        child: String,
-    },
+    /// Macros, from which a URDF is yet to be made.
+    #[error(
+        "this is xacro, from which a URDF is made: expand it, `xacro FILE.xacro > FILE.urdf`, and give \
+         the FILE.urdf"
+    )]
+    Xacro,
+    /// A file that is neither UTF-8 nor what it declares to be.
+    #[error("{0}")]
+    Encoding(String),
     /// An attribute has a value that is not of the right kind.
     #[error("{attribute}=\"{value}\" in <{element}> is wrong; expected {expected}")]
     BadValue {
@@ -130,8 +133,8 @@ pub enum UrdfProblem {
         /// What would be right.
         expected: &'static str,
     },
-    /// A shape that is not a primitive.
-    #[error("<{0}> is not supported: primitives only, use <box>, <cylinder> or <sphere>")]
+    /// A shape of a kind that is not supported.
+    #[error("<{0}> is not supported: use <box>, <cylinder>, <sphere>, <capsule> or <mesh>")]
     UnsupportedShape(String),
     /// A kind of joint that is not supported.
     #[error("joint type \"{0}\" is not supported; use fixed, revolute, continuous or prismatic")]
@@ -202,9 +205,9 @@ pub enum UrdfProblem {
     /// A joint that follows itself.
     #[error("joint \"{0}\" mimics itself, directly or through other joints")]
     MimicCycle(String),
-    /// Any other error of the URDF reader.
+    /// A mesh of a solid cannot be had.
     #[error("{0}")]
-    Other(String),
+    Mesh(MeshError),
 }
 
 /// `; did you mean "x"?`, or nothing.

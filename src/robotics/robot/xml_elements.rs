@@ -4,13 +4,15 @@
 //! element and attribute stands, and reports text that is not well-formed. It reads
 //! only what a URDF needs: tags, attributes, comments, declarations and CDATA.
 
+use std::borrow::Cow;
+
 use super::urdf_error::UrdfProblem;
 
 /// An attribute of an element.
 pub(super) struct Attribute<'a> {
     pub name: &'a str,
-    /// As written, without the quotes.
-    pub value: &'a str,
+    /// Without the quotes, references such as `&amp;` replaced by what they stand for.
+    pub value: Cow<'a, str>,
     /// Byte offset of the value.
     pub offset: usize,
 }
@@ -55,6 +57,47 @@ fn until(text: &str, holds: impl Fn(u8) -> bool) -> Option<usize> {
 /// Is it a blank of ASCII?
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
+}
+
+/// The text that stands for itself once its references have been replaced. What is no reference of
+/// XML stays as it is.
+fn unescaped(text: &str) -> Cow<'_, str> {
+    if !text.contains('&') {
+        return Cow::Borrowed(text);
+    }
+    let mut whole = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('&') {
+        whole.push_str(&rest[..at]);
+        rest = &rest[at..];
+        let found = rest
+            .find(';')
+            .and_then(|end| Some((referred(&rest[1..end])?, end + 1)));
+        let (letter, length) = found.unwrap_or(('&', 1));
+        whole.push(letter);
+        rest = &rest[length..];
+    }
+    whole.push_str(rest);
+    Cow::Owned(whole)
+}
+
+/// The character that a reference stands for; it is given without `&` and `;`.
+fn referred(name: &str) -> Option<char> {
+    match name {
+        "amp" => Some('&'),
+        "lt" => Some('<'),
+        "gt" => Some('>'),
+        "quot" => Some('"'),
+        "apos" => Some('\''),
+        _ => {
+            let number = name.strip_prefix('#')?;
+            let code = match number.strip_prefix('x') {
+                Some(hex) => u32::from_str_radix(hex, 16),
+                None => number.parse(),
+            };
+            char::from_u32(code.ok()?)
+        }
+    }
 }
 
 struct Scanner<'a> {
@@ -215,7 +258,7 @@ impl<'a> Scanner<'a> {
                 self.at = offset + end + 1;
                 return Ok(Attribute {
                     name,
-                    value: &value[..end],
+                    value: unescaped(&value[..end]),
                     offset,
                 });
             }

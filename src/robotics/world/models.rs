@@ -10,7 +10,7 @@ use super::object_library::{OBJECTS, ObjectLibrary};
 use super::part_key::PartKey;
 use super::physics::Surface;
 use crate::robot::description::Arm;
-use crate::robot::{KinematicTree, LinkId, RobotDescription, Side, UrdfError};
+use crate::robot::{KinematicTree, LinkId, RobotDescription, Side, UrdfError, UrdfRemark};
 use crate::sexp::DataError;
 use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
@@ -27,6 +27,8 @@ pub struct Models {
     pub kitchen_description: KitchenDescription,
     /// The kinds of objects that can be spawned.
     pub objects: ObjectLibrary,
+    /// What was taken leniently in the files of robot and furniture.
+    pub remarks: Vec<UrdfRemark>,
     pub(crate) robot_geometry: TreeGeometry,
     pub(crate) kitchen_geometry: TreeGeometry,
     /// The floor that the robot can drive on.
@@ -140,6 +142,7 @@ impl Models {
             kitchen,
             kitchen_description,
             objects,
+            remarks: Vec::new(),
             robot_geometry,
             kitchen_geometry,
             map,

@@ -1,4 +1,4 @@
-//! A convex primitive in the form that geometric queries need, and the conversion of poses
+//! A convex solid in the form that geometric queries need, and the conversion of poses
 //! between nalgebra (ours) and the query library's types.
 //!
 //! A solid includes the axis fix-up that the library needs (its cylinders lie along y), so
@@ -10,7 +10,7 @@ use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::shape::SharedShape;
 
 use super::oriented_box::OrientedBox;
-use spatial::{PlacedShape, Pose, Shape};
+use spatial::{PlacedShape, Polyhedron, Pose, Shape};
 
 /// The library's pose for ours.
 pub(crate) fn to_parry(pose: &Pose) -> ParryPose {
@@ -69,6 +69,7 @@ impl Solid {
                 (SharedShape::cylinder(length / 2.0, *radius), place * turn)
             }
             Shape::Sphere { radius } if positive(&[*radius]) => (SharedShape::ball(*radius), place),
+            Shape::Hull(body) => (hull(body)?, place),
             _ => return None,
         };
         let bounds = shape.compute_aabb(&pose);
@@ -87,6 +88,12 @@ impl Solid {
     pub fn all(placed: &[PlacedShape]) -> Vec<Self> {
         placed.iter().filter_map(Self::new).collect()
     }
+}
+
+/// The library's form of a convex body.
+fn hull(body: &Polyhedron) -> Option<SharedShape> {
+    let corners = body.corners.iter().map(|[x, y, z]| Vector::new(*x, *y, *z));
+    SharedShape::convex_mesh(corners.collect(), &body.triangles)
 }
 
 /// Bounds (m) of all solids in their owner's frame; `None` if there are none.

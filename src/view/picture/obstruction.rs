@@ -115,5 +115,7 @@ fn contains(shape: &Shape, point: &Point3<f64>) -> bool {
             libm::hypot(point.x, point.y) < *radius && point.z.abs() < length / 2.0
         }
         Shape::Sphere { radius } => point.coords.norm() < *radius,
+        Shape::Hull(body) => body.convex_contains(point.coords.into()),
+        Shape::Mesh(_) => false,
     }
 }

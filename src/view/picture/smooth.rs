@@ -8,6 +8,9 @@ use super::surface::{Corner, Surface};
 /// Cosine of the bend beyond which an edge stays an edge.
 const EDGE: f64 = 0.62;
 
+/// So many triangles at a point, which are beyond counting against each other, are all edges.
+const MAX_AROUND: usize = 500;
+
 /// Normals that differ by less than this are merged.
 const SAME: f64 = 1e-9;
 
@@ -34,7 +37,13 @@ pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surfac
     let mut made: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     for (triangle, _, own) in &known {
         let corner = |i: u32| {
-            let gentle = around[i as usize].iter().map(|t| &known[*t as usize]);
+            let around = around.get(i as usize).map_or(&[][..], Vec::as_slice);
+            let around = if around.len() > MAX_AROUND {
+                &[]
+            } else {
+                around
+            };
+            let gentle = around.iter().map(|t| &known[*t as usize]);
             let gentle = gentle.filter(|(_, _, other)| other.dot(own) > EDGE);
             let sum = gentle.fold(Vector3::zeros(), |sum, (_, outward, _)| sum + outward);
             Corner {
@@ -48,7 +57,8 @@ pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surfac
                 let normal = surface.corners[**place as usize].normal;
                 (normal - corner.normal).norm() < SAME
             };
-            match made[i as usize].iter().find(is_same) {
+            let latest = made[i as usize].iter().rev().take(MAX_AROUND);
+            match latest.rev().find(is_same) {
                 Some(place) => *place,
                 None => {
                     let place = surface.corners.len() as u32;

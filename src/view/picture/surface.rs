@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector2, Vector3};
 
+use super::smooth::smoothed;
 use spatial::{Shape, trig};
 
 /// Rings of a ball between its poles.
@@ -42,6 +43,10 @@ impl Surface {
                 Self::cylinder(*radius, length / 2.0, bevel)
             }
             Shape::Sphere { radius } => Self::ball(*radius),
+            Shape::Hull(body) | Shape::Mesh(body) => {
+                let points: Vec<_> = body.corners.iter().copied().map(Point3::from).collect();
+                smoothed(&points, &body.triangles)
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::command::failure::CommandError;
-use crate::command::open::open_session;
+use crate::command::open::{open_session, tell_remarks};
 use crate::command::options::{LogLevel, Options};
 use crate::command::stack::COMPILER_STACK;
 use lisp::guard::set_stack_budget;
@@ -41,6 +41,7 @@ impl Worlds {
             ..options.clone()
         };
         let mut session = open_session(&quiet)?;
+        tell_remarks(&session, options)?;
         let known = file.find(&mut session, name).map_err(CommandError::Sweep)?;
         let worlds = Self {
             file,

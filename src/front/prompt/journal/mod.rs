@@ -3,7 +3,7 @@
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
 //! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `noise`,
-//! `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
+//! `package-path`, `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
 //! that conditions do not stop; its evaluation begins when the record is on disk. `interrupted` says
 //! where it was interrupted, and `ended` that it has ended, with the hash of the world then, and how;
 //! `loaded` names a file that it has loaded, or one with which the session began, with a digest. While
@@ -49,6 +49,8 @@ pub(crate) struct Beginning {
     pub(crate) robot_description: Option<PathBuf>,
     /// The errors of the robot's sensors and motors, as on the command line.
     pub(crate) noise: Option<String>,
+    /// Folders with the packages that URDFs name.
+    pub(crate) package_path: Vec<PathBuf>,
     /// Folders in which systems are looked for.
     pub(crate) systems: Vec<PathBuf>,
     /// Files that were loaded first.

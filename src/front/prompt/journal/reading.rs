@@ -112,6 +112,7 @@ impl Earlier {
                 self.beginning.robot_description = Some(file.into());
             }
             Record::Noise(settings) => self.beginning.noise = Some(settings),
+            Record::PackagePath(folder) => self.beginning.package_path.push(folder.into()),
             Record::Systems(folder) => self.beginning.systems.push(folder.into()),
             Record::Setup(file) => self.beginning.setup.push(file.into()),
             Record::Closed => self.beginning.is_closed = true,

@@ -27,6 +27,7 @@ pub(super) enum Record {
     Robot(String),
     RobotDescription(String),
     Noise(String),
+    PackagePath(String),
     Systems(String),
     Setup(String),
     Closed,
@@ -60,6 +61,8 @@ impl Record {
             let file = file.as_ref()?;
             Some(record(absolute(file)))
         });
+        let packages = beginning.package_path.iter();
+        let packages = packages.map(|folder| Record::PackagePath(absolute(folder)));
         let systems = beginning.systems.iter();
         let systems = systems.map(|folder| Record::Systems(absolute(folder)));
         let setup = beginning.setup.iter();
@@ -68,6 +71,7 @@ impl Record {
         std::iter::once(Record::Seed(beginning.seed))
             .chain(given)
             .chain(noise)
+            .chain(packages)
             .chain(systems)
             .chain(setup)
             .chain(beginning.is_closed.then_some(Record::Closed))
@@ -84,6 +88,7 @@ impl Record {
             Record::Robot(file) => ("robot", escaped(file)),
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
+            Record::PackagePath(folder) => ("package-path", escaped(folder)),
             Record::Systems(folder) => ("systems", escaped(folder)),
             Record::Setup(file) => ("setup", escaped(file)),
             Record::Closed => ("closed", "yes".to_owned()),
@@ -115,6 +120,7 @@ impl Record {
             "robot" => Record::Robot(unescaped(value)),
             "robot-description" => Record::RobotDescription(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),
+            "package-path" => Record::PackagePath(unescaped(value)),
             "systems" => Record::Systems(unescaped(value)),
             "setup" => Record::Setup(unescaped(value)),
             "closed" => Record::Closed,

@@ -74,6 +74,7 @@ fn what_is_written_is_read_again() {
         robot: None,
         robot_description: None,
         noise: Some("position=0.01".to_owned()),
+        package_path: vec!["/packages a".into()],
         systems: vec!["/lisp a".into(), "/lisp b".into()],
         setup: vec!["/a b.plan".into()],
         is_closed: true,

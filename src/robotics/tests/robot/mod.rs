@@ -5,5 +5,6 @@ mod forward_kinematics;
 mod garbled_files;
 mod inverse_kinematics;
 mod kitchen;
+mod lenient_urdf;
 mod reach;
 mod urdf;

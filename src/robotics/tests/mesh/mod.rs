@@ -1,0 +1,5 @@
+mod broken;
+mod formats;
+mod memory_files;
+mod places;
+mod solids;
