@@ -6,7 +6,7 @@ use crate::plans::{DEMO_SYSTEMS, demo_text};
 use crate::simulation::Simulation;
 use cram::Reply;
 use cram::designator::names::{name_text, rosify};
-use cram::packages::{self, PACKAGES};
+use cram::packages::{self, PACKAGES, STAND_INS};
 use lisp::builtin::{Builtin, control, pure};
 use lisp::builtins::loading::load_text;
 use lisp::image::Image;
@@ -133,7 +133,7 @@ const NO_SYSTEMS: [&str; 6] = [
 fn systems() -> Vec<String> {
     let names = PACKAGES.iter().map(|package| package.name);
     let mut systems: Vec<String> = names
-        .filter(|name| !NO_SYSTEMS.contains(name))
+        .filter(|name| !NO_SYSTEMS.contains(name) && !STAND_INS.contains(name))
         .map(rosify)
         .chain(OTHER_SYSTEMS.map(str::to_owned))
         .chain(DEMO_SYSTEMS.iter().map(|(name, _)| (*name).to_owned()))
