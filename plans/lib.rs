@@ -9,10 +9,15 @@ macro_rules! library {
 
 /// The files, in the order in which they are loaded.
 pub const LIBRARY: &[(&str, &str)] = library![
+    "cram-packages.plan",
     "log.plan",
+    "cram-switches.plan",
+    "cram-transforms.plan",
     "robot.plan",
     "events.plan",
     "occasions.plan",
+    "world-objects.plan",
+    "world-facts.plan",
     "retrying.plan",
     "locations.plan",
     "noise.plan",

@@ -5,7 +5,7 @@ use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::motions::side;
-use crate::simulation::names::{name_text, suggestion, type_text};
+use crate::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use cram::Reply;
 use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control};
@@ -117,6 +117,20 @@ pub(super) static TABLE: &[Builtin] = &[
         "Lets go of an object, which stays where it is until time passes.",
         &[],
         edit!(take_from_hand),
+    ),
+    control(
+        "%OBJECT-TYPES",
+        "",
+        "The types of objects, as keywords.",
+        &["(listp (btr::%object-types)) => T"],
+        host!(object_types),
+    ),
+    control(
+        "%GRASPS-OF",
+        "type arm",
+        "The grasps of a type of objects with an arm, as keywords, those that are tried first at the front.",
+        &["(listp (btr::%grasps-of :bottle :left)) => T"],
+        host!(grasps_of),
     ),
     control(
         "%SPAWN-SHAPE",
@@ -424,6 +438,20 @@ fn take_from_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let was_held = simulation.world.detach(&name).map_err(raise)?.is_some();
     simulation.held.shift_remove(&name);
     done(Value::bool(was_held))
+}
+
+fn object_types(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let types: Vec<String> = simulation.models.objects.names().map(str::to_owned).collect();
+    let types: Vec<Value> = types.iter().map(|name| type_keyword(image, name)).collect();
+    done(Value::list(types))
+}
+
+fn grasps_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let kind = type_text(image, &args[0]).unwrap_or_default();
+    let side = side(image, &args[1])?;
+    let grasps = simulation.defined_grasps(&kind, side);
+    let grasps: Vec<Value> = grasps.iter().map(|name| type_keyword(image, name)).collect();
+    done(Value::list(grasps))
 }
 
 fn spawn_shape(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -38,14 +38,14 @@ pub(crate) static LOG_TABLE: &[Builtin] = &[
 /// Builtins of package `ROSLISP-UTILITIES`.
 pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
     control(
-        "STARTUP-ROS",
-        "&rest options",
+        "%STARTUP-ROS",
+        "",
         "Nothing to start: the robot is here already. Takes the world back to its start.",
-        &["(roslisp-utilities:startup-ros) => NIL"],
+        &["(roslisp-utilities::%startup-ros) => NIL"],
         host!(startup_ros),
     ),
     control(
-        "SHUTDOWN-ROS",
+        "%SHUTDOWN-ROS",
         "",
         "Nothing to stop.",
         &[],
