@@ -18,8 +18,11 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "occasions.plan",
     "world-objects.plan",
     "world-facts.plan",
+    "ros.plan",
     "retrying.plan",
     "locations.plan",
+    "costmap-facts.plan",
+    "manipulation-data.plan",
     "noise.plan",
     "sweep-draws.plan",
     "sweep-predicates.plan",
@@ -40,6 +43,8 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "delivering.plan",
     "transporting.plan",
     "tutorial-package.plan",
+    "lisp-unit.plan",
+    "cram-refused.plan",
 ];
 
 /// Name and text of the demos' files, of `plans/demos`.

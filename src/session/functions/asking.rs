@@ -133,6 +133,13 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(grasps_of),
     ),
     control(
+        "%TYPE-GRIP",
+        "type",
+        "How hard (N) objects of a type are gripped, and how wide (m) a hand opens for them, as a list.",
+        &["(length (btr::%type-grip :bottle)) => 2"],
+        host!(type_grip),
+    ),
+    control(
         "%SPAWN-SHAPE",
         "name shape size pose mass color",
         "Puts a :BOX with edges (x y z), a :SPHERE with a radius (r), or a :CYLINDER with radius and length (r l), in m, into the world; its frame is in its middle.",
@@ -452,6 +459,12 @@ fn grasps_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
     let grasps = simulation.defined_grasps(&kind, side);
     let grasps: Vec<Value> = grasps.iter().map(|name| type_keyword(image, name)).collect();
     done(Value::list(grasps))
+}
+
+fn type_grip(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let kind = type_text(image, &args[0]).unwrap_or_default();
+    let grip = simulation.grip(&kind);
+    done(Value::list([grip.effort, grip.opening].map(Value::Double)))
 }
 
 fn spawn_shape(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
