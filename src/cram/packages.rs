@@ -42,13 +42,14 @@ pub static PACKAGES: &[PackageRow] = &[
         &["PROLOG"],
         "LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL \
          FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND CUT CALL GENERATE-VALUES INSTANCE-OF \
-         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <- FAIL TAKE SUBSET \
+         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <- FAIL TAKE SUBSET OBJECT-ID \
          *BREAK-ON-LISP-ERRORS*",
     ),
     row(
         "CRAM-DESIGNATORS",
         &["DESIG"],
-        "ACTION-GROUNDING MOTION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR DESIGNATOR-ERROR",
+        "ACTION-GROUNDING MOTION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR DESIGNATOR-ERROR \
+         ACTION LOCATION OBJECT",
     ),
     row(
         "CRAM-DESIGNATOR-SPECIFICATION",
@@ -208,15 +209,20 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
     row("CRAM-SEMANTIC-MAP-COSTMAP", &["SEMANTIC-MAP-COSTMAP"], ""),
     row("CRAM-TESTS", &[], ""),
-    row("CL-BULLET", &["BULLET"], ""),
-    row("CL-BULLET-VIS", &["BT-VIS"], ""),
+    row(
+        "CL-BULLET",
+        &["BULLET"],
+        "POSE POINTS AABB BODIES HEIGHT NAME RADIUS RIGID-BODY",
+    ),
+    row("CL-BULLET-VIS", &["BT-VIS"], "HIDDEN WORLD"),
     row("CL-URDF", &[], ""),
     row("SB-EXT", &[], ""),
     row("LISP-UNIT", &[], ""),
     row("GISKARD", &[], ""),
     row("CRAM-CLOUD-LOGGER", &["CCL"], ""),
     row("JSON-PROLOG", &[], ""),
-    row("ACTIONLIB", &["ACTIONLIB-CLIENT"], ""),
+    row("ACTIONLIB", &[], ""),
+    row("CRAM-SIMPLE-ACTIONLIB-CLIENT", &["ACTIONLIB-CLIENT"], ""),
     row("CRAM-MOVEIT", &[], ""),
     row("TURTLESIM-MSG", &[], ""),
     row("TURTLESIM-SRV", &[], ""),
@@ -304,7 +310,35 @@ const USES: &[(&str, &[&str])] = &[
     ("CRAM-MANIPULATION-INTERFACES", &["CRAM-PROLOG"]),
     ("CRAM-OBJECT-INTERFACES", &["CRAM-PROLOG"]),
     ("CRAM-OBJECT-KNOWLEDGE", &["CRAM-PROLOG"]),
-    ("CRAM-KNOWROB-PICK-PLACE", &["CRAM-PROLOG"]),
+    (
+        "CRAM-KNOWROB-PICK-PLACE",
+        &["CRAM-OBJECT-INTERFACES", "CRAM-PROLOG"],
+    ),
+    ("JSON-PROLOG", &["CRAM-UTILITIES", "ROSLISP"]),
+    ("CRAM-CLOUD-LOGGER", &["CRAM-LANGUAGE"]),
+    ("CRAM-TESTS", &["LISP-UNIT"]),
+    (
+        "CRAM-ROBOT-POSE-GUASSIAN-COSTMAP",
+        &["CRAM-DESIGNATORS", "CRAM-LOCATION-COSTMAP", "CRAM-PROLOG"],
+    ),
+    (
+        "CRAM-OCCUPANCY-GRID-COSTMAP",
+        &["CRAM-DESIGNATORS", "CRAM-LOCATION-COSTMAP", "CRAM-PROLOG"],
+    ),
+    (
+        "CRAM-SEMANTIC-MAP-COSTMAP",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-LOCATION-COSTMAP",
+            "CRAM-DESIGNATORS",
+            "CRAM-SEMANTIC-MAP",
+        ],
+    ),
+    ("CRAM-BTR-SPATIAL-RELATIONS-COSTMAP", &["CRAM-PROLOG"]),
+    (
+        "CRAM-BTR-VISIBILITY-COSTMAP",
+        &["CRAM-PROLOG", "CRAM-BULLET-REASONING"],
+    ),
     (
         "CRAM-COMMON-DESIGNATORS",
         &[
@@ -338,7 +372,18 @@ const USES: &[(&str, &[&str])] = &[
             "CRAM-TF",
         ],
     ),
-    ("CRAM-BULLET-REASONING-UTILITIES", &["CRAM-PROLOG"]),
+    // As in older versions, where it uses more.
+    (
+        "CRAM-BULLET-REASONING-UTILITIES",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-BULLET-REASONING",
+            "CRAM-DESIGNATORS",
+            "CRAM-UTILITIES",
+            "CRAM-ROBOT-INTERFACES",
+            "CRAM-TF",
+        ],
+    ),
     ("CRAM-BULLET-REASONING-BELIEF-STATE", &["CRAM-PROLOG"]),
     ("CRAM-URDF-PROJECTION", &["CRAM-PROLOG"]),
     ("CRAM-PR2-PROJECTION", &["CRAM-PROLOG"]),
@@ -470,6 +515,7 @@ pub const STAND_INS: &[&str] = &[
     "CRAM-ROBOT-POSE-GUASSIAN-COSTMAP",
     "CRAM-SEMANTIC-MAP",
     "CRAM-SEMANTIC-MAP-COSTMAP",
+    "CRAM-SIMPLE-ACTIONLIB-CLIENT",
     "CRAM-TASK-TREE-EXPORTER",
     "CRAM-TESTS",
     "CRAM-USER",

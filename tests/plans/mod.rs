@@ -20,6 +20,7 @@ mod other_kitchens;
 mod out_of_containers;
 pub(crate) mod overlaps;
 mod packages;
+mod published_code;
 mod parking;
 mod putting_down;
 mod refusals;
