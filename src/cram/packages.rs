@@ -42,7 +42,7 @@ pub static PACKAGES: &[PackageRow] = &[
         &["PROLOG"],
         "LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL \
          FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND CUT CALL GENERATE-VALUES INSTANCE-OF \
-         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <- FAIL TAKE SUBSET OBJECT-ID \
+         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <- FAIL OBJECT-ID \
          *BREAK-ON-LISP-ERRORS*",
     ),
     row(
@@ -127,7 +127,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row(
         "CRAM-OCCASIONS-EVENTS",
         &["COE", "OCCASIONS-EVENTS"],
-        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF EVENT OCCURS",
+        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF EVENT",
     ),
     row(
         "CRAM-PLAN-OCCASIONS-EVENTS",
@@ -209,12 +209,8 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
     row("CRAM-SEMANTIC-MAP-COSTMAP", &["SEMANTIC-MAP-COSTMAP"], ""),
     row("CRAM-TESTS", &[], ""),
-    row(
-        "CL-BULLET",
-        &["BULLET"],
-        "POSE POINTS AABB BODIES HEIGHT NAME RADIUS RIGID-BODY",
-    ),
-    row("CL-BULLET-VIS", &["BT-VIS"], "HIDDEN WORLD"),
+    row("CL-BULLET", &["BULLET"], "POSE POINTS AABB NAME RIGID-BODY"),
+    row("CL-BULLET-VIS", &["BT-VIS"], ""),
     row("CL-URDF", &[], ""),
     row("SB-EXT", &[], ""),
     row("LISP-UNIT", &[], ""),

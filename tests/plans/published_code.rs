@@ -76,11 +76,13 @@ fn packages_have_the_nicknames_and_uses_of_cram_and_can_be_used_together() {
 fn numbers_qualify_methods() {
     let mut session = session();
     let mut ask = |text: &str| said(&mut session, text);
-    ask("(defgeneric weight (x) (:method-combination cut:first-in-order-and-around)
+    ask(
+        "(defgeneric weight (x) (:method-combination cut:first-in-order-and-around)
            (:method :usual 20 ((x t)) :any))
          (defmethod weight :usual 20 ((x (eql :cup))) :cup)
          (defmethod weight :mine 3 ((x symbol)) (list :symbol x))
-         (defmethod weight :around ((x string)) (list :around (call-next-method)))");
+         (defmethod weight :around ((x string)) (list :around (call-next-method)))",
+    );
     assert_eq!(ask("(weight 1)"), ":ANY");
     assert_eq!(ask("(weight :cup)"), "(:SYMBOL :CUP)");
     assert_eq!(ask("(weight \"cup\")"), "(:AROUND :ANY)");
@@ -96,12 +98,12 @@ fn numbers_qualify_methods() {
     // A number alone, and where the combination takes none.
     ask("(defgeneric plain (x)) (defmethod plain 3 ((x t)) x)");
     assert!(
-        ask("(plain 1)")
-            .contains("(3) cannot be used with the method combination type STANDARD"),
+        ask("(plain 1)").contains("(3) cannot be used with the method combination type STANDARD"),
         "{}",
         ask("(plain 1)")
     );
-    let none = ask("(defgeneric none (x) (:method-combination cut:first-in-order-and-around)) (none 1)");
+    let none =
+        ask("(defgeneric none (x) (:method-combination cut:first-in-order-and-around)) (none 1)");
     assert!(none.starts_with("!!"), "{none}");
     // Hooks run all, the numbered ones first.
     ask("(defvar *order* '())
@@ -135,12 +137,20 @@ fn data_of_types_is_that_of_users_first_and_of_types_above() {
     let mut session = session();
     let mut ask = |text: &str| said(&mut session, text);
     let built_in = ask("(man-int:get-action-gripping-effort :bottle)");
-    assert!(built_in.parse::<f64>().is_ok() || built_in.ends_with("d0"), "{built_in}");
-    ask("(defmethod man-int:get-action-gripping-effort :heuristics 20 ((type (eql :glassware))) 7)
+    assert!(
+        built_in.parse::<f64>().is_ok() || built_in.ends_with("d0"),
+        "{built_in}"
+    );
+    ask(
+        "(defmethod man-int:get-action-gripping-effort :heuristics 20 ((type (eql :glassware))) 7)
          (prolog:def-fact-group my-types (man-int:object-type-direct-subtype)
-           (prolog:<- (man-int:object-type-direct-subtype :glassware :beaker)))");
+           (prolog:<- (man-int:object-type-direct-subtype :glassware :beaker)))",
+    );
     assert_eq!(ask("(man-int:get-action-gripping-effort :beaker)"), "7");
-    assert_eq!(ask("(man-int:get-action-gripping-effort :bottle)"), built_in);
+    assert_eq!(
+        ask("(man-int:get-action-gripping-effort :bottle)"),
+        built_in
+    );
     ask("(defmethod man-int:get-action-gripping-effort :mine 2 ((type (eql :bottle))) 11)");
     assert_eq!(ask("(man-int:get-action-gripping-effort :bottle)"), "11");
 }
@@ -325,7 +335,10 @@ fn fact_groups_of_users_add_answers() {
         (mapcar (lambda (answer) (cut:var-value '?o answer))
                 (cut:force-ll (prolog:prolog '(supported-by ?w ?o :kitchen))))";
     let found = said(&mut session, text);
-    assert!(found.ends_with("(BTR::BOTTLE-1 BTR::CUP-1 BTR::BOWL-1)"), "{found}");
+    assert!(
+        found.ends_with("(BTR::BOTTLE-1 BTR::CUP-1 BTR::BOWL-1)"),
+        "{found}"
+    );
 }
 
 #[test]
@@ -345,10 +358,19 @@ fn edits_by_goals_can_be_taken_back_and_keep_to_limits() {
         "(setf (joint-state (get-robot-object) \"torso_lift_joint\") 7.0)
          (joint-state (get-robot-object) \"torso_lift_joint\")",
     );
-    assert!(torso.contains("it is at its limit") && torso.ends_with("0.33d0"), "{torso}");
+    assert!(
+        torso.contains("it is at its limit") && torso.ends_with("0.33d0"),
+        "{torso}"
+    );
     assert!(
         said(&mut session, "(prolog-?w '(assert (temperature ?w 3)))")
             .contains("asserted can be object, object-pose")
     );
-    assert!(said(&mut session, "(add-object nil :point-cloud 'x '((0 0 1) (0 0 0 1)))").contains("the kinds are"));
+    assert!(
+        said(
+            &mut session,
+            "(add-object nil :point-cloud 'x '((0 0 1) (0 0 0 1)))"
+        )
+        .contains("the kinds are")
+    );
 }

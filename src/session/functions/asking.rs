@@ -448,7 +448,12 @@ fn take_from_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]
 }
 
 fn object_types(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let types: Vec<String> = simulation.models.objects.names().map(str::to_owned).collect();
+    let types: Vec<String> = simulation
+        .models
+        .objects
+        .names()
+        .map(str::to_owned)
+        .collect();
     let types: Vec<Value> = types.iter().map(|name| type_keyword(image, name)).collect();
     done(Value::list(types))
 }
@@ -457,7 +462,10 @@ fn grasps_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
     let kind = type_text(image, &args[0]).unwrap_or_default();
     let side = side(image, &args[1])?;
     let grasps = simulation.defined_grasps(&kind, side);
-    let grasps: Vec<Value> = grasps.iter().map(|name| type_keyword(image, name)).collect();
+    let grasps: Vec<Value> = grasps
+        .iter()
+        .map(|name| type_keyword(image, name))
+        .collect();
     done(Value::list(grasps))
 }
 
