@@ -1,13 +1,14 @@
 //! What touches what, and how far bodies extend, by their shapes.
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::Pose as ParryPose;
 
 use super::body_name::BodyName;
 use super::error::WorldError;
 use super::part_key::{PartKey, index};
 use super::scene::World;
 use super::separation::{lowest_point, separation};
-use super::solid::to_parry;
+use super::solid::{Solid, to_parry};
 
 /// The widest gap (m) between two bodies that touch: the engine lets things rest that far apart.
 const GAP: f64 = 0.001;
@@ -19,17 +20,32 @@ impl World {
         let object = self.object(name)?;
         let at = to_parry(&self.physics.pose(object.body));
         let near = object.bounds.transform_by(&at).loosened(GAP);
+        let touches = |solid: &Solid, pose: &ParryPose| {
+            object.solids.iter().any(|own| {
+                let at = at * own.pose;
+                separation(&at, own, pose, solid, GAP).is_some()
+            })
+        };
         let mut found: Vec<PartKey> = Vec::new();
-        for other in self.neighbours(Some(object.key()), &near) {
-            if found.contains(&other.key) || !other.bounds.intersects(&near) {
-                continue;
-            }
-            let touches = object.solids.iter().any(|solid| {
-                let pose = at * solid.pose;
-                separation(&pose, solid, &other.pose, &other.solid, GAP).is_some()
-            });
-            if touches {
+        for place in self.state.furniture.places_near(&near) {
+            // The places are those of this list.
+            let other = &self.state.furniture.all()[place];
+            if !found.contains(&other.key) && touches(&other.solid, &other.placed.pose) {
                 found.push(other.key);
+            }
+        }
+        for link in &self.models.robot_geometry.solid_links {
+            let pose = to_parry(&self.link_pose(link.link));
+            let is_near = link.bounds.transform_by(&pose).intersects(&near);
+            if is_near && link.solids.iter().any(|s| touches(s, &(pose * s.pose))) {
+                found.push(PartKey::Robot(index(link.link)));
+            }
+        }
+        for other in self.objects().filter(|other| other.key() != object.key()) {
+            let pose = to_parry(&self.physics.pose(other.body));
+            let is_near = other.bounds.transform_by(&pose).intersects(&near);
+            if is_near && other.solids.iter().any(|s| touches(s, &(pose * s.pose))) {
+                found.push(other.key());
             }
         }
         let on_floor = object

@@ -45,6 +45,13 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(bounding_box),
     ),
     control(
+        "%BOXES",
+        "body",
+        "The boxes around all links of :ROBOT or :KITCHEN that have a shape, or, for any other body, around all objects: a list of (name least most).",
+        &["(progn (pp-tut:init-projection) (btr::%boxes :objects)) => NIL"],
+        host!(all_boxes),
+    ),
+    control(
         "%LINKS",
         "body &optional solid",
         "The names of the links of :ROBOT or :KITCHEN; if SOLID, of those that have a shape.",
@@ -260,6 +267,33 @@ fn bounding_box(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         None => Value::NIL,
         Some(corners) => Value::list(corners.map(|c| Value::list(c.map(Value::Double)))),
     })
+}
+
+fn all_boxes(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let world = &simulation.world;
+    let bodies: Vec<BodyName> = match is_kitchen(image, &args[0]) {
+        Some(true) => world.solid_kitchen_links().collect(),
+        Some(false) => world.solid_robot_links().collect(),
+        None => {
+            let objects = world.objects();
+            objects
+                .map(|object| BodyName::Object(object.name().to_owned()))
+                .collect()
+        }
+    };
+    let mut boxes = Vec::new();
+    for body in bodies {
+        let Some(corners) = world.box_of(&body) else {
+            continue;
+        };
+        let name = match &body {
+            BodyName::Object(name) => simulation.symbol_of(name),
+            _ => name_of(body),
+        };
+        let [least, most] = corners.map(|c| Value::list(c.map(Value::Double)));
+        boxes.push(Value::list([name, least, most]));
+    }
+    done(Value::list(boxes))
 }
 
 fn links(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
