@@ -9,12 +9,20 @@ macro_rules! library {
 
 /// The files, in the order in which they are loaded.
 pub const LIBRARY: &[(&str, &str)] = library![
+    "cram-packages.plan",
     "log.plan",
+    "cram-switches.plan",
+    "cram-transforms.plan",
     "robot.plan",
     "events.plan",
     "occasions.plan",
+    "world-objects.plan",
+    "world-facts.plan",
+    "ros.plan",
     "retrying.plan",
     "locations.plan",
+    "costmap-facts.plan",
+    "manipulation-data.plan",
     "noise.plan",
     "sweep-draws.plan",
     "sweep-predicates.plan",
@@ -35,6 +43,8 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "delivering.plan",
     "transporting.plan",
     "tutorial-package.plan",
+    "lisp-unit.plan",
+    "cram-refused.plan",
 ];
 
 /// Name and text of the demos' files, of `plans/demos`.

@@ -42,12 +42,14 @@ pub static PACKAGES: &[PackageRow] = &[
         &["PROLOG"],
         "LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL \
          FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND CUT CALL GENERATE-VALUES INSTANCE-OF \
-         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <-",
+         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <- FAIL OBJECT-ID \
+         *BREAK-ON-LISP-ERRORS*",
     ),
     row(
         "CRAM-DESIGNATORS",
         &["DESIG"],
-        "ACTION-GROUNDING MOTION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR DESIGNATOR-ERROR",
+        "ACTION-GROUNDING MOTION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR DESIGNATOR-ERROR \
+         ACTION LOCATION OBJECT",
     ),
     row(
         "CRAM-DESIGNATOR-SPECIFICATION",
@@ -60,7 +62,11 @@ pub static PACKAGES: &[PackageRow] = &[
         "DESIGNATOR-REFERENCE-FAILURE DESIGNATOR-GOAL-PARSING-FAILURE",
     ),
     row("CL-TRANSFORMS", &[], ""),
-    row("CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"], ""),
+    row(
+        "CL-TRANSFORMS-STAMPED",
+        &["CL-TF", "CL-TF2", "TF-TYPES"],
+        "",
+    ),
     row(
         "CRAM-TF",
         &[],
@@ -82,18 +88,23 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
     row(
         "CRAM-PR2-FETCH-DELIVER-PLANS",
-        &["PR2-FD-PLANS", "FD-PLANS"],
+        &["PR2-FD-PLANS", "CRAM-FETCH-DELIVER-PLANS", "FD-PLANS"],
         "",
     ),
     row(
         "CRAM-PR2-ENVIRONMENT-MANIPULATION",
-        &["PR2-EM", "ENV-MAN"],
+        &[
+            "PR2-EM",
+            "PR2-ENV-MAN",
+            "CRAM-URDF-ENVIRONMENT-MANIPULATION",
+            "ENV-MAN",
+        ],
         "",
     ),
     row("CRAM-BULLET-REASONING", &["BTR"], ""),
     row(
         "CRAM-BULLET-REASONING-UTILITIES",
-        &["BTR-UTILS"],
+        &["BTR-UTILS", "BULLET-REASONING-UTILITIES"],
         "VISUALIZE-DESIGNATOR-COSTMAPS",
     ),
     row("CRAM-BULLET-REASONING-BELIEF-STATE", &["BTR-BELIEF"], ""),
@@ -115,8 +126,8 @@ pub static PACKAGES: &[PackageRow] = &[
     // Test the goal of an action, and tell how it stands.
     row(
         "CRAM-OCCASIONS-EVENTS",
-        &["COE", "CET"],
-        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF",
+        &["COE", "OCCASIONS-EVENTS"],
+        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF EVENT",
     ),
     row(
         "CRAM-PLAN-OCCASIONS-EVENTS",
@@ -126,7 +137,7 @@ pub static PACKAGES: &[PackageRow] = &[
          LOOKING-AT \
          OBJECT-PERCEIVED-EVENT OBJECT-ATTACHED-ROBOT OBJECT-ATTACHED OBJECT-DETACHED-ROBOT \
          OBJECT-DETACHED OBJECT-LOCATION-CHANGED ROBOT-STATE-CHANGED CONTAINER-STATE \
-         CONTAINER-OPENING-EVENT CONTAINER-CLOSING-EVENT",
+         CONTAINER-OPENING-EVENT CONTAINER-CLOSING-EVENT LOCATION-RESET LOCATION-ACCESSIBLE",
     ),
     row(
         "CRAM-PROCESS-MODULES",
@@ -158,6 +169,63 @@ pub static PACKAGES: &[PackageRow] = &[
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
+    // What else CRAM's code names: `plans/lib` has what of it means something here.
+    row("CRAM-WALKER", &["WALKER"], ""),
+    row("CRAM-LANGUAGE-DESIGNATOR-SUPPORT", &["CPL-DESIG-SUPP"], ""),
+    row("CRAM-USER", &["CPL-USER"], ""),
+    row("CRAM-EXECUTION-TRACE", &["CET"], "THROUGHOUT"),
+    row(
+        "CRAM-URDF-PROJECTION-REASONING",
+        &[
+            "PROJ-REASONING",
+            "CRAM-PR2-PROJECTION-REASONING",
+            "PR2-PROJ-REASONING",
+        ],
+        "",
+    ),
+    row("CRAM-COMMON-DESIGNATORS", &["COMMON-DESIG"], ""),
+    row("CRAM-DESIGNATOR-PROPERTIES", &["DESIG-PROPS"], ""),
+    row("CRAM-CUT-PLANS", &["C-PLANS"], ""),
+    row("CRAM-MATH", &["CMA"], ""),
+    row("CRAM-PHYSICS-UTILS", &["PHYSICS-UTILS"], ""),
+    row("CRAM-SEMANTIC-MAP", &["SEMANTIC-MAP", "SEM-MAP"], ""),
+    row("CRAM-IK-INTERFACE", &["IK"], ""),
+    row("CRAM-TASK-TREE-EXPORTER", &["TT-EXPORT"], ""),
+    row("CRAM-BTR-VISIBILITY-COSTMAP", &["BTR-VIS-CM"], ""),
+    row(
+        "CRAM-BTR-SPATIAL-RELATIONS-COSTMAP",
+        &["BTR-SPATIAL-CM"],
+        "",
+    ),
+    row(
+        "CRAM-ROBOT-POSE-GUASSIAN-COSTMAP",
+        &["GAUSSIAN-COSTMAP"],
+        "",
+    ),
+    row(
+        "CRAM-OCCUPANCY-GRID-COSTMAP",
+        &["OCCUPANCY-GRID-COSTMAP"],
+        "",
+    ),
+    row("CRAM-SEMANTIC-MAP-COSTMAP", &["SEMANTIC-MAP-COSTMAP"], ""),
+    row("CRAM-TESTS", &[], ""),
+    row("CL-BULLET", &["BULLET"], "POSE POINTS AABB NAME RIGID-BODY"),
+    row("CL-BULLET-VIS", &["BT-VIS"], ""),
+    row("CL-URDF", &[], ""),
+    row("SB-EXT", &[], ""),
+    row("LISP-UNIT", &[], ""),
+    row("GISKARD", &[], ""),
+    row("CRAM-CLOUD-LOGGER", &["CCL"], ""),
+    row("JSON-PROLOG", &[], ""),
+    row("ACTIONLIB", &[], ""),
+    row("CRAM-SIMPLE-ACTIONLIB-CLIENT", &["ACTIONLIB-CLIENT"], ""),
+    row("CRAM-MOVEIT", &[], ""),
+    row("TURTLESIM-MSG", &[], ""),
+    row("TURTLESIM-SRV", &[], ""),
+    row("STD_SRVS-SRV", &[], ""),
+    row("STD_MSGS-MSG", &[], ""),
+    row("GEOMETRY_MSGS-MSG", &[], ""),
+    row("SENSOR_MSGS-MSG", &[], ""),
     row(
         "PLANWRIGHT",
         &["PW"],
@@ -167,21 +235,184 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
 ];
 
-/// Packages that inherit from packages other than `COMMON-LISP`.
+/// Packages that inherit from packages other than `COMMON-LISP`: as in CRAM, where a package is CRAM's.
 const USES: &[(&str, &[&str])] = &[
     ("ASDF-USER", &["ASDF", "UIOP"]),
+    ("COMMON-LISP-USER", &["PLANWRIGHT"]),
+    ("CRAM-UTILITIES", &["ALEXANDRIA"]),
+    ("CRAM-PROLOG", &["CRAM-UTILITIES"]),
+    (
+        "CRAM-LANGUAGE-IMPLEMENTATION",
+        &[
+            "CRAM-WALKER",
+            "CRAM-UTILITIES",
+            "TRIVIAL-GARBAGE",
+            "ALEXANDRIA",
+        ],
+    ),
+    ("CRAM-USER", &["CRAM-LANGUAGE"]),
+    ("CRAM-DESIGNATORS", &["CRAM-UTILITIES", "CRAM-PROLOG"]),
+    (
+        "CRAM-LANGUAGE-DESIGNATOR-SUPPORT",
+        &["CRAM-LANGUAGE", "CRAM-DESIGNATORS"],
+    ),
+    ("CRAM-DESIGNATOR-SPECIFICATION", &["CRAM-PROLOG"]),
+    (
+        "CRAM-EXECUTIVE",
+        &["CRAM-LANGUAGE", "CRAM-DESIGNATORS", "ALEXANDRIA"],
+    ),
+    (
+        "CRAM-PROCESS-MODULES",
+        &["CRAM-LANGUAGE", "CRAM-DESIGNATORS", "ALEXANDRIA"],
+    ),
+    (
+        "CRAM-EXECUTION-TRACE",
+        &[
+            "CRAM-UTILITIES",
+            "CRAM-LANGUAGE-IMPLEMENTATION",
+            "ALEXANDRIA",
+        ],
+    ),
+    (
+        "CRAM-OCCASIONS-EVENTS",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-LANGUAGE-IMPLEMENTATION",
+            "ALEXANDRIA",
+            "CRAM-DESIGNATORS",
+            "CRAM-UTILITIES",
+        ],
+    ),
+    (
+        "CRAM-PLAN-OCCASIONS-EVENTS",
+        &["CRAM-OCCASIONS-EVENTS", "CRAM-PROLOG"],
+    ),
+    ("CRAM-COMMON-FAILURES", &["CRAM-LANGUAGE"]),
+    (
+        "CRAM-TF",
+        &[
+            "CRAM-DESIGNATORS",
+            "CRAM-UTILITIES",
+            "CRAM-PROLOG",
+            "CL-TRANSFORMS-STAMPED",
+            "CL-TRANSFORMS",
+            "CRAM-ROBOT-INTERFACES",
+        ],
+    ),
+    (
+        "CRAM-ROBOT-INTERFACES",
+        &["CRAM-PROLOG", "CRAM-DESIGNATORS"],
+    ),
+    ("CRAM-MANIPULATION-INTERFACES", &["CRAM-PROLOG"]),
+    ("CRAM-OBJECT-INTERFACES", &["CRAM-PROLOG"]),
+    ("CRAM-OBJECT-KNOWLEDGE", &["CRAM-PROLOG"]),
+    (
+        "CRAM-KNOWROB-PICK-PLACE",
+        &["CRAM-OBJECT-INTERFACES", "CRAM-PROLOG"],
+    ),
+    ("JSON-PROLOG", &["CRAM-UTILITIES", "ROSLISP"]),
+    ("CRAM-CLOUD-LOGGER", &["CRAM-LANGUAGE"]),
+    ("CRAM-TESTS", &["LISP-UNIT"]),
+    (
+        "CRAM-ROBOT-POSE-GUASSIAN-COSTMAP",
+        &["CRAM-DESIGNATORS", "CRAM-LOCATION-COSTMAP", "CRAM-PROLOG"],
+    ),
+    (
+        "CRAM-OCCUPANCY-GRID-COSTMAP",
+        &["CRAM-DESIGNATORS", "CRAM-LOCATION-COSTMAP", "CRAM-PROLOG"],
+    ),
+    (
+        "CRAM-SEMANTIC-MAP-COSTMAP",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-LOCATION-COSTMAP",
+            "CRAM-DESIGNATORS",
+            "CRAM-SEMANTIC-MAP",
+        ],
+    ),
+    ("CRAM-BTR-SPATIAL-RELATIONS-COSTMAP", &["CRAM-PROLOG"]),
+    (
+        "CRAM-BTR-VISIBILITY-COSTMAP",
+        &["CRAM-PROLOG", "CRAM-BULLET-REASONING"],
+    ),
+    (
+        "CRAM-COMMON-DESIGNATORS",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-DESIGNATORS",
+            "CRAM-DESIGNATOR-SPECIFICATION",
+        ],
+    ),
+    (
+        "CRAM-LOCATION-COSTMAP",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-UTILITIES",
+            "ROSLISP-UTILITIES",
+            "ALEXANDRIA",
+            "ROSLISP",
+            "CRAM-TF",
+            "CRAM-DESIGNATORS",
+            "CL-TRANSFORMS-STAMPED",
+        ],
+    ),
+    (
+        "CRAM-BULLET-REASONING",
+        &[
+            "CRAM-PROLOG",
+            "CL-BULLET",
+            "CL-BULLET-VIS",
+            "CRAM-UTILITIES",
+            "CRAM-ROBOT-INTERFACES",
+            "CL-TRANSFORMS-STAMPED",
+            "CRAM-TF",
+        ],
+    ),
+    // As in older versions, where it uses more.
+    (
+        "CRAM-BULLET-REASONING-UTILITIES",
+        &[
+            "CRAM-PROLOG",
+            "CRAM-BULLET-REASONING",
+            "CRAM-DESIGNATORS",
+            "CRAM-UTILITIES",
+            "CRAM-ROBOT-INTERFACES",
+            "CRAM-TF",
+        ],
+    ),
+    ("CRAM-BULLET-REASONING-BELIEF-STATE", &["CRAM-PROLOG"]),
+    ("CRAM-URDF-PROJECTION", &["CRAM-PROLOG"]),
+    ("CRAM-PR2-PROJECTION", &["CRAM-PROLOG"]),
+    ("CRAM-URDF-PROJECTION-REASONING", &["CRAM-PROLOG"]),
+    (
+        "CRAM-PR2-PROCESS-MODULES",
+        &["CRAM-PROLOG", "CRAM-PROCESS-MODULES", "CRAM-DESIGNATORS"],
+    ),
+    (
+        "CRAM-PR2-ENVIRONMENT-MANIPULATION",
+        &["CRAM-PROLOG", "CRAM-EXECUTIVE", "CRAM-DESIGNATORS"],
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        &["CRAM-PROLOG", "CRAM-COMMON-FAILURES"],
+    ),
+    (
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
+        &["CRAM-PROLOG", "CRAM-COMMON-FAILURES"],
+    ),
     (
         "CRAM-PICK-PLACE-TUTORIAL",
         &["CRAM-PROLOG", "CRAM-COMMON-FAILURES", "PLANWRIGHT"],
     ),
-    ("COMMON-LISP-USER", &["PLANWRIGHT"]),
-    ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
-    ("CRAM-PR2-FETCH-DELIVER-PLANS", &["CRAM-COMMON-FAILURES"]),
-    ("CRAM-OCCASIONS-EVENTS", &["CRAM-UTILITIES", "CRAM-PROLOG"]),
-    ("CRAM-PROLOG", &["CRAM-UTILITIES"]),
-    ("CRAM-DESIGNATORS", &["CRAM-UTILITIES", "CRAM-PROLOG"]),
-    ("CRAM-PROCESS-MODULES", &["ALEXANDRIA", "CRAM-DESIGNATORS"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
+    ("CL-BULLET-VIS", &["CL-BULLET"]),
+    ("CRAM-TASK-TREE-EXPORTER", &["CRAM-LANGUAGE-IMPLEMENTATION"]),
+    (
+        "CRAM-SEMANTIC-MAP",
+        &["CRAM-PLAN-OCCASIONS-EVENTS", "CRAM-OCCASIONS-EVENTS"],
+    ),
+    ("CRAM-CUT-PLANS", &["CRAM-PROLOG"]),
+    ("CRAM-MATH", &["ALEXANDRIA"]),
 ];
 
 /// Symbols of one package that another one imports, and exports if the flag is true.
@@ -261,6 +492,40 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
         "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
         true,
     ),
+];
+
+/// Packages that hold no more than what published code names of a system that is not here.
+pub const STAND_INS: &[&str] = &[
+    "ACTIONLIB",
+    "CL-BULLET",
+    "CL-BULLET-VIS",
+    "CL-URDF",
+    "CRAM-BTR-SPATIAL-RELATIONS-COSTMAP",
+    "CRAM-BTR-VISIBILITY-COSTMAP",
+    "CRAM-CLOUD-LOGGER",
+    "CRAM-CUT-PLANS",
+    "CRAM-IK-INTERFACE",
+    "CRAM-KNOWROB-PICK-PLACE",
+    "CRAM-MOVEIT",
+    "CRAM-OCCUPANCY-GRID-COSTMAP",
+    "CRAM-ROBOT-POSE-GUASSIAN-COSTMAP",
+    "CRAM-SEMANTIC-MAP",
+    "CRAM-SEMANTIC-MAP-COSTMAP",
+    "CRAM-SIMPLE-ACTIONLIB-CLIENT",
+    "CRAM-TASK-TREE-EXPORTER",
+    "CRAM-TESTS",
+    "CRAM-USER",
+    "CRAM-WALKER",
+    "GEOMETRY_MSGS-MSG",
+    "GISKARD",
+    "JSON-PROLOG",
+    "LISP-UNIT",
+    "SB-EXT",
+    "SENSOR_MSGS-MSG",
+    "STD_MSGS-MSG",
+    "STD_SRVS-SRV",
+    "TURTLESIM-MSG",
+    "TURTLESIM-SRV",
 ];
 
 /// The package with that name, made if necessary, with the nicknames.

@@ -95,12 +95,18 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         let arm = std::iter::once(keyword(image, side.name()));
         Value::list(arm.chain(links).collect::<Vec<_>>())
     });
+    let grippers = Side::BOTH.map(|side| {
+        let joint = description.arm(side).gripper.joint;
+        let joint = &models.robot.joint(joint).name;
+        Value::list([keyword(image, side.name()), Value::string(joint.as_str())])
+    });
     let entries = [
         ("name", keyword(image, &description.name)),
         ("torso-joint", Value::string(joint.as_str())),
         ("camera-frame", Value::string(camera.as_str())),
         ("wrists", Value::list(wrists)),
         ("arm-links", Value::list(links)),
+        ("grippers", Value::list(grippers)),
     ];
     property_list(image, entries)
 }

@@ -21,6 +21,7 @@ mod out_of_containers;
 pub(crate) mod overlaps;
 mod packages;
 mod parking;
+mod published_code;
 mod putting_down;
 mod refusals;
 mod renamed_robot;

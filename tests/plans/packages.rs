@@ -29,6 +29,53 @@ const WORDS: &[&str] = &[
     // Variables that match anything.
     "?_",
     "!?_",
+    // The world, in goals.
+    "?W",
+    // Method combinations.
+    "FIRST-IN-ORDER-AND-AROUND",
+    "HOOKS",
+    "ORDERED-HOOKS",
+    // Names that several packages of CRAM share, and what can only be asserted.
+    "ACTION",
+    "LOCATION",
+    "LOCATION-GROUNDING",
+    "OBJECT",
+    "OBJECT-ID",
+    "OBJECT-POSE-ON",
+    "THROUGHOUT",
+    // What descriptions of other robots, which users load, say of them.
+    "ARM-JOINTS",
+    "CAMERA-HORIZONTAL-ANGLE",
+    "CAMERA-IN-NECK-EE-POSE",
+    "CAMERA-MAXIMAL-HEIGHT",
+    "CAMERA-MINIMAL-HEIGHT",
+    "CAMERA-VERTICAL-ANGLE",
+    "GRIPPER-CONVERGENCE-DELTA",
+    "GRIPPER-LINK",
+    "GRIPPER-METER-TO-JOINT-MULTIPLIER",
+    "GRIPPER-MINIMAL-POSITION",
+    "HAND-FINGER-LINK",
+    "HAND-LINK",
+    "HAND-LINKS",
+    "NECK",
+    "NECK-CAMERA-POSE-UNIT-VECTOR-MULTIPLIER",
+    "NECK-CAMERA-RESAMPLING-STEP",
+    "NECK-CAMERA-X-AXIS-LIMIT",
+    "NECK-CAMERA-Y-AXIS-LIMIT",
+    "NECK-CAMERA-Z-AXIS-LIMIT",
+    "NECK-CAMERA-Z-OFFSET",
+    "ROBOT-ARMS-CARRYING-JOINT-STATES",
+    "ROBOT-ARMS-PARKING-JOINT-STATES",
+    "ROBOT-BASE-LINK",
+    "ROBOT-NECK-BASE-LINK",
+    "ROBOT-NECK-JOINTS",
+    "ROBOT-NECK-LINKS",
+    "ROBOT-NECK-PAN-JOINT-FORWARD-FACING-AXIS-SIGN",
+    "ROBOT-NECK-TILT-JOINT-FORWARD-FACING-AXIS-SIGN",
+    "ROBOT-PAN-TILT-JOINTS",
+    "ROBOT-PAN-TILT-LINKS",
+    "STANDARD<-PARTICULAR-GRIPPER-TRANSFORM",
+    "TCP-IN-EE-POSE",
     // Slots of errors of designators.
     "REASON",
     "SUGGESTION",
@@ -91,9 +138,9 @@ fn a_symbol_that_is_not_there_is_told_with_where_it_may_be() {
         report
     };
     assert_eq!(
-        said("(btr:object-pose 'bottle-1)"),
-        "Symbol \"OBJECT-POSE\" not found in the CRAM-BULLET-REASONING package. \
-         Did you mean CRAM-BULLET-REASONING-UTILITIES:OBJECT-POSE?"
+        said("(btr:spawn-object 'bottle-1)"),
+        "Symbol \"SPAWN-OBJECT\" not found in the CRAM-BULLET-REASONING package. \
+         Did you mean CRAM-BULLET-REASONING-UTILITIES:SPAWN-OBJECT?"
     );
     assert_eq!(
         said("(btr-utils:object-psoe 'bottle-1)"),

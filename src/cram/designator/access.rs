@@ -159,8 +159,8 @@ fn designator_of_form(
         Some("ALL") => Quantifier::All,
         _ => Quantifier::A,
     };
-    let properties: Vec<Value> = properties.iter_list().filter(Value::is_true).collect();
-    let designator = Designator::new(image, class, quantifier, list(properties));
+    let properties = checked_description(image, properties)?;
+    let designator = Designator::new(image, class, quantifier, properties);
     Ok(Value::foreign(designator))
 }
 

@@ -38,10 +38,11 @@ fn perform_builtin(machine: &mut Machine<'_>, designator: &Value) -> Result<Step
     perform(machine, designator)
 }
 
-/// The same as PERFORM.
-#[builtin]
-fn generic_perform(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
-    perform(machine, designator)
+/// PERFORM without the methods of GENERIC-PERFORM.
+#[builtin("%PERFORM-PLAINLY")]
+fn perform_plainly(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
+    let class = class_to_perform(machine.image, designator)?;
+    perform_as_traced(machine, class, designator)
 }
 
 /// PERFORM for what is not traced.
@@ -87,6 +88,24 @@ fn is_traced(image: &mut Image) -> bool {
 
 fn perform(machine: &mut Machine<'_>, argument: &Value) -> Result<Step> {
     let class = class_to_perform(machine.image, argument)?;
+    let generic = packages::symbol(machine.image, "CRAM-EXECUTIVE", "GENERIC-PERFORM");
+    let has_methods = match &machine.image.symbol(generic).function {
+        // Besides the one that does it.
+        FunctionCell::Function(function) => function
+            .as_generic()
+            .is_some_and(|generic| generic.methods.borrow().len() > 1),
+        _ => false,
+    };
+    if has_methods {
+        return Ok(Step::TailCall {
+            function: generic.into(),
+            args: vec![argument.clone()],
+        });
+    }
+    perform_as_traced(machine, class, argument)
+}
+
+fn perform_as_traced(machine: &mut Machine<'_>, class: Class, argument: &Value) -> Result<Step> {
     if is_traced(machine.image) {
         let traced = packages::symbol(machine.image, "SYSTEM", "%PERFORM-TRACED");
         return Ok(Step::TailCall {
@@ -431,7 +450,7 @@ fn with_place(image: &mut Image, motion: &Designator, old: &Value, new: &Value) 
 }
 
 /// Functions of package `CRAM-EXECUTIVE`.
-pub(crate) static TABLE: &[Builtin] = builtins![perform_builtin, generic_perform,];
+pub(crate) static TABLE: &[Builtin] = builtins![perform_builtin,];
 
 /// Functions of package `SYSTEM`, for `plan/library/tracing.lisp`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![perform3, types_named,];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![perform3, perform_plainly, types_named,];

@@ -123,6 +123,12 @@ fn designator_form(
 
 /// Code for a property list, or for `NIL` if a condition omits the property.
 fn property_code(image: &mut Image, class: &str, property: &Value, depth: usize) -> Result<Value> {
+    // A variable stands for a property, or for none.
+    if let Some(variable) = property.as_symbol()
+        && image.name(variable).starts_with('?')
+    {
+        return Ok(property.clone());
+    }
     let items = property.list_to_vec().filter(|items| !items.is_empty());
     let Some(items) = items else {
         return Err(Raise::program(format!(

@@ -215,6 +215,14 @@ fn malformed_designators_say_what_is_wrong() {
             "!! FOO is not a property: a list (key value) was expected.",
         ),
         (
+            "(let ((?property '(:type :bottle)) (?none nil)) (desig-prop-value (an object ?property ?none) :type))",
+            ":BOTTLE",
+        ),
+        (
+            "(let ((?property :type)) (an object ?property))",
+            "!! :TYPE is not a property: a list (:key value) was expected.",
+        ),
+        (
             "(make-designator :object '(:a 1))",
             "!! :A is not a property: a list (:key value) was expected.",
         ),

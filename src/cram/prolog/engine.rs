@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::choice_point::{Alternative, Choice};
 use super::facts;
-use super::facts::{Clause, Facts};
+use super::facts::Facts;
 use super::functor::Call;
 use super::goal::{Action, Goal};
 use super::goal_chain::{GoalNode, Goals};
@@ -15,6 +15,7 @@ use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
 use lisp::value::known;
+use lisp::value::package::PackageTable;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 
@@ -213,6 +214,27 @@ impl Engine {
                     false
                 }
                 Goal::Fail => false,
+                Goal::Clauses(term) => {
+                    let functor = term.car_or_nil().as_symbol();
+                    match functor.and_then(|functor| self.facts.clauses(functor)) {
+                        Some(clauses) => self.try_clauses(image, term.clone(), clauses, 0)?,
+                        None => false,
+                    }
+                }
+                Goal::Handler(term) => {
+                    let functor = term.car_or_nil().as_symbol();
+                    let args: Vec<Value> = term.cdr_or_nil().iter_list().collect();
+                    match functor.and_then(|functor| self.facts.handler(functor)) {
+                        Some(function) => {
+                            let action = self.handled(image, function, &args)?;
+                            match self.take(action, node.clause) {
+                                Ok(holds) => holds,
+                                Err(call) => return Ok(call),
+                            }
+                        }
+                        None => false,
+                    }
+                }
                 Goal::Prove(term) => {
                     let term = self.bindings.walk(term);
                     match self.prove(image, &term, node.clause)? {
@@ -254,8 +276,17 @@ impl Engine {
                 print::to_string(image, &self.bindings.shown(term)?, true)
             )));
         };
-        if self.facts.knows(functor) {
-            let clauses: Rc<[Clause]> = self.facts.clauses(functor).into();
+        let meant = self.facts.meant(image, functor);
+        let renamed = Value::cons(meant.into(), args.clone());
+        let term = if meant == functor { term } else { &renamed };
+        let functor = meant;
+        if let Some(clauses) = self.facts.clauses(functor) {
+            // Rules may be added to a functor of `def-prolog-handler`.
+            if self.facts.handler(functor).is_some() {
+                let rules = vec![Goal::Clauses(term.clone())];
+                let own = vec![Goal::Handler(term.clone())];
+                return Ok(self.take(Action::Either(own, rules), clause));
+            }
             if let Some(why) = warnings::of_rules(image, functor, &clauses, term) {
                 self.warn(image, functor, args.iter_list().count(), &why);
                 return Ok(Ok(false));
@@ -278,7 +309,7 @@ impl Engine {
                 (known.apply)(call)?
             }
             None => match (self.facts.handler(functor), known) {
-                (Some(function), _) => self.handled(function, &args)?,
+                (Some(function), _) => self.handled(image, function, &args)?,
                 (None, Some(known)) => {
                     let why = warnings::of_functor(image, functor, known, args.len());
                     self.warn(image, functor, args.len(), &why);
@@ -308,16 +339,36 @@ impl Engine {
         }
     }
 
-    /// The call of a functor of `def-prolog-handler`.
-    fn handled(&self, function: Value, terms: &[Value]) -> Result<Action> {
-        let mut args = vec![self.solution()?];
-        let mut variables = Vec::new();
+    /// The call of a functor of `def-prolog-handler`. Its function knows variables by their names, so
+    /// each has another one.
+    fn handled(&mut self, image: &mut Image, function: Value, terms: &[Value]) -> Result<Action> {
+        let mut variables: Vec<Value> = Vec::new();
         for term in terms {
             let term = self.bindings.resolve(term)?;
-            if term.as_foreign::<Variable>().is_some() {
-                variables.push(term.clone());
+            self.bindings.unbound_in(&term, &mut variables);
+        }
+        let mut names: Vec<Sym> = Vec::new();
+        for place in &mut variables {
+            let Some(name) = place.as_foreign::<Variable>().map(|v| v.name) else {
+                continue;
+            };
+            let mut own = name;
+            let mut number = 1;
+            while names.contains(&own) {
+                number += 1;
+                let text = format!("{}-{number}", image.name(name));
+                own = image.intern(PackageTable::USER, &text);
             }
-            args.push(self.bindings.shown(&term)?);
+            names.push(own);
+            if own != name {
+                let renamed = self.bindings.fresh(own);
+                self.bindings.unify(place, &renamed);
+                *place = renamed;
+            }
+        }
+        let mut args = vec![self.solution()?];
+        for term in terms {
+            args.push(self.bindings.shown(term)?);
         }
         Ok(Action::CallBindings {
             function,

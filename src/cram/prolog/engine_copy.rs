@@ -77,6 +77,8 @@ fn goal(goal: &Goal, copier: &mut Copier) -> Goal {
         Goal::Cut(count) => Goal::Cut(*count),
         Goal::Forget(number) => Goal::Forget(*number),
         Goal::Collect(collection, template) => Goal::Collect(*collection, copier.value(template)),
+        Goal::Clauses(term) => Goal::Clauses(copier.value(term)),
+        Goal::Handler(term) => Goal::Handler(copier.value(term)),
         Goal::Fail => Goal::Fail,
     }
 }

@@ -47,7 +47,10 @@ fn goals(goals: &Goals, nodes: &mut Nodes, visit: &mut dyn FnMut(&Value)) {
         && nodes.insert(Rc::as_ptr(node))
     {
         match &node.goal {
-            Goal::Prove(term) | Goal::Collect(_, term) => visit(term),
+            Goal::Prove(term)
+            | Goal::Clauses(term)
+            | Goal::Handler(term)
+            | Goal::Collect(_, term) => visit(term),
             Goal::Cut(_) | Goal::Forget(_) | Goal::Fail => {}
         }
         rest = &node.next;

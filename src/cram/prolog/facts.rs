@@ -1,6 +1,7 @@
 //! Fact groups: rules by the symbol that begins their heads.
 
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use indexmap::IndexMap;
@@ -34,20 +35,45 @@ pub(crate) struct Clause {
 #[derive(Default)]
 pub struct Facts {
     groups: RefCell<IndexMap<Sym, Vec<(Sym, Clause)>>>,
+    /// The clauses of the groups by functor, once they have been asked for.
+    index: RefCell<Option<HashMap<Sym, Rc<[Clause]>>>>,
     handlers: RefCell<IndexMap<Sym, Value>>,
     functors: RefCell<IndexMap<&'static str, &'static Functor>>,
 }
 
 impl Facts {
-    /// The clauses of a functor, in order of definition.
-    pub(crate) fn clauses(&self, functor: Sym) -> Vec<Clause> {
-        self.groups
-            .borrow()
-            .values()
-            .flatten()
-            .filter(|(name, _)| *name == functor)
-            .map(|(_, clause)| clause.clone())
-            .collect()
+    /// The clauses of a functor, in order of definition; `None` if there is none.
+    pub(crate) fn clauses(&self, functor: Sym) -> Option<Rc<[Clause]>> {
+        let mut index = self.index.borrow_mut();
+        let index = index.get_or_insert_with(|| {
+            let mut found: HashMap<Sym, Vec<Clause>> = HashMap::new();
+            for (name, clause) in self.groups.borrow().values().flatten() {
+                found.entry(*name).or_default().push(clause.clone());
+            }
+            let found = found.into_iter();
+            found
+                .map(|(name, clauses)| (name, clauses.into()))
+                .collect()
+        });
+        index.get(&functor).cloned()
+    }
+
+    /// The functor that is meant by a symbol: itself, or if nothing is known of it, the first functor
+    /// with that name of another package.
+    pub(super) fn meant(&self, image: &Image, functor: Sym) -> Sym {
+        if self.knows(functor) || self.handlers.borrow().contains_key(&functor) {
+            return functor;
+        }
+        let name = image.name(functor);
+        if self.functors.borrow().contains_key(name) {
+            return functor;
+        }
+        let groups = self.groups.borrow();
+        let handlers = self.handlers.borrow();
+        let defined = groups.values().flatten().map(|(name, _)| *name);
+        let mut defined = defined.chain(handlers.keys().copied());
+        let named = defined.find(|other| image.name(*other) == name);
+        named.unwrap_or(functor)
     }
 
     /// The function of `def-prolog-handler` for a functor.
@@ -80,8 +106,7 @@ impl Facts {
 
     /// Whether any fact group has a clause for the functor.
     pub fn knows(&self, functor: Sym) -> bool {
-        let groups = self.groups.borrow();
-        groups.values().flatten().any(|(name, _)| *name == functor)
+        self.clauses(functor).is_some()
     }
 }
 
@@ -108,6 +133,7 @@ impl Extension for Facts {
         let handlers = handlers.map(|(name, handler)| (*name, copier.value(handler)));
         Rc::new(Facts {
             groups: RefCell::new(groups),
+            index: RefCell::default(),
             handlers: RefCell::new(handlers.collect()),
             functors: self.functors.clone(),
         })
@@ -262,7 +288,9 @@ fn define_group(image: &mut Image, name_value: &Value, rules: &Value) -> Result<
             clauses.push((functor, Clause { head, body }));
         }
     }
-    of(image).groups.borrow_mut().insert(name, clauses);
+    let facts = of(image);
+    facts.groups.borrow_mut().insert(name, clauses);
+    facts.index.take();
     Ok(name_value.clone())
 }
 

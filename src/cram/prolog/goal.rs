@@ -13,6 +13,10 @@ pub enum Goal {
     Forget(u64),
     /// Add a term to a collection, then fail.
     Collect(usize, Value),
+    /// Prove a term by the rules of its functor.
+    Clauses(Value),
+    /// Prove a term by the function of its functor.
+    Handler(Value),
     /// Fail.
     Fail,
 }

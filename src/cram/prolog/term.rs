@@ -235,6 +235,31 @@ impl Bindings {
         Value::list_with_tail(items, tail)
     }
 
+    /// Adds the variables of a resolved term to a list, each once.
+    pub(crate) fn unbound_in(&self, term: &Value, variables: &mut Vec<Value>) {
+        let mut pending = vec![term.clone()];
+        while let Some(term) = pending.pop() {
+            match &term {
+                Value::Foreign(_) => {
+                    if let Some(variable) = term.as_foreign::<Variable>() {
+                        let is_same = |known: &Value| {
+                            let known = known.as_foreign::<Variable>();
+                            known.is_some_and(|known| known.index == variable.index)
+                        };
+                        if !variables.iter().any(is_same) {
+                            variables.push(term.clone());
+                        }
+                    }
+                }
+                Value::Cons(cons) => {
+                    pending.push(cons.cdr());
+                    pending.push(cons.car());
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// Whether the term contains no unbound variables.
     pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];

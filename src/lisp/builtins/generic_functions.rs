@@ -10,7 +10,9 @@ use crate::object::combination::{define_combination, expand_define_method_combin
 use crate::object::combine::{invoke_method, no_next_method};
 use crate::object::dispatch::no_applicable_method_error;
 use crate::object::effective::applicable_methods;
-use crate::object::method::{MethodObject, add_method, method_value, remove_method, specializer};
+use crate::object::method::{
+    MethodObject, add_method, has_qualifiers, method_value, remove_method, specializer,
+};
 use crate::object::{defmethod, text};
 use crate::typed::FromValue;
 use crate::typed::{self, builtin, builtins};
@@ -19,7 +21,6 @@ use crate::value::function::Function;
 use crate::value::generic::{GenericFunction, Method};
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::symbol::Sym;
 
 /// Called when no method of a generic function applies. Add methods to do something else.
 ///
@@ -109,8 +110,7 @@ fn function_keywords(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
 /// `(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x)))` => `(:BEFORE)`
 #[builtin]
 fn method_qualifiers(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
-    let qualifiers: Vec<Sym> = method.qualifiers.clone();
-    Ok(Value::list(qualifiers.into_iter().map(Value::symbol)))
+    Ok(Value::list(method.qualifiers.clone()))
 }
 
 /// Defines a method as DEFMETHOD describes it.
@@ -262,7 +262,7 @@ fn wrong_count(image: &Image, function: &Value, required: usize, count: usize) -
 #[builtin(_, "generic-function qualifiers specializers &optional (errorp t)")]
 fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let function = generic_argument(&args[0])?;
-    let qualifiers: Vec<Sym> = args[1].iter_list().filter_map(|q| q.as_symbol()).collect();
+    let qualifiers: Vec<Value> = args[1].iter_list().collect();
     let specializers = args[2]
         .iter_list()
         .map(|s| specializer(image, &s))
@@ -273,7 +273,7 @@ fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     }
     let methods = as_generic(function)?.methods.borrow();
     let found = methods.iter().find(|m| {
-        m.qualifiers == qualifiers
+        has_qualifiers(m, &qualifiers)
             && m.specializers.len() == specializers.len()
             && m.specializers
                 .iter()

@@ -23,12 +23,13 @@ pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value
     let lambda_list = loop {
         match items.next() {
             Some(list) if list.is_list() => break list,
-            Some(qualifier @ Value::Symbol(..)) => qualifiers.push(qualifier),
-            _ => {
+            Some(Value::Cons(_)) | None => {
                 return Err(Raise::program(
                     "DEFMETHOD takes a name, qualifiers, a lambda list and a body.",
                 ));
             }
+            // Any object but a list: symbols and numbers for example.
+            Some(qualifier) => qualifiers.push(qualifier),
         }
     };
     let (plain, specializers) = split_lambda_list(image, &lambda_list)?;
@@ -223,10 +224,7 @@ pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box
         image,
         MethodDefinition {
             name: name.clone(),
-            qualifiers: qualifiers
-                .iter_list()
-                .filter_map(|q| q.as_symbol())
-                .collect(),
+            qualifiers: qualifiers.iter_list().collect(),
             specializers,
             parameters,
             function: function.clone(),

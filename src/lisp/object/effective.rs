@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::class_of::class_of;
 use crate::image::Image;
+use crate::print;
 use crate::value::Value;
 use crate::value::class::Class;
 use crate::value::dispatch::{Effective, Shape, SlotPlace};
@@ -150,12 +151,13 @@ fn shape(
     let mut primary = Vec::new();
     let mut after = Vec::new();
     for method in methods {
-        match method.qualifiers.as_slice() {
-            [known::K_AROUND] => around.push(method),
+        let qualifiers: Vec<Option<Sym>> = method.qualifiers.iter().map(Value::as_symbol).collect();
+        match qualifiers.as_slice() {
+            [Some(known::K_AROUND)] => around.push(method),
             [] if is_standard => primary.push(method),
-            [known::K_BEFORE] if is_standard => before.push(method),
-            [known::K_AFTER] if is_standard => after.push(method),
-            [qualifier] if *qualifier == combination.name && !is_standard => {
+            [Some(known::K_BEFORE)] if is_standard => before.push(method),
+            [Some(known::K_AFTER)] if is_standard => after.push(method),
+            [Some(qualifier)] if *qualifier == combination.name && !is_standard => {
                 primary.push(method);
             }
             _ => return Err(bad_qualifiers(image, generic, &method)),
@@ -208,7 +210,11 @@ fn accessor_place(method: &Rc<Method>, args: &[Value]) -> Option<Shape> {
 }
 
 fn bad_qualifiers(image: &Image, generic: &GenericFunction, method: &Method) -> Box<Raise> {
-    let qualifiers: Vec<&str> = method.qualifiers.iter().map(|q| image.name(*q)).collect();
+    let shown = |q: &Value| match q.as_symbol() {
+        Some(symbol) => image.name(symbol).to_owned(),
+        None => print::to_string(image, q, true),
+    };
+    let qualifiers: Vec<String> = method.qualifiers.iter().map(shown).collect();
     let combination = image.name(generic.combination.get().name);
     Raise::program(format!(
         "A method with qualifiers ({}) cannot be used with the method combination type {combination}.",

@@ -68,7 +68,7 @@ impl Foreign for MethodObject {
         let mut text = format!("#<STANDARD-METHOD {}", context.qualified(&method.name));
         for qualifier in &method.qualifiers {
             text.push(' ');
-            text.push_str(&context.text(&Value::symbol(*qualifier), true));
+            text.push_str(&context.text(qualifier, true));
         }
         let specializers: Vec<String> = method
             .specializers
@@ -235,7 +235,7 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 pub(crate) struct MethodDefinition {
     /// The name of the generic function.
     pub name: Value,
-    pub(crate) qualifiers: Vec<Sym>,
+    pub(crate) qualifiers: Vec<Value>,
     /// One per required parameter.
     pub specializers: Vec<Specializer>,
     pub parameters: Parameters,
@@ -303,8 +303,14 @@ pub fn changed(generic: &GenericFunction) {
     *generic.dispatch.borrow_mut() = dispatch;
 }
 
+/// Whether these are the qualifiers of a method.
+pub(crate) fn has_qualifiers(method: &Method, qualifiers: &[Value]) -> bool {
+    let own = &method.qualifiers;
+    own.len() == qualifiers.len() && own.iter().zip(qualifiers).all(|(a, b)| a.is_eql(b))
+}
+
 fn is_same(a: &Method, b: &Method) -> bool {
-    a.qualifiers == b.qualifiers
+    has_qualifiers(a, &b.qualifiers)
         && a.specializers.len() == b.specializers.len()
         && a.specializers
             .iter()

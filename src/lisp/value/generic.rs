@@ -73,8 +73,8 @@ pub enum Accessor {
 pub struct Method {
     /// The name of its generic function: a symbol, or the list `(setf name)`.
     pub name: Value,
-    /// Qualifiers as written: none, `:before`, `+`, …
-    pub(crate) qualifiers: Vec<Sym>,
+    /// Qualifiers as written: none, `:before`, `+`, a number, …
+    pub(crate) qualifiers: Vec<Value>,
     /// One per required argument.
     pub specializers: Vec<Specializer>,
     /// The parameters, required ones included.

@@ -63,6 +63,11 @@ impl Visibility {
         (self.visible_pixels as f64 / self.full_pixels as f64).min(1.0)
     }
 
+    /// The bodies in front of the object, those that hide most of it first.
+    pub fn occluders(&self) -> impl Iterator<Item = &BodyName> {
+        self.occluders.iter().map(|(body, _)| body)
+    }
+
     /// Whether the object counts as seen.
     pub fn is_seen(&self) -> bool {
         self.fraction() >= self.needed_share

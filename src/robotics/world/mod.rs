@@ -51,6 +51,7 @@ pub mod solid;
 pub mod spawn;
 mod standing;
 mod standing_room;
+mod touching;
 
 pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;

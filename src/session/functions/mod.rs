@@ -1,5 +1,6 @@
 //! The builtins that act on the world, one table per topic.
 
+mod asking;
 mod choosing;
 mod containers;
 mod explaining;

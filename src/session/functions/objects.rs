@@ -14,8 +14,9 @@ use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
+use robotics::world::object_library::{FRICTION, ObjectType};
 use robotics::world::{Object, SpawnReport, WorldError};
-use spatial::Pose;
+use spatial::{PlacedShape, Pose, Shape};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -123,6 +124,47 @@ impl Simulation {
             .entry(name.clone())
             .or_insert_with(|| spawning.name.clone());
         self.let_settle(image, &name, &spawning.pose, &report)
+    }
+
+    /// Adds an object of a shape, whose frame is in its middle, and lets it settle.
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn spawn_shape(
+        &mut self,
+        image: &mut Image,
+        symbol: &Value,
+        kind: &str,
+        shape: Shape,
+        pose: &Pose,
+        mass: &Value,
+        color_value: &Value,
+    ) -> Result<()> {
+        let Some(name) = name_text(image, symbol) else {
+            return Err(Raise::type_error(symbol, known::SYMBOL));
+        };
+        let color = match color_value.is_true() {
+            true => color(color_value)?,
+            false => [0.6, 0.6, 0.6, 1.0],
+        };
+        let kind = ObjectType {
+            name: kind.to_owned(),
+            is_round: matches!(shape, Shape::Sphere { .. }),
+            shapes: vec![PlacedShape {
+                shape,
+                pose: Pose::identity(),
+                color: None,
+            }],
+            mass: number::to_f64(mass).unwrap_or(0.2),
+            friction: FRICTION,
+            color,
+        };
+        let report = self
+            .world
+            .spawn_kind(&name, &kind, pose)
+            .map_err(world_error)?;
+        self.names
+            .entry(name.clone())
+            .or_insert_with(|| symbol.clone());
+        self.let_settle(image, &name, pose, &report)
     }
 
     /// Lets an object come to rest that was put at a pose, and logs it if it does not, or ends

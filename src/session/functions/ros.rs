@@ -6,7 +6,7 @@ use crate::plans::{DEMO_SYSTEMS, demo_text};
 use crate::simulation::Simulation;
 use cram::Reply;
 use cram::designator::names::{name_text, rosify};
-use cram::packages::{self, PACKAGES};
+use cram::packages::{self, PACKAGES, STAND_INS};
 use lisp::builtin::{Builtin, control, pure};
 use lisp::builtins::loading::load_text;
 use lisp::image::Image;
@@ -38,14 +38,14 @@ pub(crate) static LOG_TABLE: &[Builtin] = &[
 /// Builtins of package `ROSLISP-UTILITIES`.
 pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
     control(
-        "STARTUP-ROS",
-        "&rest options",
+        "%STARTUP-ROS",
+        "",
         "Nothing to start: the robot is here already. Takes the world back to its start.",
-        &["(roslisp-utilities:startup-ros) => NIL"],
+        &["(roslisp-utilities::%startup-ros) => NIL"],
         host!(startup_ros),
     ),
     control(
-        "SHUTDOWN-ROS",
+        "%SHUTDOWN-ROS",
         "",
         "Nothing to stop.",
         &[],
@@ -133,7 +133,7 @@ const NO_SYSTEMS: [&str; 6] = [
 fn systems() -> Vec<String> {
     let names = PACKAGES.iter().map(|package| package.name);
     let mut systems: Vec<String> = names
-        .filter(|name| !NO_SYSTEMS.contains(name))
+        .filter(|name| !NO_SYSTEMS.contains(name) && !STAND_INS.contains(name))
         .map(rosify)
         .chain(OTHER_SYSTEMS.map(str::to_owned))
         .chain(DEMO_SYSTEMS.iter().map(|(name, _)| (*name).to_owned()))

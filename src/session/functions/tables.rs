@@ -31,6 +31,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         "CRAM-BULLET-REASONING",
         functions::locations::VISUALIZATION_TABLE,
     ),
+    ("CRAM-BULLET-REASONING", functions::asking::TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::noise::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),

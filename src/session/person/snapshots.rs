@@ -50,6 +50,8 @@ pub(crate) struct Snapshots {
     named: IndexMap<String, Snapshot>,
     /// Before motions of the running form, by the number of the motion.
     motions: VecDeque<(u64, Snapshot)>,
+    /// Before questions that change the world for themselves, the innermost last.
+    trials: Vec<Snapshot>,
     /// Whether snapshots before motions are kept.
     keeps_motions: bool,
     /// Whether anything has been requested from the world since the last form began.
@@ -72,13 +74,18 @@ impl Snapshot {
 
     /// Restores the state; ongoing motions end.
     fn restore(&self, simulation: &mut Simulation) {
+        self.put_back(simulation);
+        simulation.jobs.clear();
+    }
+
+    /// Restores the state, in which nothing has moved by itself meanwhile.
+    fn put_back(&self, simulation: &mut Simulation) {
         let state = &self.0;
         simulation.world.restore(&state.world);
         simulation.names.clone_from(&state.names);
         simulation.held.clone_from(&state.held);
         simulation.axes.clone_from(&state.axes);
         simulation.searches = state.searches;
-        simulation.jobs.clear();
     }
 }
 
@@ -118,6 +125,11 @@ impl Snapshots {
             forms,
             named,
             motions: motions.collect(),
+            trials: self
+                .trials
+                .iter()
+                .map(|trial| trial.copied(copier))
+                .collect(),
             keeps_motions: self.keeps_motions,
             is_touched: self.is_touched,
             is_aside: self.is_aside,
@@ -251,6 +263,26 @@ impl Snapshots {
     pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
         let snapshot = Snapshot::take(simulation);
         self.named.insert(name.to_owned(), snapshot);
+    }
+
+    /// From now on the world is a trial, until [`Self::end_trial`]. Returns how many trials there are.
+    pub(crate) fn begin_trial(&mut self, simulation: &Simulation) -> usize {
+        self.trials.push(Snapshot::take(simulation));
+        self.trials.len()
+    }
+
+    /// Is the world a trial?
+    pub(crate) fn is_trial(&self) -> bool {
+        !self.trials.is_empty()
+    }
+
+    /// The world is again as before the trial with that number, and those inside it.
+    pub(crate) fn end_trial(&mut self, simulation: &mut Simulation, number: usize) {
+        let first = number.saturating_sub(1);
+        if let Some(snapshot) = self.trials.get(first) {
+            snapshot.put_back(simulation);
+        }
+        self.trials.truncate(first);
     }
 
     /// Restores a named snapshot of the world.

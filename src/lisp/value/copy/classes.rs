@@ -72,9 +72,11 @@ impl Copier {
                 Specializer::Eql(value) => Specializer::Eql(self.value(value)),
             });
         let specializers = specializers.collect();
+        let qualifiers = method.qualifiers.iter();
+        let qualifiers = qualifiers.map(|q| self.value(q)).collect();
         let copy = Rc::new(Method {
             name: self.value(&method.name),
-            qualifiers: method.qualifiers.clone(),
+            qualifiers,
             specializers,
             parameters: method.parameters.clone(),
             function: self.function(&method.function),
