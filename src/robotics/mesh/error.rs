@@ -52,9 +52,17 @@ fn not_found(file: &str, tried: &[String]) -> String {
     };
     match tried {
         [] => format!("there is no file for the mesh {file}: no folder is known to look in{hint}"),
-        tried => format!(
-            "there is no file for the mesh {file}; tried {}{hint}",
-            tried.join(", ")
-        ),
+        tried => {
+            let shown = tried.get(..MAX_SHOWN).unwrap_or(tried);
+            let others = match tried.len() - shown.len() {
+                0 => String::new(),
+                others => format!(" and {others} more"),
+            };
+            let shown = shown.join(", ");
+            format!("there is no file for the mesh {file}; tried {shown}{others}{hint}")
+        }
     }
 }
+
+/// So many of the paths that were tried are shown.
+const MAX_SHOWN: usize = 4;

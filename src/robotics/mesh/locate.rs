@@ -42,7 +42,12 @@ impl Places {
         match tried.iter().position(|path| files.length(path).is_some()) {
             Some(place) => Ok(tried.swap_remove(place)),
             None => {
-                tried.dedup();
+                let mut known = Vec::new();
+                tried.retain(|path| {
+                    let is_new = !known.contains(path);
+                    known.extend(is_new.then(|| path.clone()));
+                    is_new
+                });
                 Err(MeshError::NotFound {
                     file: file.to_owned(),
                     tried,

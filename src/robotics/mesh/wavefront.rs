@@ -24,17 +24,7 @@ pub(super) fn read(bytes: &[u8], colors: &[(String, [f32; 4])]) -> Result<Vec<Me
                     _ => return Err(format!("line {line}: expected v and three numbers")),
                 }
             }
-            Some("o" | "g") => {
-                if parts
-                    .last()
-                    .is_some_and(|part| !part.surface.triangles.is_empty())
-                {
-                    parts.push(MeshPart {
-                        color,
-                        ..MeshPart::default()
-                    });
-                }
-            }
+            Some("o" | "g") => begin(&mut parts, color),
             Some("usemtl") => {
                 let name = content
                     .trim_start()
@@ -45,13 +35,8 @@ pub(super) fn read(bytes: &[u8], colors: &[(String, [f32; 4])]) -> Result<Vec<Me
                     .iter()
                     .find(|(known, _)| known == name)
                     .map(|(_, color)| *color);
-                match parts.last_mut() {
-                    Some(part) if part.surface.triangles.is_empty() => part.color = color,
-                    Some(part) if part.color == color => {}
-                    _ => parts.push(MeshPart {
-                        color,
-                        ..MeshPart::default()
-                    }),
+                if parts.last().is_none_or(|part| part.color != color) {
+                    begin(&mut parts, color);
                 }
             }
             Some("f") => {
@@ -101,6 +86,17 @@ pub(super) fn read(bytes: &[u8], colors: &[(String, [f32; 4])]) -> Result<Vec<Me
         }
     }
     Ok(parts)
+}
+
+/// Begins a part, unless nothing is in the last one, which gets the colour instead.
+fn begin(parts: &mut Vec<MeshPart>, color: Option<[f32; 4]>) {
+    match parts.last_mut() {
+        Some(part) if part.surface.triangles.is_empty() => part.color = color,
+        _ => parts.push(MeshPart {
+            color,
+            ..MeshPart::default()
+        }),
+    }
 }
 
 /// The names of the files of materials that a file names.

@@ -42,8 +42,8 @@ fn what_is_not_found_is_said_with_the_paths() {
         found("/a.stl", "package://kitchen/a.stl", &["/p"]),
         Err(
             "there is no file for the mesh package://kitchen/a.stl; tried /p/kitchen/a.stl, \
-             /ws/kitchen/urdf/kitchen/a.stl, /ws/kitchen/a.stl, /ws/kitchen/kitchen/a.stl, \
-             /ws/kitchen/a.stl; say where the package is with --package-path FOLDER"
+             /ws/kitchen/urdf/kitchen/a.stl, /ws/kitchen/a.stl, /ws/kitchen/kitchen/a.stl; \
+             say where the package is with --package-path FOLDER"
                 .to_owned()
         )
     );
