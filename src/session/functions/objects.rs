@@ -127,7 +127,7 @@ impl Simulation {
     }
 
     /// Adds an object of a shape, whose frame is in its middle, and lets it settle.
-    #[allow(clippy::too_many_arguments)]
+    #[allow(clippy::too_many_arguments, reason = "an object is made of so many")]
     pub(super) fn spawn_shape(
         &mut self,
         image: &mut Image,
