@@ -182,7 +182,10 @@ impl Evaluator {
         let (number, value) = around
             .filter_map(|number| {
                 let told = frames.get(number)?;
-                let mut variables = fibers.get(told.link)?.variables(told.view.index).into_iter();
+                let mut variables = fibers
+                    .get(told.link)?
+                    .variables(told.view.index)
+                    .into_iter();
                 let found = variables.find(|variable| {
                     self.image.name(variable.name) == name && !variable.value.is_unbound()
                 })?;
