@@ -137,29 +137,40 @@ fn must_be_accessible(
 #[builtin(_, "symbols &optional package")]
 fn export(image: &mut Image, symbols_value: &Value, package: Option<&Value>) -> Outcome {
     let package = or_current(image, package)?;
+    let users: Vec<PackageId> = users(image, package).collect();
     for sym in symbols(symbols_value)? {
         must_be_accessible(image, package, sym, "exported", "; import it first")?;
-        no_conflict_in_users(image, package, sym)?;
+        no_conflict_in(image, &users, package, sym)?;
         image.packages.export(&mut image.symbols, package, sym);
     }
     Ok(Value::T)
 }
 
-/// Checks that no package that uses this one has another symbol of the name, unless it shadows that.
-fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
+/// The packages that use a package.
+fn users(image: &Image, package: PackageId) -> impl Iterator<Item = PackageId> {
+    let packages = &image.packages;
+    let uses = move |user: &PackageId| packages.get(*user).uses.contains(&package);
+    packages
+        .ids()
+        .filter(uses)
+        .filter(|user| !packages.is_deleted(*user))
+}
+
+/// Checks that none of the packages that use one has another symbol of the name, unless it shadows that.
+fn no_conflict_in(
+    image: &Image,
+    users: &[PackageId],
+    package: PackageId,
+    sym: Sym,
+) -> Result<(), Box<Raise>> {
     let name = image.name(sym);
-    let conflict = image.packages.ids().find(|user| {
-        let this = image.packages.get(*user);
-        !image.packages.is_deleted(*user)
-            && this.uses.contains(&package)
-            && !this
-                .shadowing
-                .iter()
-                .any(|shadowed| shadowed.as_ref() == name)
-            && image
-                .packages
-                .find_symbol(*user, name)
-                .is_some_and(|(other, _)| other != sym)
+    let shadows = |user: PackageId| {
+        let mut shadowing = image.packages.get(user).shadowing.iter();
+        shadowing.any(|shadowed| shadowed.as_ref() == name)
+    };
+    let conflict = users.iter().copied().find(|user| {
+        let found = image.packages.find_symbol(*user, name);
+        found.is_some_and(|(other, _)| other != sym) && !shadows(*user)
     });
     match conflict {
         None => Ok(()),
