@@ -19,9 +19,12 @@ pub fn urdf_text(bytes: &[u8]) -> Result<String, String> {
         return Ok(bytes.iter().copied().map(char::from).collect());
     }
     let line = valid.matches('\n').count() + 1;
+    let last = valid.rsplit_once('\n').map_or(&*valid, |(_, last)| last);
+    let column = last.chars().count() + 1;
+    let byte = bytes.get(error.valid_up_to()).copied().unwrap_or_default();
     Err(format!(
-        "line {line} is not UTF-8; save the file as UTF-8, or declare what it is: <?xml version=\"1.0\" \
-         encoding=\"ISO-8859-1\"?>"
+        "it is not UTF-8 at line {line}, column {column}: byte {byte:#04x}; save the file as UTF-8, or declare \
+         what it is: <?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>"
     ))
 }
 

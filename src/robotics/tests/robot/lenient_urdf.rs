@@ -263,7 +263,7 @@ fn a_declared_encoding_is_read() {
     assert_eq!(
         urdf_text(b"<robot>\n\xfc"),
         Err(
-            "line 2 is not UTF-8; save the file as UTF-8, or declare what it is: <?xml \
+            "it is not UTF-8 at line 2, column 1: byte 0xfc; save the file as UTF-8, or declare what it is: <?xml \
              version=\"1.0\" encoding=\"ISO-8859-1\"?>"
                 .to_owned()
         )

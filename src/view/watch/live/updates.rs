@@ -33,6 +33,7 @@ pub struct Updates {
     known_pace: Option<(Speed, bool)>,
     halt: Option<Arc<Halt>>,
     is_greeted: bool,
+    is_over: bool,
 }
 
 impl Updates {
@@ -47,6 +48,7 @@ impl Updates {
             known_pace: None,
             halt: None,
             is_greeted: false,
+            is_over: false,
         }
     }
 
@@ -70,7 +72,7 @@ impl Updates {
 
     /// Whether the viewer has been told everything, and that nothing more will come.
     pub(super) fn is_over(&self) -> bool {
-        self.history.origin() == Origin::Session && self.history.is_over() && self.mark.is_read()
+        self.is_over
     }
 
     /// The meshes of the nodes from this number on, as a page loads them.
@@ -130,7 +132,10 @@ impl Updates {
             messages.push(("halt", json!(new).to_string()));
             self.halt = unread.halt;
         }
-        if self.is_over() {
+        // What happens from here on is not in the messages.
+        let is_session = self.history.origin() == Origin::Session;
+        self.is_over = is_session && unread.is_over && self.mark.is_read();
+        if self.is_over {
             messages.push(("over", "{}".to_owned()));
         }
         messages
