@@ -240,6 +240,7 @@ async function withoutBarriers(browser) {
 async function byKeyboard(browser) {
   const tab = await opened(browser, page, { width: 1440, height: 860 });
   const focused = () => tab.value(`(() => { const at = document.activeElement; return at.id || at.getAttribute('aria-label') || at.tagName; })()`);
+  await tab.until('document.activeElement.getAttribute("aria-label") === "Next input"', 10);
   check(await focused() === 'Next input', 'the prompt has the focus');
   // Escape, then Tab, leaves an editor; the robot is behind it, all else before it.
   await key(tab, 'Escape', 27);

@@ -5,6 +5,7 @@ import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { toText } from './base85.js';
 import { inputsOf } from './session_blocks.js';
 
 const [wasmPath, repository, out] = process.argv.slice(2);
@@ -87,7 +88,7 @@ const rules = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'
   + "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 mkdirSync(join(out, 'site'), { recursive: true });
-const one = page(rules, common + part('wasm', packed.toString('base64')) + part('code', code.toString('base64')));
+const one = page(rules, common + part('wasm', toText(packed)) + part('code', toText(code)));
 writeFileSync(join(out, 'planwright.html'), one);
 writeFileSync(join(out, 'site', 'index.html'), page(`${rules}; connect-src 'self'`, common));
 writeFileSync(join(out, 'site', 'planwright.wasm.gz'), packed);

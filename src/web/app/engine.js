@@ -1,5 +1,7 @@
 // The session: starts the worker, sends requests, and brings a session back by its inputs.
 
+import { fromText } from './base85.js';
+
 const PACES = { pause: -1, go: -2, 'speed max': -3 };
 
 // Text and bytes of the page's own parts.
@@ -9,7 +11,7 @@ export const partText = (id) => document.getElementById(id).textContent.trim();
 async function partBytes(id, file) {
   const isHere = document.getElementById(id);
   const packed = isHere
-    ? new Blob([Uint8Array.from(atob(partText(id)), (char) => char.charCodeAt(0))])
+    ? new Blob([fromText(partText(id))])
     : await fetch(file).then((answer) => answer.blob());
   return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
