@@ -32,6 +32,11 @@ impl Polls {
         self.again.set(after);
     }
 
+    /// What is called at some of the polls.
+    pub fn breathe(&self) -> Option<fn()> {
+        self.breathe.get()
+    }
+
     /// Sets what is called at some of the polls.
     pub fn set_breathe(&self, breathe: Option<fn()>) {
         self.breathe.set(breathe);

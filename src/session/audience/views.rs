@@ -83,24 +83,15 @@ impl Audience {
         }
         let had_pace = self.pace.is_some();
         let history = History::new(Origin::Session);
-        let follower = self.live_follower(simulation, &history);
-        let seen = Seen {
-            history: history.clone(),
-            views: follower.1,
-        };
+        let (follower, views) = self.live_follower(simulation, &history);
         let control = self.pace_control();
-        let server = Server::start(&mut self.place, history, Some(control), seen.views.clone());
-        let server = match server {
-            Ok(server) => server,
-            Err(error) => {
-                if !had_pace {
-                    self.pace = None;
-                }
-                return Err(WatchError::View(error));
-            }
-        };
+        let shown = Some(control.clone());
+        let server = Server::start(&mut self.place, history.clone(), shown, views.clone());
+        let server = server.map_err(WatchError::View)?;
+        self.keep_pace(control);
         let address = server.address();
-        let follower = self.add_follower(simulation, image, Box::new(follower.0));
+        let seen = Seen { history, views };
+        let follower = self.add_follower(simulation, image, Box::new(follower));
         self.view = Some(LiveView {
             server,
             follower,
@@ -114,7 +105,9 @@ impl Audience {
     pub(crate) fn updates(&mut self, simulation: &Simulation, image: &Image) -> Updates {
         let history = History::new(Origin::Session);
         let (follower, views) = self.live_follower(simulation, &history);
-        let updates = Updates::new(history, Some(self.pace_control()), &views);
+        let control = self.pace_control();
+        self.keep_pace(control.clone());
+        let updates = Updates::new(history, Some(control), &views);
         self.add_follower(simulation, image, Box::new(follower));
         updates
     }
@@ -129,14 +122,17 @@ impl Audience {
         (LiveFollower::new(history.clone(), frames, now), views)
     }
 
-    /// The control of the pace, which is that of real time unless it has been set.
-    fn pace_control(&mut self) -> PaceControl {
+    /// The control of the pace; of that of real time unless one has been set.
+    fn pace_control(&self) -> PaceControl {
+        let set = self.pace.as_ref().map(|pace| pace.control().clone());
+        set.unwrap_or_else(|| PaceControl::new(Speed::Times(1.0)))
+    }
+
+    /// From now on the session keeps a pace, unless it does already.
+    fn keep_pace(&mut self, control: PaceControl) {
         let clock = &self.outside.clock;
-        let pace = self.pace.get_or_insert_with(|| {
-            let control = PaceControl::new(Speed::Times(1.0));
-            Pace::new(control, Arc::clone(clock))
-        });
-        pace.control().clone()
+        self.pace
+            .get_or_insert_with(|| Pace::new(control, Arc::clone(clock)));
     }
 
     /// Closes the live view, if it is open.

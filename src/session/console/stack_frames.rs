@@ -177,21 +177,17 @@ impl Evaluator {
         let name = name.to_uppercase();
         let selected = self.console.levels.last()?.frame;
         let frames = self.frames();
-        let around = (selected..frames.len()).chain(0..selected);
+        let mut around = (selected..frames.len()).chain(0..selected);
         let fibers = self.scheduler.stopped_fibers();
-        let (number, value) = around
-            .filter_map(|number| {
-                let told = frames.get(number)?;
-                let mut variables = fibers
-                    .get(told.link)?
-                    .variables(told.view.index)
-                    .into_iter();
-                let found = variables.find(|variable| {
-                    self.image.name(variable.name) == name && !variable.value.is_unbound()
-                })?;
-                Some((number, found.value))
-            })
-            .next()?;
+        let (number, value) = around.find_map(|number| {
+            let told = frames.get(number)?;
+            let variables = fibers.get(told.link)?.variables(told.view.index);
+            let mut named = variables
+                .into_iter()
+                .filter(|variable| self.image.name(variable.name) == name);
+            let value = named.find(|variable| !variable.value.is_unbound())?.value;
+            Some((number, value))
+        })?;
         let value = printing::printed(&mut self.image, &value);
         Some(format!("{name} = {value}\n; in frame {number}"))
     }

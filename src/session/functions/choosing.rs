@@ -1,6 +1,7 @@
 //! `choose-grasp`: an arm and a grasp that work.
 
 use crate::host::call::{done, host};
+use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::grasp_choice::PlacingTarget;
 use crate::simulation::motions::{side, side_keyword, sides};
@@ -90,7 +91,7 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         pose,
         base: target_base,
     });
-    let chosen = interruptible(image.interrupt(), || {
+    let chosen = interruptible(interruption(image), || {
         simulation.choose_grasp(&question, target.as_ref(), base.as_ref())
     });
     let Some(chosen) = chosen else {

@@ -1,6 +1,7 @@
 //! Builtins for drawers and doors: what there is, how it is open, and how a hand can open it.
 
 use crate::host::call::{done, host};
+use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text};
@@ -212,7 +213,7 @@ fn choose_handle_grasp(
     args: &[Value],
 ) -> Result<Reply> {
     let (container, question) = question(simulation, image, args)?;
-    let found = interruptible(image.interrupt(), || {
+    let found = interruptible(interruption(image), || {
         let chooser = HandleChooser::new(&simulation.world, &question, Effort::THOROUGH);
         way_blocked(simulation, &container, &chooser)?;
         let nothing = |nothing| MotionFailure::NoHandleGrasp(Box::new(nothing));

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::imagined::Imagined;
 use crate::simulation::motions::{side, side_keyword};
@@ -235,7 +236,7 @@ impl Simulation {
                     })
                 };
                 // Ctrl-C ends a long search; nothing is offered then.
-                let way = interruptible(image.interrupt(), || plan_drive(&self.world, goal))?;
+                let way = interruptible(interruption(image), || plan_drive(&self.world, goal))?;
                 if way.is_ok_and(ends_there) {
                     return Some((*base, choice.side, choice.grasp));
                 }

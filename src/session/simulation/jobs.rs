@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use crate::interruption::interruption;
 use cram::{TaskId, Ticket};
 use lisp::image::Image;
 use lisp::value::Value;
@@ -86,7 +87,7 @@ impl Job {
         if image.is_interrupted() {
             return None;
         }
-        let status = interruptible(image.interrupt(), || self.motion.tick(world));
+        let status = interruptible(interruption(image), || self.motion.tick(world));
         if status.is_none() {
             self.motion = before;
             image.polls().seen_since_last();

@@ -6,32 +6,34 @@
 //! ([`crate::motion::Motion::before_planning`]), so that nothing has happened. Until a search ends,
 //! a tick changes nothing but its motion.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-thread_local! {
-    /// The flag that ends this thread's searches, while they may be interrupted.
-    static FLAG: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
-    /// Called wherever a search looks at the flag.
-    static BREATHE: Cell<Option<fn()>> = const { Cell::new(None) };
+/// What ends a search, and what it does meanwhile.
+#[derive(Clone, Debug, Default)]
+pub struct Interruption {
+    /// Ends the search when it is set.
+    pub flag: Arc<AtomicBool>,
+    /// Called wherever a search looks at the flag: a program that has only one thread can do something
+    /// else there.
+    pub breathe: Option<fn()>,
 }
 
-/// Sets what searches of this thread call again and again, so that a program that has only one thread
-/// can do something else meanwhile.
-pub fn set_breathe(breathe: Option<fn()>) {
-    BREATHE.set(breathe);
+thread_local! {
+    /// What ends this thread's searches, while they may be interrupted.
+    static CURRENT: RefCell<Option<Interruption>> = const { RefCell::new(None) };
 }
 
 /// The payload of the unwinding.
 struct GivenUp;
 
 /// Runs something that a search may abandon; returns `None` if one did.
-pub fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Option<T> {
-    FLAG.set(Some(Arc::clone(flag)));
+pub fn interruptible<T>(interruption: Interruption, work: impl FnOnce() -> T) -> Option<T> {
+    CURRENT.set(Some(interruption));
     let done = catch_unwind(AssertUnwindSafe(work));
-    FLAG.set(None);
+    CURRENT.set(None);
     match done {
         Ok(value) => Some(value),
         Err(payload) if payload.is::<GivenUp>() => None,
@@ -41,12 +43,13 @@ pub fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Opt
 
 /// Ends the calling search if an interrupt is pending.
 pub fn look() {
-    if let Some(breathe) = BREATHE.get() {
+    let breathe = CURRENT.with_borrow(|current| current.as_ref().and_then(|c| c.breathe));
+    if let Some(breathe) = breathe {
         breathe();
     }
-    let is_wanted = FLAG.with_borrow(|flag| {
-        flag.as_ref()
-            .is_some_and(|flag| flag.load(Ordering::Relaxed))
+    let is_wanted = CURRENT.with_borrow(|current| {
+        let current = current.as_ref();
+        current.is_some_and(|current| current.flag.load(Ordering::Relaxed))
     });
     if is_wanted {
         resume_unwind(Box::new(GivenUp));
@@ -56,20 +59,32 @@ pub fn look() {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicUsize;
+
+    static BREATHS: AtomicUsize = AtomicUsize::new(0);
 
     #[test]
     fn work_ends_where_it_looks_once_the_flag_is_set() {
-        let flag = Arc::new(AtomicBool::new(false));
-        assert_eq!(interruptible(&flag, || (look(), 1).1), Some(1));
-        let mut steps = 0;
-        let done = interruptible(&flag, || {
-            steps += 1;
-            flag.store(true, Ordering::Relaxed);
+        let interruption = Interruption {
+            breathe: Some(|| {
+                BREATHS.fetch_add(1, Ordering::Relaxed);
+            }),
+            ..Interruption::default()
+        };
+        let run = |work: &dyn Fn() -> i32| interruptible(interruption.clone(), work);
+        assert_eq!(run(&|| (look(), 1).1), Some(1));
+        let steps = AtomicUsize::new(0);
+        let done = run(&|| {
+            steps.fetch_add(1, Ordering::Relaxed);
+            interruption.flag.store(true, Ordering::Relaxed);
             look();
-            steps += 1;
+            steps.fetch_add(1, Ordering::Relaxed);
+            1
         });
-        assert_eq!((done, steps), (None, 1));
-        // Outside, no search is ended.
+        assert_eq!((done, steps.into_inner()), (None, 1));
+        assert_eq!(BREATHS.load(Ordering::Relaxed), 2);
+        // Outside, no search is ended, and none breathes.
         look();
+        assert_eq!(BREATHS.load(Ordering::Relaxed), 2);
     }
 }

@@ -11,6 +11,7 @@ use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
 use super::Simulation;
+use crate::interruption::interruption;
 use crate::log_level::LogLevel;
 use cram::designator::value::{Class, Designator, as_class, current, first, note_changed};
 use lisp::image::Image;
@@ -146,7 +147,7 @@ impl Simulation {
         let Some(stream) = memory.as_foreign::<LocationStream>() else {
             return Ok(None);
         };
-        let done = interruptible(image.interrupt(), || {
+        let done = interruptible(interruption(image), || {
             work(&mut stream.stream.borrow_mut(), self.location_scene())
         });
         match done {
