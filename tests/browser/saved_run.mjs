@@ -2,7 +2,7 @@
 // with keys, on a screen, on a large one and on a phone.
 
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, readdirSync, statSync } from 'node:fs';
+import { mkdirSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { sleep } from './browser.mjs';
 
@@ -28,6 +28,7 @@ export async function savedRun({ browser, check, program, pictures, folder, plan
   const { size } = statSync(file);
   check(made.status === 0 && size < 5e6, `a run is saved: ${size} bytes`);
   await screen({ browser, check, pictures, folder, file });
+  await failed({ browser, check, program, pictures, folder });
   await failures({ browser, check, program, pictures, folder });
   await phone({ browser, check, pictures, file });
   await large({ browser, check, pictures, file });
@@ -38,6 +39,22 @@ async function open(browser, file, options) {
   await tab.until('!!window.planwright && planwright.counts.drawn > 0 && planwright.past.span[1] > 20', 40);
   await until(tab, MESHES, 20);
   return tab;
+}
+
+async function failed({ browser, check, program, pictures, folder }) {
+  const [plan, file] = [join(folder, 'fails.plan'), join(folder, 'failed.html')];
+  writeFileSync(plan, '(pp-tut:with-simulated-robot (pp-tut:park-arms) (exe:perform (desig:a motion (type moving-torso) (joint-angle 0.5))))');
+  spawnSync(program, ['run', plan, '--html', file]);
+  const tab = await open(browser, file, {});
+  check(await text(tab, '#link') === 'saved run, failed', 'a saved run that failed says so');
+  const why = await text(tab, '#halt');
+  check(/ended by a condition, at \d+\.\d\d s/i.test(why) && /torso-goal-not-reached/.test(why) && /fails\.plan:1:/.test(why), `and why: ${why.replaceAll(/\s+/g, ' ').slice(0, 120)}`);
+  await tab.press('#failure-on');
+  await until(tab, 'page.task !== null', 5);
+  for (let i = 0; i < 3; i += 1) await tab.press('#failure-on');
+  await tab.until('document.querySelector("#notice").textContent === "There is none after this."', 5);
+  check(true, 'where there is no further failure, that is said');
+  await tab.picture(join(pictures, 'saved-failed.png'));
 }
 
 async function screen({ browser, check, pictures, folder, file }) {
@@ -100,6 +117,20 @@ async function screen({ browser, check, pictures, folder, file }) {
   const turned = await get(tab, 'orbit.azimuth');
   await tab.send('Input.dispatchKeyEvent', { type: 'keyDown', key: 'ArrowLeft', code: 'ArrowLeft', windowsVirtualKeyCode: 37 });
   check(Math.abs(await get(tab, 'orbit.azimuth') - turned) > 0.05, 'arrow keys turn the view');
+  await tab.value('document.querySelector("#lane-canvas").focus()');
+  const ways = [];
+  for (const [key, code] of [['ArrowUp', 38], ['ArrowDown', 40], ['ArrowRight', 39], ['ArrowLeft', 37]]) {
+    await tab.send('Input.dispatchKeyEvent', { type: 'keyDown', key, code: key, windowsVirtualKeyCode: code });
+    await sleep(0.3);
+    ways.push(await text(tab, '#path'));
+  }
+  check(ways.join(', ') === 'plan, plan › par 1 of 3, plan › par 2 of 3, plan › par 1 of 3', `with the bars in focus they go from task to task: ${ways.join(', ')}`);
+  const whole = await tab.value('document.querySelector("#slider").max - document.querySelector("#slider").min');
+  for (const key of ['+', '0']) {
+    await tab.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
+    await tab.until(`(document.querySelector("#slider").max - document.querySelector("#slider").min < ${whole} * 0.8) === ${key === '+'}`, 5);
+  }
+  check(true, 'and zoom');
 
   // Forces.
   await tab.press('#card .close');

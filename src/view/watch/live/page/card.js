@@ -52,11 +52,11 @@ function fillCard(title, rows, more, key = null) {
   card.replaceChildren(element('h3', title), close, list, ...more());
 }
 
-// Moves the card to the other side if it hides what it is about.
-function keepClear(card, id) {
+// Moves the card to the other side if it would hide a node; once for each thing or task that it shows.
+function keepClear(card, id, shown) {
   const at = screenOf(id);
-  if (!at || page.wasClear === id) return;
-  page.wasClear = id;
+  if (!at || page.wasClear === shown) return;
+  page.wasClear = shown;
   card.classList.remove('aside');
   const box = card.getBoundingClientRect();
   const around = 60;
@@ -67,7 +67,9 @@ function keepClear(card, id) {
 function showCard(state) {
   const node = scene.nodes.get(page.selected);
   $('card').hidden = !node && !page.task;
-  if (node) keepClear($('card'), node.id);
+  if (node) keepClear($('card'), node.id, node.id);
+  // A task is about the robot.
+  else if (page.task) keepClear($('card'), page.views.base, page.task.id);
   if (node) showNode(node, state);
   else if (page.task) showTask(page.task);
 }

@@ -15,7 +15,7 @@ class Lanes {
     canvas.addEventListener('pointermove', (event) => this.point(event));
     canvas.addEventListener('pointerleave', () => this.leave());
     canvas.addEventListener('click', (event) => this.click(event));
-    canvas.addEventListener('keydown', (event) => this.key(event));
+    canvas.addEventListener('keydown', (event) => this.type(event));
     canvas.addEventListener('dblclick', () => this.show(null));
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     // The part of the time that is shown; null for all.
@@ -263,7 +263,7 @@ class Lanes {
   }
 
   // Arrow keys go to the task before or after, around or within; plus and minus zoom.
-  key(event) {
+  type(event) {
     const zoom = (factor) => {
       const [from, to] = this.shown();
       const at = Math.max(from, Math.min(to, page.time ?? to));
