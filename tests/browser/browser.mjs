@@ -19,7 +19,9 @@ export class Browser {
     this.profile = mkdtempSync(join(tmpdir(), 'planwright-browser-'));
     this.process = spawn(executable, [...FLAGS, `--user-data-dir=${this.profile}`], {
       stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'],
+      detached: true,
     });
+    this.ended = new Promise((done) => { this.process.on('exit', done); });
     this.last = 0;
     this.waiting = new Map();
     this.hearers = [];
@@ -67,9 +69,19 @@ export class Browser {
 
   async close() {
     await Promise.race([this.send('Browser.close').catch(() => {}), sleep(3)]);
-    this.process.kill('SIGKILL');
-    await sleep(0.2);
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+    // Its helpers write into the profile, too: all of its group ends.
+    try { process.kill(-this.process.pid, 'SIGKILL'); } catch { /* it has ended */ }
+    await this.ended;
+    for (let tries = 50; ; tries -= 1) {
+      try {
+        rmSync(this.profile, { recursive: true, force: true });
+        return;
+      } catch (error) {
+        // What remains is the system's to delete; it says nothing about what was checked.
+        if (tries === 0) return console.log(`left ${this.profile}: ${error.message}`);
+        await sleep(0.1);
+      }
+    }
   }
 }
 
