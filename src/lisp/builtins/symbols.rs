@@ -6,6 +6,7 @@ use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::image::locks::Meaning;
 use crate::typed::{self, builtin, builtins};
+use crate::types::standard_variables::check_value;
 use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
@@ -152,6 +153,7 @@ fn assign(image: &mut Image, sym: Sym, value: &Value) -> Outcome {
             image.name(sym)
         )));
     }
+    check_value(image, sym, value)?;
     image.set_special(sym, value.clone());
     Ok(value.clone())
 }

@@ -19,6 +19,7 @@ use crate::value::Value;
 use crate::value::code::{Code, Parameters};
 use crate::value::function::Function;
 use crate::value::known;
+use crate::value::number::is_number;
 use crate::value::raise::Raise;
 use crate::value::symbol::{FunctionCell, Sym, VariableKind};
 use closest_name::closest_name;
@@ -325,8 +326,15 @@ impl<'a> Compiler<'a> {
             }
             _ => {
                 let shown = crate::print::to_string(self.image, head, true);
+                let instead = match (rest.car_or_nil().as_symbol(), head) {
+                    (Some(operator), number) if is_arithmetic(operator) && is_number(number) => {
+                        let operator = self.image.name(operator);
+                        format!("the operator comes first: ({operator} {shown} …)")
+                    }
+                    _ => "a list that is data needs a quote: '(…)".to_owned(),
+                };
                 return Err(self.program_error(format!(
-                    "illegal function call\n{shown} is not the name of a function; a list that is data needs a quote: '(…)"
+                    "illegal function call\n{shown} is not the name of a function; {instead}"
                 )));
             }
         };
@@ -484,4 +492,20 @@ pub(crate) fn keep_place(form: &Value, expansion: &Value) {
     {
         to.set_place(from.place());
     }
+}
+
+/// Is it an operator that other languages write between numbers?
+fn is_arithmetic(name: Sym) -> bool {
+    matches!(
+        name,
+        known::PLUS
+            | known::MINUS
+            | known::TIMES
+            | known::DIVIDE
+            | known::LESS
+            | known::GREATER
+            | known::LESS_EQUAL
+            | known::GREATER_EQUAL
+            | known::NUM_EQUAL
+    )
 }

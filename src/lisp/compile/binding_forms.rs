@@ -6,6 +6,7 @@ use super::node::{Binding, Node};
 use super::scope::{DynamicKind, Entry, Scope, VariableMeaning};
 use crate::print;
 use crate::value::Value;
+use crate::value::raise::Raise;
 use crate::value::symbol::Sym;
 
 pub(super) fn let_form(
@@ -16,9 +17,9 @@ pub(super) fn let_form(
 ) -> Compiled<Node> {
     let body = parse_body(&rest.cdr_or_nil(), false);
     let Some(specs) = rest.car_or_nil().list_to_vec() else {
-        return Err(
-            c.program_error("Malformed LET bindings: a list of (variable value) was expected.")
-        );
+        return Err(c.program_error(
+            "Malformed LET bindings: what was expected is (let ((variable value)…) body…).",
+        ));
     };
     let mut bindings = Vec::new();
     let mut bound = Vec::new();
@@ -26,6 +27,9 @@ pub(super) fn let_form(
     let depth = c.dynamic_depth();
     for spec in &specs {
         let (name, init) = binding_parts(c, spec)?;
+        if let ([variable, value], true) = (&*specs, name.as_symbol().is_none()) {
+            return Err(unparenthesized(c, variable, value));
+        }
         let name = c.check_bindable(&name)?;
         if !sequential && bound.contains(&name) {
             return Err(occurs_twice(c, "variable", name, "LET"));
@@ -64,12 +68,7 @@ pub(super) fn let_form(
 }
 
 /// The error for a name that a form binds twice at once.
-pub(super) fn occurs_twice(
-    c: &Compiler<'_>,
-    what: &str,
-    name: Sym,
-    operator: &str,
-) -> Box<crate::Raise> {
+pub(super) fn occurs_twice(c: &Compiler<'_>, what: &str, name: Sym, operator: &str) -> Box<Raise> {
     let name = print::to_string(c.image, &name.into(), true);
     c.program_error(format!(
         "The {what} {name} occurs more than once in the {operator}."
@@ -100,6 +99,15 @@ pub(super) fn check_names(
         names.push(name);
     }
     Ok(())
+}
+
+/// The error for `(let (x 1) …)`.
+fn unparenthesized(c: &Compiler<'_>, variable: &Value, value: &Value) -> Box<Raise> {
+    let shown = |value| print::to_string(c.image, value, true);
+    let (variable, value) = (shown(variable), shown(value));
+    c.program_error(format!(
+        "The LET bindings ({variable} {value}) are malformed: a binding has parentheses of its own, (({variable} {value}))."
+    ))
 }
 
 fn binding_parts(c: &Compiler<'_>, spec: &Value) -> Compiled<(Value, Value)> {

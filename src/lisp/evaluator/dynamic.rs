@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::matching::check_type;
 use crate::image::Image;
+use crate::types::standard_variables::check_value;
 use crate::value::Value;
 use crate::value::known;
 use crate::value::placing::push_made;
@@ -30,6 +31,7 @@ impl Machine<'_> {
             match symbol.as_symbol() {
                 Some(sym) => {
                     let mut value = values.next().unwrap_or(Value::Unbound);
+                    check_value(self.image, sym, &value)?;
                     bind(self.image, &mut self.fiber.dynamic, sym, &mut value);
                 }
                 None => return Err(Raise::type_error(&symbol, known::SYMBOL)),

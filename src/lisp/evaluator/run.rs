@@ -17,6 +17,7 @@ use super::exits::{enter_block, enter_catch, enter_tagbody, enter_unwind};
 use super::primitives::is_cons;
 use super::small_integers::{both_ints, int};
 use super::variables::{closure, function as function_of, setf_function, unboxed_into};
+use crate::types::standard_variables::check_value;
 use crate::value::Value;
 use crate::value::function::Body;
 use crate::value::known;
@@ -197,7 +198,7 @@ impl Machine<'_> {
                         Op::FreeBox(i) => unboxed_into(&captured[i as usize], window.next()),
                         Op::SetFreeBox(i) => window.set_free_box(&captured[i as usize]),
                         Op::Global(sym) => check!(window.global(self.image, sym)),
-                        Op::SetGlobal(sym) => window.set_global(self.image, sym),
+                        Op::SetGlobal(sym) => check!(window.set_global(self.image, sym)),
                         Op::Function(sym) => window.push(check!(function_of(self.image, sym))),
                         Op::SetfFunction(sym) => {
                             window.push(check!(setf_function(self.image, sym)))
@@ -469,8 +470,9 @@ impl Machine<'_> {
                         }
 
                         Op::BindSpecial(sym) => {
+                            let value = &mut window.slots[window.top - 1];
+                            check!(check_value(self.image, sym, value));
                             window.top -= 1;
-                            let value = &mut window.slots[window.top];
                             bind(self.image, &mut fiber.dynamic, sym, value);
                         }
                         Op::PopDynamic(n) => {

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::image::Image;
+use crate::types::standard_variables::check_value;
 use crate::value::Value;
 use crate::value::code::{Capture, Code};
 use crate::value::cycles;
@@ -97,9 +98,12 @@ impl Window<'_> {
 
     /// Pops into a global or special variable.
     #[inline(always)]
-    pub(super) fn set_global(&mut self, image: &mut Image, sym: Sym) {
+    pub(super) fn set_global(&mut self, image: &mut Image, sym: Sym) -> Result<(), Box<Raise>> {
+        let value = &mut self.slots[self.top - 1];
+        check_value(image, sym, value)?;
         self.top -= 1;
-        self.slots[self.top].move_to(&mut image.symbols.get_mut(sym).value);
+        value.move_to(&mut image.symbols.get_mut(sym).value);
+        Ok(())
     }
 
     /// Pops the values of a call and pushes exactly `count` of them.

@@ -26,6 +26,7 @@ mod readtables;
 mod redefined_classes;
 mod restarts;
 mod standard;
+mod standard_variables;
 mod type_specifiers;
 mod weak_pointers;
 

@@ -11,6 +11,7 @@ pub(crate) mod emptiness;
 pub mod parse;
 pub(crate) mod sequence_types;
 pub(crate) mod specifier;
+pub(crate) mod standard_variables;
 pub(crate) mod subtype;
 pub mod test;
 pub mod type_of;

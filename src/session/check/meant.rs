@@ -18,6 +18,10 @@ use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 /// How many files of a folder are looked at.
 const MAX_ENTRIES: usize = 10_000;
 
+/// How deep a form is looked into, and at how many parts of a list.
+const MAX_NESTED: usize = 20;
+const MAX_PARTS: usize = 100;
+
 /// What may be meant by a name.
 pub(super) enum Meant {
     /// The same name, exported by another package.
@@ -50,6 +54,28 @@ impl Meant {
         let is_long = wanted.chars().count() > 2;
         let near = closest_name(wanted, visible).filter(|_| is_long)?;
         Some(Meant::Similar(near.to_owned()))
+    }
+
+    /// The question whether it was meant by the name.
+    fn question(&self, image: &Image, name: Sym) -> String {
+        match self {
+            Meant::Similar(near) => format!("Did you mean {near}?"),
+            Meant::InPackage(package) => {
+                let (name, package) = (image.name(name), short_name(image, *package));
+                // The package in which most of the robot's functions are at hand.
+                let tutorial = image.packages.find("PP-TUT");
+                let there = tutorial.and_then(|there| image.packages.find_symbol(there, name));
+                let is_there = there.is_some_and(|(sym, _)| {
+                    has_function(image, sym) || image.symbol(sym).kind == VariableKind::Special
+                });
+                let at_hand = if is_there {
+                    " After (in-package :pp-tut), it needs no prefix."
+                } else {
+                    ""
+                };
+                format!("Did you mean {package}:{name}?{at_hand}")
+            }
+        }
     }
 }
 
@@ -96,29 +122,42 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
         known::UNBOUND_VARIABLE if is_value(image, image.name(name)) => {
             return Some(format!("Did you mean the keyword :{}?", image.name(name)));
         }
-        known::UNBOUND_VARIABLE => Meant::by(image, name, is_variable),
+        known::UNBOUND_VARIABLE => match Meant::by(image, name, is_variable) {
+            None => return call_hint(image, image.special(known::MINUS), name),
+            meant => meant,
+        },
         known::CLASS_NOT_FOUND_ERROR => {
             Meant::by(image, name, |sym| image.classes.contains_key(&sym))
         }
         _ => None,
     };
-    Some(match meant? {
-        Meant::Similar(near) => format!("Did you mean {near}?"),
-        Meant::InPackage(package) => {
-            let (name, package) = (image.name(name), short_name(image, package));
-            // The package in which most of the robot's functions are at hand.
-            let tutorial = image.packages.find("PP-TUT");
-            let there = tutorial.and_then(|tutorial| image.packages.find_symbol(tutorial, name));
-            match there {
-                Some((sym, _)) if has_function(image, sym) || is_variable(sym) => {
-                    format!(
-                        "Did you mean {package}:{name}? After (in-package :pp-tut), it needs no prefix."
-                    )
-                }
-                _ => format!("Did you mean {package}:{name}?"),
-            }
-        }
-    })
+    Some(meant?.question(image, name))
+}
+
+/// What to say to somebody who has evaluated a form in which a name without a value is an argument of
+/// something unknown: that comes first.
+fn call_hint(image: &Image, form: &Value, name: Sym) -> Option<String> {
+    let unknown = unknown_call(image, form, name, MAX_NESTED)?;
+    let meant = Meant::by(image, unknown, |sym| has_function(image, sym))?;
+    let unknown_name = image.name(unknown);
+    let question = meant.question(image, unknown);
+    Some(format!(
+        "{unknown_name} is not known here, either. {question}"
+    ))
+}
+
+/// The name of the innermost unknown function that a form calls with a variable as argument.
+fn unknown_call(image: &Image, form: &Value, variable: Sym, depth: usize) -> Option<Sym> {
+    let depth = depth.checked_sub(1)?;
+    let parts = || form.iter_list().take(MAX_PARTS);
+    if let Some(found) = parts().find_map(|part| unknown_call(image, &part, variable, depth)) {
+        return Some(found);
+    }
+    let head = parts().next()?.as_symbol()?;
+    let is_argument = parts()
+        .skip(1)
+        .any(|part| part.as_symbol() == Some(variable));
+    (is_argument && !has_function(image, head)).then_some(head)
 }
 
 /// Is the name that of a keyword which plans have as a value: an arm, a type of objects, a choice of a

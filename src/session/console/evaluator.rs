@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::halt;
 use super::line_breaks;
+use super::other_syntax;
 use super::stopped::Console;
 use crate::bounds::Limits;
 use crate::defect;
@@ -148,6 +149,7 @@ impl Evaluator {
         }
         let mended = line_breaks::restored(source_name, text, sink);
         let text = mended.as_deref().unwrap_or(text);
+        other_syntax::tell(source_name, text, sink);
         if self.console.level() > 0 {
             return self.console_input(source_name, text, sink);
         }

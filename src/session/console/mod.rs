@@ -16,6 +16,7 @@ mod input;
 mod inspector;
 mod judging;
 mod line_breaks;
+mod other_syntax;
 pub(crate) mod recovery;
 mod replaced_frames;
 mod robot_choices;
