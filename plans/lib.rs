@@ -25,6 +25,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "contact-facts.plan",
     "sight-facts.plan",
     "world-facts.plan",
+    "trace-facts.plan",
     "ros.plan",
     "retrying.plan",
     "locations.plan",

@@ -1,10 +1,11 @@
 //! A journal of what happens in plans, for followers of a session: tasks, and the actions that
 //! they perform. Nothing depends on it.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell};
 use std::collections::{BTreeMap, VecDeque};
 
 use super::task::{Status, TaskId};
+use super::trace::Trace;
 use lisp::source::Place;
 use lisp::value::Value;
 
@@ -100,6 +101,10 @@ pub(super) struct Journal {
     /// The actions that tasks perform, innermost last.
     open: RefCell<BTreeMap<TaskId, Vec<ActionId>>>,
     last_action: Cell<u64>,
+    /// What was performed, for questions about it.
+    trace: RefCell<Trace>,
+    /// Is the trace switched off?
+    is_traceless: Cell<bool>,
 }
 
 impl Journal {
@@ -107,11 +112,42 @@ impl Journal {
         self.entries.borrow_mut().get_or_insert_default();
     }
 
-    pub(super) fn is_kept(&self) -> bool {
+    /// Does anybody fetch it?
+    pub(super) fn is_fetched(&self) -> bool {
         self.entries.borrow().is_some()
     }
 
+    /// Does anything become of what is noted?
+    pub(super) fn is_kept(&self) -> bool {
+        !self.is_traceless.get() || self.is_fetched()
+    }
+
+    /// The trace.
+    pub(super) fn trace(&self) -> Ref<'_, Trace> {
+        self.trace.borrow()
+    }
+
+    /// Switches the trace on or off.
+    pub(super) fn set_traces(&self, traces: bool) {
+        self.is_traceless.set(!traces);
+    }
+
+    /// Is the trace switched on?
+    pub(super) fn traces(&self) -> bool {
+        !self.is_traceless.get()
+    }
+
+    /// A form at top level has ended.
+    pub(super) fn end_top_level(&self, id: TaskId, status: Status, result: Value, time: f64) {
+        self.trace
+            .borrow_mut()
+            .end_top_level(id, status, result, time);
+    }
+
     pub(super) fn note(&self, change: Change) {
+        if self.traces() {
+            self.trace.borrow_mut().note(&change);
+        }
         if let Some(entries) = self.entries.borrow_mut().as_mut() {
             if entries.len() >= MAX_ENTRIES {
                 entries.pop_front();

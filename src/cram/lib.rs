@@ -25,6 +25,7 @@ mod request;
 mod scheduler;
 mod state;
 mod task;
+mod trace;
 mod tree;
 
 pub use handlers::Handlers;

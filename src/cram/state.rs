@@ -39,7 +39,7 @@ pub struct Plan {
 
 impl Extension for Plan {
     fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
-        if self.has_woken() || self.journal.is_kept() {
+        if self.has_woken() || self.journal.is_fetched() {
             copier.refuse("a plan that runs");
         }
         if !self.trees.borrow().is_empty() {

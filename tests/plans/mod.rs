@@ -31,6 +31,7 @@ mod spawning;
 mod sweeps;
 mod systems;
 mod things_on_things;
+mod trace;
 mod transporting;
 mod types;
 mod whole_plan;

@@ -296,6 +296,86 @@ fn descriptions_are_evaluated_where_reading_is_not_enough() {
 }
 
 #[test]
+fn features_kinds_of_components_and_pathnames_are_those_of_the_file() {
+    let folder = Folder::new(
+        "own-kinds",
+        &[
+            (
+                "cutlery.asd",
+                "(defpackage :cutlery-system (:use :cl :asdf) (:export #:sharp #:blunt))\n\
+                 (in-package :cutlery-system)\n\
+                 (defclass recipe-file (doc-file) ((type :initform \"txt\")))\n\
+                 (eval-when (:compile-toplevel :load-toplevel :execute)\n\
+                   (pushnew 'cutlery-system:sharp cl:*features*))\n\
+                 (defsystem :cutlery :depends-on (#:asdf #:closer-mop)\n\
+                   :components ((:module \"doc\" :components ((:recipe-file \"soup\")))\n\
+                                (:module \"knives\" :pathname #p\"src/knives/\"\n\
+                                         :components (#+cutlery-system:sharp (:file \"sharp\")\n\
+                                                      #+cutlery-system:blunt (:file \"blunt\")\n\
+                                                      #-cutlery-system:blunt (:file \"pointed\")))))",
+            ),
+            ("doc/soup.txt", "Onions."),
+            ("src/knives/sharp.lisp", noting!(":sharp")),
+            ("src/knives/blunt.lisp", noting!(":blunt")),
+            ("src/knives/pointed.lisp", noting!(":pointed")),
+            (
+                "forks.asd",
+                "(defsystem :forks :components ((:fork-source \"fork\") #+sbcl (:file \"none\")))",
+            ),
+            ("fork.lisp", noting!(":fork")),
+            (
+                "spoons.asd",
+                "(defsystem :spoons :components ((:file \"spon\")))",
+            ),
+            ("spoon.lisp", ""),
+        ],
+    );
+    let mut session = folder.session();
+    for (text, says) in [
+        (
+            "(defvar *loaded* '()) (asdf:operate 'asdf:load-op :cutlery) (reverse *loaded*)",
+            "(:SHARP :POINTED)",
+        ),
+        (
+            "(setf *loaded* '()) (asdf:load-system :forks) *loaded*",
+            "(:FORK)",
+        ),
+        (
+            "(defmethod asdf:operate :after ((operation t) (system t) &key) (push (list operation system) *loaded*))\n\
+             (asdf:operate 'asdf:load-op :forks) *loaded*",
+            "((ASDF:LOAD-OP :FORKS) :FORK)",
+        ),
+        (
+            "(defpackage :of-both (:use :closer-common-lisp)) (in-package :of-both)\n\
+             (prog1 (list (class-direct-superclasses (find-class 'integer)) nil t) (in-package :cl-user))",
+            "((#<BUILT-IN-CLASS COMMON-LISP:RATIONAL>) NIL T)",
+        ),
+    ] {
+        assert_eq!(said(&mut session, text), says, "{text}");
+    }
+    let missing = said(&mut session, "(asdf:load-system :spoons)");
+    assert!(missing.contains("did you mean spoon.lisp?"), "{missing}");
+}
+
+/// `QUIT` and `EXIT` are no names of the language: libraries define functions of these names.
+#[test]
+fn a_package_of_the_language_alone_has_names_of_its_own_for_leaving() {
+    let folder = Folder::new("leaving", &[]);
+    let mut session = folder.session();
+    for (text, says) in [
+        (
+            "(defpackage :shop (:use :cl)) (in-package :shop) (defun exit (door) (list :by door)) (exit 2)",
+            "(:BY 2)",
+        ),
+        ("(fboundp 'cl-user::exit)", "T"),
+        ("(find-symbol \"QUIT\" :cl)", "NIL ; NIL"),
+        ("(eq 'sb-ext:exit 'planwright:exit)", "T"),
+    ] {
+        assert_eq!(said(&mut session, text), says, "{text}");
+    }
+}
+
+#[test]
 fn a_tutorial_whose_files_are_not_there_says_so() {
     let name = "(ros-load:load-system \"cram_beginner_tutorial\" :cram-beginner-tutorial)";
     let mut session = Session::new(&SessionOptions::default()).expect("a session starts");

@@ -10,6 +10,7 @@ mod handlers;
 mod networks;
 mod policies;
 mod tasks;
+mod trace;
 mod tree;
 
 use lisp::builtin::Builtin;
@@ -34,6 +35,7 @@ pub static SYSTEM: &[&[Builtin]] = &[
     handlers::SYSTEM_TABLE,
     policies::SYSTEM_TABLE,
     tasks::SYSTEM_TABLE,
+    trace::SYSTEM_TABLE,
     tree::SYSTEM_TABLE,
 ];
 

@@ -25,6 +25,8 @@
 (defclass source-file (component) ())
 (defclass cl-source-file (source-file) ())
 (defclass static-file (source-file) ())
+(defclass doc-file (static-file) ())
+(defclass html-file (doc-file) ())
 
 (defgeneric perform (operation component)
   (:documentation "Carries out an operation on a component. Methods of programs are for their own systems;
@@ -144,14 +146,14 @@ LOAD-SYSTEM does not call them.")
              (member name %*loaded-systems* :test #'string=))
          t)))
 
-(defun operate (operation system &rest options)
-  "Loads a system, or runs its tests if the operation is TEST-OP.
+(defgeneric operate (operation system &key &allow-other-keys)
+  (:documentation "Loads a system, or runs its tests if the operation is TEST-OP.
   Examples:
-  (asdf:operate 'asdf:load-op :alexandria) => T"
-  (declare (ignore options))
-  (if (string= operation '#:test-op)
-      (test-system system)
-      (load-system system)))
+  (asdf:operate 'asdf:load-op :alexandria) => T")
+  (:method (operation system &key &allow-other-keys)
+    (if (string= operation '#:test-op)
+        (test-system system)
+        (load-system system))))
 
 (defun oos (operation system &rest options)
   "The same as OPERATE.

@@ -6,13 +6,19 @@
 ;;; Reading
 
 (defun %system-options (name file)
-  "The options of a system, as a property list, from the file that describes it."
-  (let ((options (loop for form in (%read-description file)
+  "The options of a system, as a property list, from the file that describes it. A file that gives or
+takes features is evaluated, since what it says depends on them."
+  (let* ((forms (%read-description file))
+         (options (loop for form in forms
                        for definition = (%definition form)
                        when (and definition
                                  (equal (ignore-errors (%system-name (first definition))) name))
                          return (rest definition))))
-    (%checked-options (if (and options (not (%is-computed options)))
+    (%checked-options (if (and options
+                               (not (%is-computed options))
+                               ;; With a package before it, it is read as a keyword.
+                               (notany (lambda (name) (%contains-p forms name))
+                                       '(*features* :*features*)))
                           options
                           (or (%evaluated-options name file)
                               (error "~a: there is no system ~s in it." file name)))
@@ -42,12 +48,15 @@
 
 (defun %read-description (file)
   "The forms of a file that describes systems. What the packages of their symbols would be is not known:
-PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluate becomes :COMPUTED."
+PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluate becomes :COMPUTED, and so
+does a feature that belongs to a package."
   (let ((*readtable* (copy-readtable nil))
         (*package* (find-package :asdf-user))
         (*read-eval* nil))
     (set-macro-character #\: #'%read-keyword)
     (set-dispatch-macro-character #\# #\. #'%read-computed)
+    (set-dispatch-macro-character #\# #\+ #'%read-conditional)
+    (set-dispatch-macro-character #\# #\- #'%read-conditional)
     (handler-case
         (with-open-file (stream file)
           (loop for form = (read stream nil stream)
@@ -69,6 +78,20 @@ PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluat
   (declare (ignore character argument))
   (read stream t nil t)
   :computed)
+
+(defun %read-conditional (stream character argument)
+  "Reads what stands after #+ or #-: a feature expression, and the object that depends on it."
+  (declare (ignore argument))
+  (let ((expression (let ((*package* (find-package :keyword)))
+                      (read stream t nil t))))
+    (cond ((eql (peek-char nil stream nil) #\:)
+           (read stream t nil t)
+           :computed)
+          ((eq (alexandria:featurep expression) (char= character #\+))
+           (read stream t nil t))
+          (t (let ((*read-suppress* t))
+               (read stream t nil t))
+             (values)))))
 
 (defun %checked-options (options name file)
   "The options of a system, if they can be carried out."
@@ -135,6 +158,7 @@ PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluat
 (defun %folder (base pathname)
   "The folder of that name in another one."
   (cond ((null pathname) base)
+        ((pathnamep pathname) (%folder base (namestring pathname)))
         ((not (stringp pathname)) (error "~s is no name of a folder." pathname))
         ((string= pathname "") base)
         (t (let ((folder (if (alexandria:ends-with #\/ pathname)
@@ -204,18 +228,28 @@ PACKAGE:NAME is read as two symbols, the second a keyword. What #. would evaluat
         (:module
          (%component-files components serial (%folder folder (or pathname name)) file))
         ((:static-file :doc-file :html-file :text-file :markdown-file) '())
+        ((:file :cl-source-file)
+         (list (or (%source-file folder (or pathname name))
+                   (%no-source-file folder (or pathname name) file))))
         ((:c-source-file :c-file :cffi-grovel-file :cffi-wrapper-file :grovel-file :wrapper-file
           :object-file :so-file)
          (error "~a: the component ~s is of the kind ~s: foreign functions there are not."
                 file name kind))
-        (t (list (%source-file (concatenate 'string folder (or pathname name)) file)))))))
+        ;; A kind of the file's own: source if it is there as such, else something to be read by people.
+        (t (let ((source (%source-file folder (or pathname name))))
+             (and source (list source))))))))
 
-(defun %source-file (name file)
-  "The file with the source of a component."
-  (let ((with-type (concatenate 'string name ".lisp")))
+(defun %source-file (folder name)
+  "The file with the source of a component, or NIL."
+  (let* ((name (concatenate 'string folder name))
+         (with-type (concatenate 'string name ".lisp")))
     (cond ((probe-file with-type) with-type)
-          ((and (pathname-type name) (probe-file name)) name)
-          (t (error "~a: there is no file ~a~:[.~;~:*; did you mean ~a?~]"
-                    file with-type
-                    (system:closest-name (file-namestring with-type)
-                                         (system:file-names (directory-namestring name))))))))
+          ((and (pathname-type name) (probe-file name)) name))))
+
+(defun %no-source-file (folder name file)
+  "Signals that the source of a component of a system is missing."
+  (let ((with-type (concatenate 'string folder name ".lisp")))
+    (error "~a: there is no file ~a~:[.~;~:*; did you mean ~a?~]"
+           file with-type
+           (system:closest-name (file-namestring with-type)
+                                (system:file-names (directory-namestring with-type))))))

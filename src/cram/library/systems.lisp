@@ -248,7 +248,20 @@ SLIME.")
   (dolist (file (system:built-in-files system))
     (when (or force (not (member file %*loaded-built-in-files* :test #'string=)))
       (system:load-built-in-file file)
-      (pushnew file %*loaded-built-in-files* :test #'string=))))
+      (pushnew file %*loaded-built-in-files* :test #'string=)))
+  (when (string= (%system-name system) "closer-mop")
+    (%provide-closer-common-lisp)))
+
+(defun %provide-closer-common-lisp ()
+  "Makes the packages of closer-mop that have its names and those of the language."
+  (unless (find-package "CLOSER-COMMON-LISP")
+    (let ((package (make-package "CLOSER-COMMON-LISP" :nicknames '("C2CL") :use '("COMMON-LISP"))))
+      (do-external-symbols (symbol "CLOSER-MOP")
+        (shadowing-import symbol package))
+      (dolist (from '("COMMON-LISP" "CLOSER-MOP"))
+        (do-external-symbols (symbol from)
+          (export (list (find-symbol (symbol-name symbol) package)) package)))
+      (make-package "CLOSER-COMMON-LISP-USER" :nicknames '("C2CL-USER") :use (list package)))))
 
 (defun %load-file (file)
   "Loads a file of a system. It has its own package and readtable."

@@ -256,6 +256,9 @@
   (let ((value (getenv name)))
     (and (plusp (length value)) value)))
 
+(defvar *command-line-arguments* '()
+  "Arguments of the program that are for Lisp code: none.")
+
 (defun command-line-arguments (&optional (arguments '()))
   "Arguments of the program that are for Lisp code: none.
   Examples:

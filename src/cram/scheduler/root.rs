@@ -7,6 +7,7 @@ use super::live::{Answer, Ending, Live, Slot, Wait};
 use super::run::Stopped;
 use crate::host::Host;
 use crate::state::Plan;
+use crate::task::Status;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
@@ -107,7 +108,13 @@ impl<C: 'static> Scheduler<C> {
         self.evaporate_children(image, host, root);
         self.drain(image, host, root);
         if let Some(live) = self.live_mut(root) {
-            live.ending = Some(Ending::Evaporated);
+            let ending = live.ending.replace(Ending::Evaporated);
+            let (status, result) = match ending {
+                Some(Ending::Failed(condition)) => (Status::Failed, condition),
+                _ => (Status::Evaporated, Value::NIL),
+            };
+            let (id, plan) = (live.id, Plan::of(image));
+            plan.journal.end_top_level(id, status, result, plan.now());
         }
         self.give_up_wait(image, host, root);
         self.make_ready(root, Answer::Unwind);
@@ -178,10 +185,16 @@ impl<C: 'static> Scheduler<C> {
         }
         self.stand_still(image, host);
         let live = self.discard(root)?;
-        Some(Evaluation::Values(match live.ending {
-            Some(Ending::Succeeded(value)) => value.into_values(),
-            _ => Vec::new(),
-        }))
+        let value = match live.ending {
+            Some(Ending::Succeeded(value)) => value,
+            _ => Value::values(Vec::new()),
+        };
+        let plan = Plan::of(image);
+        let first = value.clone().into_values().into_iter().next();
+        let (result, now) = (first.unwrap_or_default(), plan.now());
+        plan.journal
+            .end_top_level(live.id, Status::Succeeded, result, now);
+        Some(Evaluation::Values(value.into_values()))
     }
 
     fn is_unfinished(&self, root: Slot) -> bool {

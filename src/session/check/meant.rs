@@ -1,6 +1,6 @@
 //! What somebody may have meant by a name that means nothing.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use crate::package_name::short_name;
 use closest_name::closest_name;
@@ -14,6 +14,7 @@ use lisp::value::known;
 use lisp::value::package::{Access, PackageId, PackageTable};
 use lisp::value::pathname::file_name;
 use lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use plan_files::{DEMOS, TUTORIAL};
 
 /// How many files of a folder are looked at.
 const MAX_ENTRIES: usize = 10_000;
@@ -191,12 +192,18 @@ fn package_hint(image: &Image, designator: &Value) -> Option<String> {
 }
 
 /// What to say to somebody who has named a file that does not exist: one with a similar name in the
-/// same folder.
+/// same folder, or among those that come with the program.
 fn file_hint(image: &Image, path: &Value) -> Option<String> {
-    let path = PathBuf::from(file_name(path)?);
-    if image.files.facts(path.to_str()?).is_ok() {
+    let name = file_name(path)?;
+    if image.files.facts(&name).is_ok() {
         return None;
     }
+    let near = similar_file(image, Path::new(&name)).or_else(|| similar_plan(&name))?;
+    Some(format!("Did you mean {near:?}?"))
+}
+
+/// A file in the same folder whose name is similar, or the same up to a type that was left out.
+fn similar_file(image: &Image, path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let is_here = folder.as_os_str().is_empty();
     let names = image
@@ -205,11 +212,30 @@ fn file_hint(image: &Image, path: &Value) -> Option<String> {
     let mut names = names.ok()?;
     names.sort();
     names.truncate(MAX_ENTRIES);
-    let near = closest_name(
-        path.file_name()?.to_str()?,
-        names.iter().map(|name| name.trim_end_matches('/')),
-    )?;
-    Some(format!("Did you mean {:?}?", folder.join(near)))
+    let wanted = path.file_name()?.to_str()?;
+    let names = || names.iter().map(|name| name.trim_end_matches('/'));
+    let same_stem = || names().find(|name| stem(name) == wanted && *name != wanted);
+    let near = same_stem().or_else(|| closest_name(wanted, names()))?;
+    Some(folder.join(near).to_str()?.to_owned())
+}
+
+/// A file of plans that comes with the program and has such a name.
+fn similar_plan(wanted: &str) -> Option<String> {
+    let names = || TUTORIAL.iter().chain(DEMOS).map(|(name, _)| *name);
+    let last = wanted.rsplit('/').next()?;
+    let same_name = || {
+        names().find(|name| {
+            let own = name.rsplit('/').next().unwrap_or(name);
+            own == last || stem(own) == last
+        })
+    };
+    let near = same_name().or_else(|| closest_name(wanted, names()))?;
+    Some(near.to_owned())
+}
+
+/// The name of a file without its type.
+fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
 /// Is there a function, macro or operator of that name?

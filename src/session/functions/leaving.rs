@@ -9,7 +9,7 @@ use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 
-/// Builtins of package `COMMON-LISP`.
+/// Builtins of package `PLANWRIGHT`.
 pub(super) static TABLE: &[Builtin] = &[
     control(
         "QUIT",

@@ -120,8 +120,7 @@ const OTHER_SYSTEMS: [&str; 7] = [
 const WITHOUT_FILES: [&str; 2] = ["cram_beginner_tutorial", "cram_bullet_world_tutorial"];
 
 /// Packages that stand for no system that is built in.
-const NO_SYSTEMS: [&str; 6] = [
-    "ASDF",
+const NO_SYSTEMS: [&str; 5] = [
     "ASDF-USER",
     "CRAM-PR2-ENVIRONMENT-MANIPULATION",
     "PLANWRIGHT",

@@ -4,7 +4,6 @@ use crate::functions;
 use crate::simulation::motion_types;
 use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
-use lisp::value::package::PackageTable;
 
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
@@ -37,6 +36,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),
+    ("PLANWRIGHT", functions::leaving::TABLE),
     ("PLANWRIGHT", functions::watching::TABLE),
     ("PLAN-SYSTEM", functions::sweeps::TABLE),
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
@@ -83,7 +83,6 @@ pub(crate) fn install(image: &mut Image) {
             image.install_operators(package, table);
         }
     }
-    image.install(PackageTable::CL, functions::leaving::TABLE);
     motion_types::install(image);
     for (from, to, names) in ALIASES {
         let (Some(from), Some(to)) = (image.packages.find(from), image.packages.find(to)) else {

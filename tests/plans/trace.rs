@@ -1,0 +1,132 @@
+//! Questions to the past: what plans have performed, when, and what came of it.
+
+use session::dialogue::{Evaluate, Event};
+use session::{Session, SessionOptions};
+
+fn session() -> Session {
+    let mut session = Session::new(&SessionOptions::default()).expect("a session starts");
+    said(
+        &mut session,
+        "(in-package :pp-tut)
+         (defun answers (variable goal)
+           (mapcar (lambda (answer) (cut:var-value variable answer))
+                   (cut:force-ll (prolog:prolog goal))))",
+    );
+    session
+}
+
+/// The values of the last form of a text, or the report of what went wrong.
+fn said(session: &mut Session, text: &str) -> String {
+    let mut said = String::new();
+    session.evaluate("test", text, &mut |event| match event {
+        Event::Values(values) => said = values.join(" ; "),
+        Event::Aborted(abort) => said = abort.report,
+        _ => {}
+    });
+    said
+}
+
+#[test]
+fn tasks_of_par_pursue_and_retries_are_there_with_their_outcomes() {
+    let mut session = session();
+    said(
+        &mut session,
+        "(cpl:top-level
+           (cpl:with-retry-counters ((tries 3))
+             (cpl:with-failure-handling
+                 ((cpl:simple-plan-failure (failure)
+                    (declare (ignore failure))
+                    (cpl:do-retry tries (cpl:retry))
+                    (return nil)))
+               (cpl:par-loop (number '(1 2 3 4))
+                 (cpl:sleep number))
+               (cpl:pursue (cpl:sleep 1) (cpl:sleep 5))
+               (cpl:fail 'cpl:simple-plan-failure))))",
+    );
+    for (question, answer) in [
+        // Each of four tries has four tasks of PAR, and PURSUE with a winner and a loser.
+        (
+            "(count :succeeded (answers '?o '(and (coe:task-of-top-level :top-level ?t) (coe:task-outcome ?t ?o))))",
+            "20",
+        ),
+        (
+            "(count :evaporated (answers '?o '(and (coe:task ?t) (coe:task-outcome ?t ?o))))",
+            "4",
+        ),
+        (
+            "(reduce #'max (answers '?d '(and (coe:subtask :top ?t) (coe:task-duration ?t ?d))) :initial-value 0)",
+            ":TOP is no task: a task is the number that (coe:task ?t) tells.",
+        ),
+        (
+            "(answers '?d '(and (coe:top-level ?top) (coe:task-outcome ?top :succeeded) (coe:task-duration ?top ?d)))",
+            "(20.0d0)",
+        ),
+        (
+            "(let ((all (answers '?t '(coe:task ?t))))
+               (every (lambda (task)
+                        (or (answers '?p `(coe:subtask ?p ,task)) (answers '?x `(coe:top-level ,task))))
+                      all))",
+            "T",
+        ),
+        (
+            "(let ((first (first (answers '?t '(and (coe:top-level ?top) (coe:subtask ?top ?t))))))
+               (answers '?n `(and (coe:task-next-sibling ,first ?next) (coe:task-previous-sibling ?next ?n))))",
+            "(1)",
+        ),
+        ("(answers '?t '(coe:task 100000))", "NIL"),
+        ("(answers '?t '(coe:task-error ?t ?e))", "NIL"),
+    ] {
+        assert_eq!(said(&mut session, question), answer, "{question}");
+    }
+}
+
+#[test]
+fn the_last_ten_plans_are_remembered() {
+    let mut session = session();
+    for _ in 0..14 {
+        said(
+            &mut session,
+            "(cpl:top-level (cpl:par (cpl:sleep 1) (cpl:sleep 2)))",
+        );
+    }
+    for (question, answer) in [
+        ("(length (answers '?t '(coe:top-level ?t)))", "10"),
+        ("(length (answers '?t '(coe:task ?t)))", "30"),
+        (
+            "(equal (answers '?t '(coe:top-level-task :top-level ?t)) (last (answers '?t '(coe:top-level ?t))))",
+            "T",
+        ),
+        (
+            "(progn (cet:disable-fluent-tracing) (cpl:top-level (cpl:sleep 1)) (cet:fluent-tracing-enabled))",
+            "NIL",
+        ),
+        ("(length (answers '?t '(coe:top-level ?t)))", "10"),
+    ] {
+        assert_eq!(said(&mut session, question), answer, "{question}");
+    }
+}
+
+#[test]
+fn an_interrupted_or_failed_plan_is_told_as_such() {
+    let mut session = session();
+    said(
+        &mut session,
+        "(cpl:top-level (cpl:par (cpl:sleep 3) (cpl:fail 'cpl:simple-plan-failure)))",
+    );
+    for (question, answer) in [
+        (
+            "(answers '?o '(and (coe:top-level ?t) (coe:task-outcome ?t ?o)))",
+            "(:FAILED)",
+        ),
+        (
+            "(answers '?c '(and (coe:top-level ?t) (coe:task-error ?t ?e) (coe:error-type ?e ?c)))",
+            "(CRAM-LANGUAGE-IMPLEMENTATION:SIMPLE-PLAN-FAILURE)",
+        ),
+        (
+            "(remove-duplicates (answers '?s '(coe:task-status ?t ?s)))",
+            "(:EVAPORATED :FAILED)",
+        ),
+    ] {
+        assert_eq!(said(&mut session, question), answer, "{question}");
+    }
+}
