@@ -131,6 +131,15 @@ impl Session {
         functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed);
         simulation.set_noise(options.noise_levels()?);
+        simulation
+            .meshes
+            .package_paths
+            .clone_from(&options.package_paths);
+        simulation.meshes.kept_in.clone_from(&options.mesh_cache);
+        if let Some((name, text)) = &options.objects {
+            let defined = simulation.define_objects(&mut image, text, name, name);
+            defined.map_err(|error| SessionError::Models(error.to_string()))?;
+        }
         let audience = Audience::new(options);
         let host = SimulationHost::new(simulation, audience);
         let mut session = Session {

@@ -31,6 +31,8 @@ pub struct SessionOptions {
     /// Name and text of a description of the kitchen's furniture. Without one, what of the built-in
     /// kitchen's description names only furniture that is there is true of a given kitchen, too.
     pub world_description: Option<(String, String)>,
+    /// Name and text of a file with further types of objects.
+    pub objects: Option<(String, String)>,
     /// Folders in which the packages are that URDFs name in `package://…`, or which are such packages;
     /// the folders around a URDF are looked through, too.
     pub package_paths: Vec<String>,
@@ -63,6 +65,7 @@ impl Default for SessionOptions {
             robot_description: None,
             world: None,
             world_description: None,
+            objects: None,
             package_paths: Vec::new(),
             mesh_cache: None,
             noise: None,

@@ -180,6 +180,7 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
         ("world-description", &options.world_description),
         ("robot", &options.robot),
         ("robot-description", &options.robot_description),
+        ("objects", &options.objects),
     ];
     let files = files.into_iter();
     let files = files.filter_map(|(name, path)| Some((name, path.as_ref()?)));

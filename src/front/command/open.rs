@@ -47,6 +47,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             .as_deref()
             .map(read)
             .transpose()?,
+        objects: options.objects.as_deref().map(read).transpose()?,
         package_paths: package_paths(&options.package_path)?,
         mesh_cache: cache::directory("meshes"),
         noise: options.noise.clone(),

@@ -27,6 +27,9 @@ pub(crate) struct Options {
     /// whose names are not those of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot_description: Option<PathBuf>,
+    /// Further types of objects (in the form of world/objects.sexp; shapes may be meshes)
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) objects: Option<PathBuf>,
     /// Folder with the packages that a URDF names in package://NAME/…, besides those around the file and
     /// in ROS_PACKAGE_PATH; may be given several times
     #[arg(long, global = true, value_name = "FOLDER")]
@@ -93,6 +96,7 @@ impl Options {
             &self.world_description,
             &self.robot,
             &self.robot_description,
+            &self.objects,
         ];
         files.into_iter().flatten().chain(&self.setup)
     }

@@ -96,6 +96,7 @@ pub(super) fn open_journals(
         world_description: options.world_description.clone(),
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
+        objects: options.objects.clone(),
         noise: options.noise.clone(),
         package_path: options.package_path.clone(),
         systems: options.systems.clone(),
@@ -129,6 +130,7 @@ pub(super) fn open_journals(
                 "--robot-description",
                 differs(&options.robot_description, &beginning.robot_description),
             ),
+            ("--objects", differs(&options.objects, &beginning.objects)),
             (
                 "--package-path",
                 !options.package_path.is_empty()
@@ -158,6 +160,7 @@ pub(super) fn open_journals(
         options.world_description = beginning.world_description;
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
+        options.objects = beginning.objects;
         options.noise = beginning.noise;
         options.package_path = beginning.package_path;
         options.systems = beginning.systems;

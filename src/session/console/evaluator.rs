@@ -75,6 +75,11 @@ impl Evaluator {
         self.image.polls().begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
+        let is_file = self.image.files.facts(source_name).is_ok();
+        self.host.simulation.meshes.source = match is_file {
+            true => source_name.to_owned(),
+            false => String::new(),
+        };
         let was_stopped = self.console.level() > 0;
         if text.trim().is_empty() {
             // It only shows a stopped evaluation again.

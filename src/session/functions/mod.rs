@@ -8,6 +8,8 @@ mod grasps;
 mod leaving;
 mod locations;
 mod noise;
+mod object_record;
+mod object_types;
 mod objects;
 mod picture_request;
 mod pictures;

@@ -11,6 +11,7 @@ pub(super) mod injection;
 pub mod jobs;
 pub(crate) mod known_grasps;
 pub(super) mod locations;
+pub(super) mod mesh_places;
 pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
@@ -44,6 +45,7 @@ use view::picture::{LocationMap, Looks};
 use injection::SharedInjection;
 use jobs::Jobs;
 use known_grasps::KnownGrasps;
+use mesh_places::MeshPlaces;
 use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
@@ -59,6 +61,8 @@ pub struct Axes {
 pub struct Simulation {
     pub(super) models: Arc<Models>,
     pub(super) grasps: KnownGrasps,
+    /// Where meshes of types of objects are.
+    pub(super) meshes: MeshPlaces,
     pub(super) log_level: LogLevel,
     /// The seed of the session.
     seed: u64,
@@ -117,6 +121,7 @@ impl Simulation {
             put_for_sweep: Vec::new(),
             models,
             grasps: KnownGrasps::default(),
+            meshes: MeshPlaces::default(),
             log_level,
             seed,
             now: 0.0,
@@ -145,6 +150,7 @@ impl Simulation {
         Simulation {
             models: Arc::clone(&self.models),
             grasps: self.grasps.clone(),
+            meshes: self.meshes.clone(),
             log_level: self.log_level,
             seed: self.seed,
             now: self.now,
@@ -178,6 +184,7 @@ impl Simulation {
     pub(super) fn restart(&mut self) {
         let noise = self.noise_levels();
         self.world = self.start().clone();
+        self.world.set_object_types(Arc::clone(&self.models));
         self.set_noise(noise);
         self.names.clear();
         self.held.clear();
@@ -224,6 +231,13 @@ impl Simulation {
     /// The types of objects that can be spawned.
     pub fn object_types(&self) -> &ObjectLibrary {
         &self.models.objects
+    }
+
+    /// From now on, objects are of these types; those that are there stay as they are.
+    pub(super) fn know_objects(&mut self, objects: Arc<ObjectLibrary>) {
+        self.models = Arc::new(self.models.with_objects(objects));
+        self.world.set_object_types(Arc::clone(&self.models));
+        self.looks = OnceCell::new();
     }
 
     /// How objects are grasped.
