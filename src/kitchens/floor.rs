@@ -36,7 +36,11 @@ impl Rectangle {
 
     /// Distance (m) of a point.
     pub(crate) fn distance(&self, point: [f64; 2]) -> f64 {
-        let [x, y] = [0, 1].map(|i| (self.low[i] - point[i]).max(point[i] - self.high[i]).max(0.0));
+        let [x, y] = [0, 1].map(|i| {
+            (self.low[i] - point[i])
+                .max(point[i] - self.high[i])
+                .max(0.0)
+        });
         (x * x + y * y).sqrt()
     }
 }

@@ -182,6 +182,9 @@ const STAND: [f64; 2] = [0.42, 1.1];
 /// Room (m) that a row keeps to one around the corner, for its handles.
 const CORNER: f64 = 0.08;
 
+/// How far (m) the handle of an open door is beside its hinge.
+const ASIDE: f64 = 0.08;
+
 const WIDTHS: [f64; 6] = [0.4, 0.45, 0.5, 0.6, 0.8, 0.9];
 const STACKS: [(f64, &[f64]); 4] = [
     (0.4, &[0.4, 0.4, 0.2]),
@@ -242,28 +245,36 @@ impl Plan {
         let side = |name: &str| between(name, 1.5, 2.6).min(far - 1.0);
         let mut places = match arrangement {
             OneWall | Island => vec![back(0.0, width)],
-            Galley => vec![left(far - side("left.length"), far), right(far, far - side("right.length"))],
+            Galley => vec![
+                left(far - side("left.length"), far),
+                right(far, far - side("right.length")),
+            ],
             L | LWithIsland => {
                 let length = side("left.length").max(corner + 0.9).min(far - 0.9);
-                vec![back(0.0, width), left(far - length, far)]
+                vec![back(0.0, width), left(far - length, far - depth)]
             }
             U => {
                 let lengths = ["left.length", "right.length"]
                     .map(|name| side(name).max(corner + 0.9).min(far - 0.9));
                 vec![
                     back(0.0, width),
-                    left(far - lengths[0], far),
-                    right(far, far - lengths[1]),
+                    left(far - lengths[0], far - depth),
+                    right(far - depth, far - lengths[1]),
                 ]
             }
             Peninsula => {
                 let length = side("right.length").max(corner + 0.9).min(far - 1.0);
-                vec![back(0.0, width - 0.9), ("right", [width - 0.9, far], 2, length)]
+                let free = ("right", [width - 0.9, far - depth], 2, length - depth);
+                vec![back(0.0, width - 0.9), free]
             }
         };
         if matches!(arrangement, Island | LWithIsland) {
             let wide = between("island.width", 1.2, 2.2).min(width - 2.0);
-            let left = if arrangement == LWithIsland { depth } else { 0.0 };
+            let left = if arrangement == LWithIsland {
+                depth
+            } else {
+                0.0
+            };
             let start = rounded(left + (width - left - wide) / 2.0);
             // Its fronts look at the row along the wall.
             let at = rounded(far - depth - aisle - depth);
@@ -281,8 +292,8 @@ impl Plan {
                     if meets("right") { corner } else { 0.0 },
                 ],
                 // Along the left wall the row ends at the back one; along the right wall it begins there.
-                "left" if has_corners => [0.0, corner],
-                "right" if has_corners => [corner, 0.0],
+                "left" if has_corners => [0.0, CORNER],
+                "right" if has_corners => [CORNER, 0.0],
                 _ => [0.0, 0.0],
             };
             let row = Row {
@@ -343,11 +354,11 @@ impl Plan {
                 [depth + self.style.travel + handle, to - 0.01],
             ),
             Unit::Door { is_left } | Unit::Fridge { is_left } => {
-                // The panel stands ahead of the hinge, with its handle on the other side of it.
+                // The panel stands ahead of the hinge, with its handle beside that.
                 let aside = if is_left {
-                    [from, to + 0.01]
+                    [from - ASIDE, to]
                 } else {
-                    [from - 0.01, to]
+                    [from, to + ASIDE]
                 };
                 row.rectangle(
                     [depth + 0.03, aside[0]],
@@ -381,9 +392,11 @@ impl Plan {
         }
         for (at, number) in closed {
             let module = &mut self.rows[at].modules[number];
-            if !module.unit.is_tall() {
-                module.unit = Unit::Panel;
-            }
+            // A fridge beside a wall has its hinge there only if its handle has room.
+            module.unit = match module.unit {
+                Unit::Fridge { is_left } => Unit::Fridge { is_left: !is_left },
+                _ => Unit::Panel,
+            };
         }
     }
 
@@ -499,9 +512,8 @@ impl Plan {
         };
         let rows = self.rows.iter();
         let mut modules = rows.flat_map(|row| row.modules.iter().map(move |module| (row, module)));
-        let all = modules.all(|(row, module)| {
-            matches!(module.unit, Unit::Panel) || reaches(row, module)
-        });
+        let all =
+            modules.all(|(row, module)| matches!(module.unit, Unit::Panel) || reaches(row, module));
         let door = Rectangle::of(
             [self.doorway[0] + WAY, WAY],
             [self.doorway[1] - WAY + 0.05, WAY + 0.15],
@@ -539,7 +551,11 @@ fn modules(
         },
     );
     let sink = (
-        if room > 2.4 && numbers.flag("sink.width", 0.5) { 0.8 } else { 0.6 },
+        if room > 2.4 && numbers.flag("sink.width", 0.5) {
+            0.8
+        } else {
+            0.6
+        },
         Unit::Sink,
     );
     let hob = (0.6, Unit::Hob);
@@ -572,7 +588,8 @@ fn modules(
     }
     let mut left = room - used(&wanted);
     let mut fillers = Vec::new();
-    if left >= 1.3 && name != "island" && numbers.flag("dishwasher", 0.7) && wanted.contains(&sink) {
+    if left >= 1.3 && name != "island" && numbers.flag("dishwasher", 0.7) && wanted.contains(&sink)
+    {
         fillers.push(washer);
         left -= 0.6;
     }
@@ -599,8 +616,7 @@ fn modules(
         number += 1;
     }
     // The fridge comes first or last, away from a corner.
-    let (fridges, others): (Vec<_>, Vec<_>) =
-        wanted.into_iter().partition(|unit| unit.1.is_tall());
+    let (fridges, others): (Vec<_>, Vec<_>) = wanted.into_iter().partition(|unit| unit.1.is_tall());
     let mut inner = others;
     for (number, filler) in fillers.into_iter().enumerate() {
         let place = numbers.below(&format!("{name}.{number}.place"), inner.len() + 1);

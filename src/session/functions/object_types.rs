@@ -8,7 +8,7 @@ use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::mesh_files::SessionMeshes;
 use crate::simulation::Simulation;
-use crate::simulation::names::{type_keyword, type_text_of};
+use crate::simulation::names::{type_keyword, type_text, type_text_of};
 use cram::Reply;
 use cram::designator::vocabulary::{Domain, Vocabulary};
 use lisp::builtin::{Builtin, control};
@@ -41,6 +41,13 @@ pub(super) static TABLE: &[Builtin] = &[
         "Defines the types of objects in a file in the form of world/objects.sexp, in which shapes may be meshes, too: (mesh \"FILE\" :scale 1). Returns the types.",
         &[],
         edit!(load_object_types),
+    ),
+    control(
+        "%UNGRASPABLE",
+        "type",
+        "Why no hand can grasp objects of a type, or NIL if that is not known.",
+        &[],
+        host!(ungraspable),
     ),
     control(
         "%MESH-FILES",
@@ -122,6 +129,12 @@ fn mesh_files(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     let found =
         found.map(|[name, path]| Value::list([type_keyword(image, &name), Value::string(path)]));
     done(Value::list(found.collect::<Vec<_>>()))
+}
+
+fn ungraspable(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let kind = type_text(image, &args[0]).unwrap_or_default();
+    let why = simulation.grasp_library().refusal(&kind);
+    done(why.map_or(Value::NIL, Value::string))
 }
 
 fn load_object_types(

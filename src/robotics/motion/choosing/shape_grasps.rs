@@ -29,13 +29,13 @@ const TIGHT_ROOM: f64 = 0.008;
 /// Gaps (m) inside a thing into which no finger goes: what they part is pressed together.
 const NARROW: f64 = 0.012;
 /// How far (m) from what the object stands on the hand stays.
-const ABOVE_GROUND: f64 = 0.003;
+const ABOVE_GROUND: f64 = 0.002;
 /// How far (m) the hand approaches and lifts.
 const AWAY: f64 = 0.15;
 /// Where on that way (m) it is tested.
 const ON_THE_WAY: [f64; 4] = [0.0, 0.02, 0.05, 0.1];
 /// Depths (m) of the tool's point behind where it would meet the object.
-const DEPTHS: [f64; 6] = [0.006, 0.012, 0.02, 0.03, 0.045, 0.06];
+const DEPTHS: [f64; 7] = [0.004, 0.007, 0.012, 0.02, 0.03, 0.045, 0.06];
 /// How far (m) behind the tool's point the middle of the pads is.
 const BEHIND: f64 = 0.012;
 /// Number of places beside each other at which a direction is tried.
@@ -51,8 +51,8 @@ const OF_PAD: [[f64; 2]; 5] = [
 /// Depth (m) within which the points of a pad touch a surface that is not flat.
 const YIELDS: f64 = 0.003;
 /// Maximum number of grasps from one direction: from above, and from a side.
-const MAX_FROM_ABOVE: usize = 6;
-const MAX_FROM_SIDE: usize = 2;
+const MAX_FROM_ABOVE: usize = 4;
+const MAX_FROM_SIDE: usize = 1;
 /// Grasps that are nearer to each other than this (m) or turned by less (rad) count as the same.
 const APART: f64 = 0.025;
 const TURNED: f64 = 0.5;
@@ -126,8 +126,8 @@ impl std::fmt::Display for Ungraspable {
 /// How far an attempt to grasp gets, the farthest last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Stage {
-    Width,
     Friction,
+    Width,
     Room,
     Torque,
 }
@@ -150,23 +150,24 @@ struct Found {
     gap: f64,
 }
 
-/// The names of the sides, counter-clockwise from +x.
-const SIDES: [[&str; 2]; 8] = [
-    ["front", "front-above"],
-    ["front-left", "front-left-above"],
-    ["left-side", "left-side-above"],
-    ["back-left", "back-left-above"],
-    ["back", "back-above"],
-    ["back-right", "back-right-above"],
-    ["right-side", "right-side-above"],
-    ["front-right", "front-right-above"],
+/// The names of the sides, counter-clockwise from +x: straight, from above, and over a rim.
+const SIDES: [[&str; 3]; 8] = [
+    ["front", "front-above", "front-rim"],
+    ["front-left", "front-left-above", "front-left-rim"],
+    ["left-side", "left-side-above", "left-side-rim"],
+    ["back-left", "back-left-above", "back-left-rim"],
+    ["back", "back-above", "back-rim"],
+    ["back-right", "back-right-above", "back-right-rim"],
+    ["right-side", "right-side-above", "right-side-rim"],
+    ["front-right", "front-right-above", "front-right-rim"],
 ];
 
-/// All directions that are tried.
-fn directions() -> Vec<Direction> {
+/// All directions that are tried; around a round object, which is grasped from all sides as from one, those
+/// from one side.
+fn directions(is_round: bool) -> Vec<Direction> {
     let mut all = Vec::new();
     let down = -Vector3::z();
-    for turn in 0..8 {
+    for turn in 0..if is_round { 1 } else { 8 } {
         let (sine, cosine) = trig::sin_cos(f64::from(turn) * PI / 8.0);
         let closing = Vector3::new(sine, cosine, 0.0);
         all.push(Direction {
@@ -177,7 +178,8 @@ fn directions() -> Vec<Direction> {
             second_pregrasp: [0.0, 0.0, AWAY],
         });
     }
-    for (side, names) in SIDES.iter().enumerate() {
+    let count = if is_round { 1 } else { SIDES.len() };
+    for (side, names) in SIDES.iter().take(count).enumerate() {
         let (sine, cosine) = trig::sin_cos(side as f64 * FRAC_PI_4);
         let out = Vector3::new(cosine, sine, 0.0);
         let closing = Vector3::new(sine, -cosine, 0.0);
@@ -193,6 +195,17 @@ fn directions() -> Vec<Direction> {
         let away = -ahead * AWAY;
         all.push(Direction {
             name: names[1],
+            is_top: false,
+            axes: Matrix3::from_columns(&[closing, ahead.cross(&closing), ahead]),
+            pregrasp: away.into(),
+            second_pregrasp: away.into(),
+        });
+        // One finger over the rim and one under it, 60 degrees off the vertical.
+        let ahead = (down - out * 3_f64.sqrt()).normalize();
+        let closing = (out - Vector3::z() * 3_f64.sqrt()).normalize();
+        let away = -ahead * AWAY;
+        all.push(Direction {
+            name: names[2],
             is_top: false,
             axes: Matrix3::from_columns(&[closing, ahead.cross(&closing), ahead]),
             pregrasp: away.into(),
@@ -275,7 +288,7 @@ impl<'a> Search<'a> {
             kind,
             bounds: [corner(bounds.mins), corner(bounds.maxs)],
             solids,
-            directions: directions(),
+            directions: directions(kind.is_round),
             balance: Vector3::from(kind.balance),
             pad: gripper.pad_size.unwrap_or([0.02, 0.02]),
             press: press.clamp(MIN_PRESS.min(gripper.effort), gripper.effort),
@@ -535,11 +548,6 @@ impl<'a> Search<'a> {
         found: &mut Vec<Found>,
     ) {
         let wide = right - left;
-        self.gets_to(Stage::Width);
-        self.narrowest = self.narrowest.min(wide);
-        if wide > self.most {
-            return;
-        }
         self.gets_to(Stage::Friction);
         // The pads meet what sticks out.
         let least = 1.0 / libm::hypot(1.0, self.kind.friction);
@@ -559,6 +567,11 @@ impl<'a> Search<'a> {
         };
         let slanted = one.min(two);
         if slanted < least {
+            return;
+        }
+        self.gets_to(Stage::Width);
+        self.narrowest = self.narrowest.min(wide);
+        if wide > self.most {
             return;
         }
         self.gets_to(Stage::Room);

@@ -95,7 +95,8 @@ fn what_cannot_be_grasped_is_refused_with_the_reason() {
 #[test]
 fn the_same_shape_has_the_same_grasps() {
     let models = Models::pr2_in_kitchen().unwrap();
-    let shape = ":shapes ((cylinder :radius 0.03 :length 0.2) (sphere :radius 0.035 :at (0 0 0.1)))";
+    let shape =
+        ":shapes ((cylinder :radius 0.03 :length 0.2) (sphere :radius 0.035 :at (0 0 0.1)))";
     let first = grasps(&models, shape).unwrap();
     assert_eq!(first, grasps(&models, shape).unwrap());
     let bits = |grasps: &ShapeGrasps| -> u64 {
@@ -124,21 +125,33 @@ fn grasps_in_the_file_come_before_the_shape() {
     assert_eq!(ways, [&Grasping::AsDefined, &among, &Grasping::AsDefined]);
     assert_eq!(known.grasps.grasps("a"), ["top"]);
     assert!(known.objects.is_kind_of("a", "fruit"));
-    let listed: Vec<&str> = known.objects.types().map(|kind| kind.name.as_str()).collect();
+    let listed: Vec<&str> = known
+        .objects
+        .types()
+        .map(|kind| kind.name.as_str())
+        .collect();
     assert_eq!(listed[25..], ["a", "b", "c"]);
     let only = ShapeGrasps::of(
         &models,
         known.objects.get("b").unwrap(),
         &["top".to_owned(), "front".to_owned()],
     );
-    let names: Vec<String> = only.unwrap().grasps.into_iter().map(|(_, name, _)| name).collect();
+    let names: Vec<String> = only
+        .unwrap()
+        .grasps
+        .into_iter()
+        .map(|(_, name, _)| name)
+        .collect();
     assert_eq!(names, ["top", "front", "top", "front"]);
 }
 
 #[test]
 fn a_redefined_type_has_the_grasps_of_its_new_shape() {
     let models = Models::pr2_in_kitchen().unwrap();
-    let known = defined(&models, "(object cup :shapes ((box :size (0.04 0.04 0.1))))");
+    let known = defined(
+        &models,
+        "(object cup :shapes ((box :size (0.04 0.04 0.1))))",
+    );
     assert!(known.grasps.grasps("cup").is_empty());
     assert_eq!(known.objects.types().len(), 25);
     assert_eq!(known.objects.get("cup").unwrap().edition, 1);
