@@ -196,9 +196,10 @@ const STACKS: [(f64, &[f64]); 4] = [
 impl Plan {
     /// Draws a plan.
     pub(crate) fn draw(numbers: &Numbers) -> Result<Self, Rejection> {
+        use Arrangement::{Galley, Island, L, LWithIsland, OneWall, Peninsula, U};
         let arrangement = numbers
             .choice("arrangement", &Arrangement::SHARES)
-            .unwrap_or(Arrangement::OneWall);
+            .unwrap_or(OneWall);
         let between = |name: &str, low, high| numbers.between(name, low, high);
         let style = Style {
             height: between("counter.height", 0.85, 0.95),
@@ -220,7 +221,6 @@ impl Plan {
         };
         let depth = style.depth;
         let aisle = between("aisle", 1.0, 1.6);
-        use Arrangement::{Galley, Island, L, LWithIsland, OneWall, Peninsula, U};
         let width = match arrangement {
             OneWall => between("room.width", 3.0, 5.0),
             Galley => rounded(2.0 * depth + aisle),

@@ -63,7 +63,7 @@ pub use face::{
     TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
 pub use log_level::LogLevel;
-pub use options::{SessionError, SessionOptions};
+pub use options::{SessionError, SessionOptions, is_generated};
 
 /// A session.
 pub struct Session {

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::heap;
 use super::paint::ColorWhen;
+use session::is_generated;
 
 /// Options of all commands.
 #[derive(Args, Clone, Debug)]
@@ -13,7 +14,8 @@ pub(crate) struct Options {
     /// Seed for everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-    /// Kitchen to load (a URDF file) instead of the built-in one
+    /// Kitchen to load (a URDF file) instead of the built-in one, or generated:SEED for one that is drawn
+    /// from a seed
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
     /// What the kitchen's furniture is for (in the form of world/kitchen.sexp) [default: with
@@ -98,7 +100,9 @@ impl Options {
             &self.robot_description,
             &self.objects,
         ];
-        files.into_iter().flatten().chain(&self.setup)
+        let files = files.into_iter().flatten();
+        let files = files.filter(|file| !is_generated(file));
+        files.chain(&self.setup)
     }
 }
 

@@ -11,6 +11,8 @@ use super::options::Options;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
+use session::is_generated;
+
 use crate::prompt::{Beginning, JournalError, Loaded, Opened, ReplOptions, Wanted};
 use lisp::visible::visible;
 
@@ -108,6 +110,9 @@ pub(super) fn open_journals(
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {
+            if given.as_deref().is_some_and(is_generated) {
+                return given != began;
+            }
             let given = given.as_ref().map(std::path::absolute);
             given.is_some_and(|given| given.ok() != *began)
         };

@@ -165,6 +165,30 @@ impl Models {
         }
     }
 
+    /// The same in another kitchen; the description must belong to that.
+    #[must_use]
+    pub fn with_kitchen(
+        &self,
+        mut kitchen: KinematicTree,
+        kitchen_description: KitchenDescription,
+    ) -> Self {
+        kitchen.set_aliases(kitchen_description.aliases.clone());
+        let geometry = TreeGeometry::new(&kitchen, |_| false);
+        Self {
+            map: MapArea::new(&kitchen, &geometry),
+            kitchen: Arc::new(kitchen),
+            kitchen_description: Arc::new(kitchen_description),
+            kitchen_geometry: Arc::new(geometry),
+            remarks: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Whether two have the same kitchen.
+    pub fn share_kitchen(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.kitchen, &other.kitchen)
+    }
+
     /// The name of a link of the robot; the floor for a link of another tree.
     pub fn robot_body(&self, link: LinkId) -> BodyName {
         let name = self.robot_geometry.names.get(link.index());

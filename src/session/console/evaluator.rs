@@ -10,6 +10,7 @@ use crate::bounds::Limits;
 use crate::defect;
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Abort, Event, Outcome};
+use crate::facts;
 use crate::host::SimulationHost;
 use crate::host::call::HostCall;
 use crate::live_host;
@@ -164,6 +165,7 @@ impl Evaluator {
     /// Evaluates one form at top level.
     pub(crate) fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
+        facts::follow(&mut self.image, &self.host.simulation.models);
         self.host
             .person
             .snapshots

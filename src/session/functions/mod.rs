@@ -5,6 +5,7 @@ mod choosing;
 mod containers;
 mod explaining;
 mod grasps;
+mod kitchens;
 mod leaving;
 mod locations;
 mod noise;

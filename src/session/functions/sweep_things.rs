@@ -163,6 +163,7 @@ fn surface_point(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     done(Value::list([
         Value::Double(point.x),
         Value::Double(point.y),
+        Value::Double(extent.top()),
     ]))
 }
 

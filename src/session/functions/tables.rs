@@ -33,6 +33,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ),
     ("CRAM-BULLET-REASONING", functions::asking::TABLE),
     ("PLANWRIGHT", functions::object_types::TABLE),
+    ("PLANWRIGHT", functions::kitchens::TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::noise::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),

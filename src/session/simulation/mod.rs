@@ -60,6 +60,8 @@ pub struct Axes {
 /// The robot in its world.
 pub struct Simulation {
     pub(super) models: Arc<Models>,
+    /// The kitchen in which the session began.
+    home: Arc<Models>,
     pub(super) grasps: KnownGrasps,
     /// Where meshes of types of objects are.
     pub(super) meshes: MeshPlaces,
@@ -119,6 +121,7 @@ impl Simulation {
             noises: 0,
             searches: 0,
             put_for_sweep: Vec::new(),
+            home: Arc::clone(&models),
             models,
             grasps: KnownGrasps::default(),
             meshes: MeshPlaces::default(),
@@ -149,6 +152,7 @@ impl Simulation {
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Simulation {
             models: Arc::clone(&self.models),
+            home: Arc::clone(&self.home),
             grasps: self.grasps.clone(),
             meshes: self.meshes.clone(),
             log_level: self.log_level,
@@ -238,6 +242,26 @@ impl Simulation {
         self.models = Arc::new(self.models.with_objects(objects));
         self.world.set_object_types(Arc::clone(&self.models));
         self.looks = OnceCell::new();
+    }
+
+    /// Another kitchen without objects, with the robot at its start; types of objects stay known. The
+    /// world of a snapshot may be restored then.
+    pub(super) fn enter_kitchen(&mut self, models: &Models) {
+        let objects = Arc::clone(&self.models.objects);
+        self.models = Arc::new(models.with_objects(objects));
+        self.start = Rc::default();
+        self.looks = OnceCell::new();
+        self.begun_searches = locations::Searches::default();
+        self.out_of_reach = OutOfReach::default();
+        self.restart();
+    }
+
+    /// The kitchen in which the session began, without objects.
+    pub(super) fn go_home(&mut self) {
+        let home = Arc::clone(&self.home);
+        if !self.models.share_kitchen(&home) {
+            self.enter_kitchen(&home);
+        }
     }
 
     /// How objects are grasped.

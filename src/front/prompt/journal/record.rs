@@ -160,6 +160,9 @@ impl Record {
 
 /// The name of a file. It keeps its meaning when the session is resumed in another directory.
 fn absolute(file: &Path) -> String {
+    if session::is_generated(file) {
+        return file.to_string_lossy().into_owned();
+    }
     let absolute = std::path::absolute(file);
     let file = absolute.as_deref().unwrap_or(file);
     file.to_string_lossy().into_owned()
