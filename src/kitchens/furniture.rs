@@ -11,6 +11,8 @@ const BOARD: f64 = 0.018;
 const GAP: f64 = 0.004;
 /// Height (m) and thickness of walls.
 const WALL: f64 = 0.1;
+/// Height (m) of the foot of a wall.
+const FOOT: f64 = 0.12;
 /// How far (m) the counter stands out ahead of the carcasses.
 const LEDGE: f64 = 0.02;
 
@@ -131,8 +133,16 @@ impl Maker<'_> {
             ),
         ];
         for (name, blocks) in walls {
+            // Of those that would hide the room from people, only the foot is shown.
+            let is_foot = ["wall_front", "wall_left"].contains(&name);
+            let shown = blocks.iter().map(|([x, y, z], [a, b, c], material)| {
+                let foot = if is_foot { FOOT } else { *c };
+                ([*x, *y, z - (c - foot) / 2.0], [*a, *b, foot], *material)
+            });
+            let shown: Vec<Block> = shown.collect();
+            let at = [0.0; 3];
             self.urdf
-                .link(name, "room", [0.0; 3], 0.0, Moves::Fixed, &blocks);
+                .link_that_shows(name, "room", at, 0.0, Moves::Fixed, &blocks, &shown);
         }
     }
 
@@ -514,13 +524,10 @@ impl Maker<'_> {
         for module in modules.iter().filter(|module| module.unit == Unit::Hob) {
             let along = module.at + module.width / 2.0;
             let (at, yaw) = self.place(row, deep / 2.0, along, style.height);
-            let plate: Block = (
-                [0.0, 0.0, 0.004],
-                [0.5, module.width - 0.04, 0.008],
-                "glass",
-            );
+            // It is let in: what stands on it stands on the counter.
+            let plate: Block = ([0.0, 0.0, 0.0], [0.5, module.width - 0.04, 0.001], "glass");
             self.urdf
-                .link("hob", "room", at, yaw, Moves::Fixed, &[plate]);
+                .link_that_shows("hob", "room", at, yaw, Moves::Fixed, &[], &[plate]);
         }
     }
 

@@ -34,7 +34,7 @@ impl Urdf {
         urdf
     }
 
-    fn line(&mut self, text: std::fmt::Arguments<'_>) {
+    fn line(&mut self, text: impl std::fmt::Display) {
         // Writing into a text cannot fail.
         let _ = writeln!(self.0, "{text}");
     }
@@ -49,15 +49,34 @@ impl Urdf {
         moves: Moves,
         blocks: &[Block],
     ) {
+        self.link_that_shows(name, parent, [x, y, z], yaw, moves, blocks, blocks);
+    }
+
+    /// The same for a link that shows other blocks than those that are solid.
+    #[allow(clippy::too_many_arguments, reason = "a link is made of so many")]
+    pub(crate) fn link_that_shows(
+        &mut self,
+        name: &str,
+        parent: &str,
+        [x, y, z]: [f64; 3],
+        yaw: f64,
+        moves: Moves,
+        blocks: &[Block],
+        shown: &[Block],
+    ) {
         self.line(format_args!("  <link name=\"{name}\">"));
-        for ([x, y, z], [a, b, c], material) in blocks {
+        let both = [(shown, true), (blocks, false)];
+        let both = both
+            .into_iter()
+            .flat_map(|(blocks, is_shown)| blocks.iter().map(move |block| (block, is_shown)));
+        for (([x, y, z], [a, b, c], material), is_shown) in both {
             let shape = format!(
                 "<origin xyz=\"{x:.4} {y:.4} {z:.4}\"/><geometry><box size=\"{a:.4} {b:.4} {c:.4}\"/></geometry>"
             );
-            self.line(format_args!(
-                "    <visual>{shape}<material name=\"{material}\"/></visual>"
-            ));
-            self.line(format_args!("    <collision>{shape}</collision>"));
+            self.line(match is_shown {
+                true => format!("    <visual>{shape}<material name=\"{material}\"/></visual>"),
+                false => format!("    <collision>{shape}</collision>"),
+            });
         }
         self.line(format_args!("  </link>"));
         let (kind, axis, upper) = match moves {

@@ -2,7 +2,7 @@
 
 use super::cook::Cook;
 use robotics::location::containers;
-use robotics::world::{AllowedPairs, World};
+use robotics::world::{AllowedPairs, CollisionHit, World};
 use session::{LogLevel, Session, SessionOptions};
 use sweep::Ending;
 
@@ -18,13 +18,18 @@ fn in_kitchen(seed: u64) -> Session {
     Session::new(&options).unwrap()
 }
 
+/// The two that touch.
+fn shown(hit: &CollisionHit) -> String {
+    format!("{} and {}", hit.moving, hit.other)
+}
+
 /// What the robot touches where it starts.
 fn touched(world: &World) -> Vec<String> {
     let robot = world.robot_configuration();
     let hits = world
         .collision_checker()
         .all_hits(robot, &AllowedPairs::none(), 0.0);
-    hits.iter().map(|hit| hit.to_string()).collect()
+    hits.iter().map(shown).collect()
 }
 
 #[test]
@@ -43,7 +48,7 @@ fn what_opens_does_so_without_hitting_anything() {
                 let at = limit * f64::from(i) / 10.0;
                 world.moved(&world.part(container.joint), at).hit()
             });
-            let hit = hit.map(|hit| hit.to_string());
+            let hit = hit.as_ref().map(shown);
             assert_eq!(hit, None, "{seed}: {}", joint.name);
         }
     }
