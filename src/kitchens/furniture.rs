@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::draws::Numbers;
-use crate::plan::{Module, Plan, Row, Standing, Unit};
+use crate::plan::{ASIDE, Module, Plan, Row, Standing, Unit};
 use crate::urdf::{Block, Moves, Urdf};
 
 /// Thickness (m) of boards, and gaps between fronts.
@@ -579,6 +579,31 @@ impl Maker<'_> {
         self.inventory.sink = Some("sink".to_owned());
     }
 
+    /// Whether the door of a cabinet on the wall has room to open.
+    fn opens(&self, row: &Row, module: &Module, is_left: bool) -> bool {
+        let style = self.plan.style;
+        let depth = style.hanging[2];
+        let (from, to) = (module.at, module.at + module.width);
+        let aside = match is_left {
+            true => [from - ASIDE, to],
+            false => [from, to + ASIDE],
+        };
+        let ahead = depth + module.width + style.front + style.ahead + style.bar;
+        let needed = row.rectangle([depth + 0.03, aside[0]], [ahead, aside[1]]);
+        let mut others = self.plan.rows.iter().flat_map(|other| {
+            let modules = other.modules.iter();
+            modules.filter_map(move |one| {
+                let depth = match one.unit.is_tall() {
+                    true => style.depth + 0.08,
+                    false if other.name != row.name && other.has_wall => depth + 0.08,
+                    false => return None,
+                };
+                Some(other.rectangle([0.0, one.at], [depth, one.at + one.width]))
+            })
+        });
+        needed.is_inside(&self.plan.room) && !others.any(|other| other.overlaps(&needed))
+    }
+
     /// A cabinet on the wall over a module, or the hood over the hob.
     fn hanging(&mut self, row: &Row, name: &str, module: &Module) {
         let style = self.plan.style;
@@ -641,8 +666,11 @@ impl Maker<'_> {
                 let count = if high - low > 0.6 { 6 } else { 5 };
                 self.urdf
                     .link(name, "room", at, yaw, Moves::Fixed, &blocks[..count]);
-                let is_left = self.numbers.flag(&format!("{name}.hinge"), 0.5);
-                self.door(name, name, is_left, width, [low, high], 0.15, [0.1, 0.14]);
+                let wanted = self.numbers.flag(&format!("{name}.hinge"), 0.5);
+                let mut hinges = [wanted, !wanted].into_iter();
+                if let Some(is_left) = hinges.find(|is_left| self.opens(row, module, *is_left)) {
+                    self.door(name, name, is_left, width, [low, high], 0.15, [0.1, 0.14]);
+                }
             }
             _ => {}
         }

@@ -183,7 +183,7 @@ const STAND: [f64; 2] = [0.42, 1.1];
 const CORNER: f64 = 0.08;
 
 /// How far (m) the handle of an open door is beside its hinge.
-const ASIDE: f64 = 0.08;
+pub(crate) const ASIDE: f64 = 0.08;
 
 const WIDTHS: [f64; 6] = [0.4, 0.45, 0.5, 0.6, 0.8, 0.9];
 const STACKS: [(f64, &[f64]); 4] = [

@@ -62,7 +62,7 @@ fn a_new_object_is_transported_without_a_number() {
     cook.done(
         "(btr-utils:spawn-object 'juice-1 :juice :pose '((-1.5 -0.9 0.85) (0 0 0 1)))
          (with-simulated-robot
-           (perform (an action (type transporting) (object (an object (type drink)))
+           (perform (an action (type transporting) (object (an object (type juice)))
              (location (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))
              (target (a location (on (an object (urdf-name kitchen-island-surface)
                                                 (part-of kitchen))))))))",

@@ -66,6 +66,15 @@ impl Evaluator {
         }
     }
 
+    /// Notes the source that is evaluated from now on: files that it names are beside it, if it is one.
+    pub(crate) fn begin_source(&mut self, source_name: &str) {
+        let is_file = self.image.files.facts(source_name).is_ok();
+        self.host.simulation.meshes.source = match is_file {
+            true => source_name.to_owned(),
+            false => String::new(),
+        };
+    }
+
     /// Evaluates an input.
     pub(crate) fn evaluate(
         &mut self,
@@ -76,11 +85,7 @@ impl Evaluator {
         self.image.polls().begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
-        let is_file = self.image.files.facts(source_name).is_ok();
-        self.host.simulation.meshes.source = match is_file {
-            true => source_name.to_owned(),
-            false => String::new(),
-        };
+        self.begin_source(source_name);
         let was_stopped = self.console.level() > 0;
         if text.trim().is_empty() {
             // It only shows a stopped evaluation again.

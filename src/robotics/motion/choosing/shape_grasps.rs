@@ -28,14 +28,16 @@ const EASY_ROOM: f64 = 0.03;
 const TIGHT_ROOM: f64 = 0.008;
 /// Gaps (m) inside a thing into which no finger goes: what they part is pressed together.
 const NARROW: f64 = 0.012;
-/// How far (m) from what the object stands on the hand stays.
-const ABOVE_GROUND: f64 = 0.002;
+/// How far (m) from what the object stands on the hand stays at least, and where it does so easily even if
+/// the object does not stand exactly level.
+const ABOVE_GROUND: f64 = 0.0015;
+const EASY_ABOVE: f64 = 0.01;
 /// How far (m) the hand approaches and lifts.
 const AWAY: f64 = 0.15;
 /// Where on that way (m) it is tested.
 const ON_THE_WAY: [f64; 4] = [0.0, 0.02, 0.05, 0.1];
 /// Depths (m) of the tool's point behind where it would meet the object.
-const DEPTHS: [f64; 7] = [0.004, 0.007, 0.012, 0.02, 0.03, 0.045, 0.06];
+const DEPTHS: [f64; 8] = [0.0025, 0.0045, 0.007, 0.012, 0.02, 0.03, 0.045, 0.06];
 /// How far (m) behind the tool's point the middle of the pads is.
 const BEHIND: f64 = 0.012;
 /// Number of places beside each other at which a direction is tried.
@@ -581,7 +583,10 @@ impl<'a> Search<'a> {
         let widest = self.most + TIGHT_ROOM;
         let gap = (wide + EASY_ROOM).min(widest);
         let gaps = [gap, wide + TIGHT_ROOM];
-        let Some(gap) = gaps.into_iter().find(|gap| self.has_room(&axes, &at, *gap)) else {
+        let mut rooms = gaps
+            .into_iter()
+            .filter_map(|gap| Some((gap, self.room(&axes, &at, gap)?)));
+        let Some((gap, above)) = rooms.next() else {
             return;
         };
         self.gets_to(Stage::Torque);
@@ -604,7 +609,8 @@ impl<'a> Search<'a> {
         let cost = lever / 0.03
             + (10.0 - many - more) * 0.15
             + (1.0 - slanted) * 2.0
-            + (gap - wide < EASY_ROOM) as u8 as f64 * 0.5;
+            + f64::from(u8::from(gap - wide < EASY_ROOM)) * 0.5
+            + (1.0 - above / EASY_ABOVE).max(0.0) * 3.0;
         found.push(Found {
             cost,
             direction,
@@ -613,18 +619,23 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Whether the hand, so wide open (m), comes to a place and stands there without touching anything.
-    fn has_room(&self, axes: &Matrix3<f64>, at: &Vector3<f64>, gap: f64) -> bool {
+    /// How far (m) above the ground the hand, so wide open (m), stays when it comes to a place; `None` if
+    /// it touches something there or on its way.
+    fn room(&self, axes: &Matrix3<f64>, at: &Vector3<f64>, gap: f64) -> Option<f64> {
         let arm = self.models.description.arm(self.side);
         let hand = HandShape::new(self.models, self.side, gap);
         let rotation =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes));
         let ahead = axes.column(2).into_owned();
-        let ground = self.bounds[0].z + ABOVE_GROUND;
-        ON_THE_WAY.iter().all(|back| {
-            let tool = Pose::from_parts((at - ahead * *back).into(), rotation * arm.tool_axes);
-            hand.lowest(&tool) >= ground && !hand.touches(&tool, &self.solids)
-        })
+        let mut above = f64::INFINITY;
+        for back in ON_THE_WAY {
+            let tool = Pose::from_parts((at - ahead * back).into(), rotation * arm.tool_axes);
+            above = above.min(hand.lowest(&tool) - self.bounds[0].z);
+            if above < ABOVE_GROUND || hand.touches(&tool, &self.solids) {
+                return None;
+            }
+        }
+        Some(above)
     }
 }
 
