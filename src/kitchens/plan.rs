@@ -204,7 +204,7 @@ impl Plan {
         let style = Style {
             height: between("counter.height", 0.85, 0.95),
             depth: between("counter.depth", 0.58, 0.65),
-            top: between("counter.thickness", 0.02, 0.04),
+            top: between("counter.thickness", 0.022, 0.04),
             plinth: between("plinth", 0.08, 0.15),
             front: between("front.thickness", 0.016, 0.022),
             bar: between("handle.thickness", 0.011, 0.016),

@@ -57,7 +57,8 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
     let models = simulation.models.with_kitchen(tree, description);
     simulation.enter_kitchen(&models);
     let facts = kitchen.facts;
-    let length = |length: f64| Value::Double((length * 1e3).round() / 1e3);
+    // As the reader makes it of a decimal fraction.
+    let length = |length: f64| Value::Single(((length * 1e3).round() / 1e3) as f32);
     let arrangement = facts.arrangement.name().to_uppercase();
     let aisle = match facts.aisle.is_finite() {
         true => length(facts.aisle),
