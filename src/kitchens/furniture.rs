@@ -374,7 +374,7 @@ impl Maker<'_> {
         );
         let moves = Moves::Turns {
             is_left,
-            angle: 1.5708,
+            angle: FRAC_PI_2,
         };
         let at = [style.front, side * width / 2.0, (low + high) / 2.0];
         self.urdf.link(&door, unit, at, 0.0, moves, &[panel]);

@@ -301,8 +301,7 @@ impl Plan {
                 origin: *origin,
                 turns: *turns,
                 modules: modules(numbers, arrangement, index, name, *length, dead)?,
-                has_wall: !["island"].contains(name)
-                    && !(arrangement == Peninsula && *name == "right"),
+                has_wall: *name != "island" && (arrangement != Peninsula || *name != "right"),
             };
             rows.push(row);
         }
