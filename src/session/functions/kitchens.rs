@@ -49,7 +49,7 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
     };
     let seed =
         seed.ok_or_else(|| Raise::simple("A seed is an integer from 0 to 18446744073709551615."))?;
-    let kitchen = generated_kitchen(seed).map_err(|error| Raise::reporting(error))?;
+    let kitchen = generated_kitchen(seed).map_err(Raise::reporting)?;
     let name = format!("generated:{seed}");
     let tree = KinematicTree::built_in(&kitchen.urdf, &name).map_err(Raise::reporting)?;
     let description = KitchenDescription::from_sexp(&kitchen.description, &name, &tree)
