@@ -31,6 +31,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "locations.plan",
     "costmap-facts.plan",
     "manipulation-data.plan",
+    "object-types.plan",
     "noise.plan",
     "sweep-draws.plan",
     "sweep-predicates.plan",

@@ -1,11 +1,16 @@
 //! What the descriptions of robot and kitchen say, as variables for plans.
 
+use std::rc::Rc;
+use std::sync::Arc;
+
 use crate::simulation::known_grasps::KnownGrasps;
 use crate::simulation::transforms::MAP;
 use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::packages::symbol;
 use lisp::image::Image;
+use lisp::image::extension::Extension;
 use lisp::value::Value;
+use lisp::value::copy::Copier;
 use robotics::location::{Direction, Orientation};
 use robotics::robot::{KinematicTree, Side};
 use robotics::world::Models;
@@ -28,13 +33,57 @@ pub(super) fn install(image: &mut Image, models: &Models) {
     let sym = symbol(image, PACKAGE, "*ROBOT*");
     image.define_special(sym, robot);
     name_things(image, models);
+    describe_kitchen(image, models);
+}
+
+/// The kitchen that the variables describe.
+struct DescribedKitchen(Arc<KinematicTree>);
+
+impl Extension for DescribedKitchen {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        self
+    }
+}
+
+fn describe_kitchen(image: &mut Image, models: &Models) {
     let kitchen = kitchen(image, &models.kitchen_description);
     let sym = symbol(image, PACKAGE, "*KITCHEN*");
     image.define_special(sym, kitchen);
+    image.extend(DescribedKitchen(Arc::clone(&models.kitchen)));
+}
+
+/// Lets the variables describe the present kitchen, if they describe another one.
+pub(crate) fn follow(image: &mut Image, models: &Models) {
+    let described = image.extension::<DescribedKitchen>();
+    if described.is_some_and(|described| Arc::ptr_eq(&described.0, &models.kitchen)) {
+        return;
+    }
+    let vocabulary = Vocabulary::of(image);
+    for domain in [Domain::Furniture, Domain::KitchenJoint, Domain::Frame] {
+        vocabulary.forget(domain);
+    }
+    name_furniture(image, models);
+    describe_kitchen(image, models);
 }
 
 /// Makes known what names there are, so that programs can be checked before they run.
 fn name_things(image: &mut Image, models: &Models) {
+    let vocabulary = Vocabulary::of(image);
+    vocabulary.add(Domain::Arm, Side::BOTH.map(Side::name));
+    vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
+    vocabulary.add(Domain::ObjectType, models.objects.names());
+    vocabulary.add(
+        Domain::Direction,
+        ["forward", "left", "right", "up", "down"],
+    );
+    vocabulary.add(Domain::Side, Direction::ALL.map(Direction::name));
+    vocabulary.add(Domain::Level, ["topmost", "middle", "bottommost"]);
+    vocabulary.add(Domain::Orientation, Orientation::ALL.map(Orientation::name));
+    name_furniture(image, models);
+}
+
+/// Makes known what names there are of furniture and frames.
+fn name_furniture(image: &mut Image, models: &Models) {
     let vocabulary = Vocabulary::of(image);
     let kitchen = &models.kitchen;
     let links = |tree: &KinematicTree| -> Vec<String> {
@@ -44,21 +93,11 @@ fn name_things(image: &mut Image, models: &Models) {
     };
     let joints = kitchen.joints().map(|(_, joint)| joint.name.as_str());
     let odometry = models.description.base.odometry.as_deref();
-    vocabulary.add(Domain::Arm, Side::BOTH.map(Side::name));
-    vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
-    vocabulary.add(Domain::ObjectType, models.objects.names());
     vocabulary.add(Domain::Furniture, links(kitchen));
     vocabulary.add(Domain::KitchenJoint, joints);
     vocabulary.add(Domain::Frame, links(&models.robot));
     vocabulary.add(Domain::Frame, links(kitchen));
     vocabulary.add(Domain::Frame, [MAP, "world"].into_iter().chain(odometry));
-    vocabulary.add(
-        Domain::Direction,
-        ["forward", "left", "right", "up", "down"],
-    );
-    vocabulary.add(Domain::Side, Direction::ALL.map(Direction::name));
-    vocabulary.add(Domain::Level, ["topmost", "middle", "bottommost"]);
-    vocabulary.add(Domain::Orientation, Orientation::ALL.map(Orientation::name));
 }
 
 /// CRAM's variables that hold names of the robot's frames.

@@ -63,7 +63,7 @@ pub use face::{
     TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
 pub use log_level::LogLevel;
-pub use options::{SessionError, SessionOptions};
+pub use options::{SessionError, SessionOptions, is_generated};
 
 /// A session.
 pub struct Session {
@@ -131,6 +131,15 @@ impl Session {
         functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed);
         simulation.set_noise(options.noise_levels()?);
+        simulation
+            .meshes
+            .package_paths
+            .clone_from(&options.package_paths);
+        simulation.meshes.kept_in.clone_from(&options.mesh_cache);
+        if let Some((name, text)) = &options.objects {
+            let defined = simulation.define_objects(&mut image, text, name, name);
+            defined.map_err(|error| SessionError::Models(error.to_string()))?;
+        }
         let audience = Audience::new(options);
         let host = SimulationHost::new(simulation, audience);
         let mut session = Session {

@@ -1,8 +1,10 @@
 //! What a session starts with.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
+use kitchens::Kitchen;
 use thiserror::Error;
 
 use super::log_level::LogLevel;
@@ -31,6 +33,8 @@ pub struct SessionOptions {
     /// Name and text of a description of the kitchen's furniture. Without one, what of the built-in
     /// kitchen's description names only furniture that is there is true of a given kitchen, too.
     pub world_description: Option<(String, String)>,
+    /// Name and text of a file with further types of objects.
+    pub objects: Option<(String, String)>,
     /// Folders in which the packages are that URDFs name in `package://…`, or which are such packages;
     /// the folders around a URDF are looked through, too.
     pub package_paths: Vec<String>,
@@ -63,6 +67,7 @@ impl Default for SessionOptions {
             robot_description: None,
             world: None,
             world_description: None,
+            objects: None,
             package_paths: Vec::new(),
             mesh_cache: None,
             noise: None,
@@ -73,6 +78,54 @@ impl Default for SessionOptions {
             heap: None,
             outside: Outside::default(),
         }
+    }
+}
+
+/// What begins the name of a generated kitchen; its seed follows.
+const GENERATED: &str = "generated:";
+
+/// Whether a kitchen is one that is generated, rather than a file.
+pub fn is_generated(world: &Path) -> bool {
+    world
+        .to_str()
+        .is_some_and(|world| world.starts_with(GENERATED))
+}
+
+/// The kitchen of a seed.
+///
+/// # Errors
+///
+/// There is none.
+pub(crate) fn generated_kitchen(seed: u64) -> Result<Kitchen, SessionError> {
+    Kitchen::of_seed(seed).ok_or_else(|| {
+        SessionError::Models(format!(
+            "no kitchen could be made of the seed {seed}: take another one"
+        ))
+    })
+}
+
+impl SessionOptions {
+    /// Has the session begin in the generated kitchen with a name such as `generated:7`.
+    ///
+    /// # Errors
+    ///
+    /// The name has no seed.
+    pub fn set_generated_world(&mut self, name: &str) -> Result<(), SessionError> {
+        let seed = name
+            .strip_prefix(GENERATED)
+            .and_then(|seed| seed.parse().ok());
+        let seed: u64 = seed.ok_or_else(|| {
+            SessionError::Models(format!(
+                "{name} names no generated kitchen: {GENERATED}SEED was expected, with a whole number from 0 to {}",
+                u64::MAX
+            ))
+        })?;
+        let kitchen = generated_kitchen(seed)?;
+        self.world = Some((name.to_owned(), kitchen.urdf));
+        if self.world_description.is_none() {
+            self.world_description = Some((name.to_owned(), kitchen.description));
+        }
+        Ok(())
     }
 }
 

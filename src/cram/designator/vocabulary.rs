@@ -72,6 +72,16 @@ impl Vocabulary {
         }
     }
 
+    /// Forgets all names of a kind.
+    pub fn forget(&self, domain: Domain) {
+        self.names
+            .borrow_mut()
+            .retain(|(known, _)| *known != domain);
+        self.unread
+            .borrow_mut()
+            .retain(|(known, _)| *known != domain);
+    }
+
     /// Adds names that are read when they are first asked for.
     pub fn add_later(&self, domain: Domain, read: ReadNames) {
         self.unread.borrow_mut().push((domain, read));

@@ -15,6 +15,7 @@ use crate::jupyter::{
 };
 use crate::transcript::{Transcript, Verdict};
 use session::dialogue::Evaluate;
+use session::is_generated;
 use view::picture::View;
 
 /// Width and height of the picture by which the kernel is known (pixels).
@@ -180,6 +181,7 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
         ("world-description", &options.world_description),
         ("robot", &options.robot),
         ("robot-description", &options.robot_description),
+        ("objects", &options.objects),
     ];
     let files = files.into_iter();
     let files = files.filter_map(|(name, path)| Some((name, path.as_ref()?)));
@@ -188,6 +190,10 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     let systems = options.systems.iter().map(|path| ("systems", path));
     let setup = options.setup.iter().map(|path| ("setup", path));
     for (name, path) in files.chain(packages).chain(systems).chain(setup) {
+        if is_generated(path) {
+            add(name, path.to_string_lossy().into_owned());
+            continue;
+        }
         add(
             name,
             std::path::absolute(path)?.to_string_lossy().into_owned(),

@@ -18,7 +18,7 @@ use lisp::guard::set_stack_budget;
 use lisp::visible::visible;
 use robotics::robot::urdf_text;
 use session::dialogue::Evaluate;
-use session::{self, Session, SessionOptions};
+use session::{self, Session, SessionOptions, is_generated};
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
@@ -38,15 +38,20 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         let text = urdf_text(&bytes).map_err(wrong)?;
         Ok((path.display().to_string(), text))
     };
-    let session_options = SessionOptions {
+    let generated = options.world.as_deref().filter(|world| is_generated(world));
+    let mut session_options = SessionOptions {
         seed: options.seed,
         robot: options.robot.as_deref().map(read_urdf).transpose()?,
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
-        world: options.world.as_deref().map(read_urdf).transpose()?,
+        world: match generated {
+            Some(_) => None,
+            None => options.world.as_deref().map(read_urdf).transpose()?,
+        },
         world_description: world_description(options)
             .as_deref()
             .map(read)
             .transpose()?,
+        objects: options.objects.as_deref().map(read).transpose()?,
         package_paths: package_paths(&options.package_path)?,
         mesh_cache: cache::directory("meshes"),
         noise: options.noise.clone(),
@@ -63,6 +68,10 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         heap: heap::limit(options.heap),
         ..SessionOptions::default()
     };
+    if let Some(name) = generated {
+        let set = session_options.set_generated_world(&name.to_string_lossy());
+        set.map_err(|error| CommandError::Open(error.to_string()))?;
+    }
     set_stack_budget(COMPILER_STACK);
     let mut session =
         Session::new(&session_options).map_err(|error| CommandError::Open(error.to_string()))?;

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::heap;
 use super::paint::ColorWhen;
+use session::is_generated;
 
 /// Options of all commands.
 #[derive(Args, Clone, Debug)]
@@ -13,7 +14,8 @@ pub(crate) struct Options {
     /// Seed for everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-    /// Kitchen to load (a URDF file) instead of the built-in one
+    /// Kitchen to load (a URDF file) instead of the built-in one, or generated:SEED for one that is drawn
+    /// from a seed
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
     /// What the kitchen's furniture is for (in the form of world/kitchen.sexp) [default: with
@@ -27,6 +29,9 @@ pub(crate) struct Options {
     /// whose names are not those of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot_description: Option<PathBuf>,
+    /// Further types of objects (in the form of world/objects.sexp; shapes may be meshes)
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) objects: Option<PathBuf>,
     /// Folder with the packages that a URDF names in package://NAME/…, besides those around the file and
     /// in ROS_PACKAGE_PATH; may be given several times
     #[arg(long, global = true, value_name = "FOLDER")]
@@ -93,8 +98,11 @@ impl Options {
             &self.world_description,
             &self.robot,
             &self.robot_description,
+            &self.objects,
         ];
-        files.into_iter().flatten().chain(&self.setup)
+        let files = files.into_iter().flatten();
+        let files = files.filter(|file| !is_generated(file));
+        files.chain(&self.setup)
     }
 }
 

@@ -11,6 +11,8 @@ use super::options::Options;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
+use session::is_generated;
+
 use crate::prompt::{Beginning, JournalError, Loaded, Opened, ReplOptions, Wanted};
 use lisp::visible::visible;
 
@@ -96,6 +98,7 @@ pub(super) fn open_journals(
         world_description: options.world_description.clone(),
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
+        objects: options.objects.clone(),
         noise: options.noise.clone(),
         package_path: options.package_path.clone(),
         systems: options.systems.clone(),
@@ -107,6 +110,9 @@ pub(super) fn open_journals(
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {
+            if given.as_deref().is_some_and(is_generated) {
+                return given != began;
+            }
             let given = given.as_ref().map(std::path::absolute);
             given.is_some_and(|given| given.ok() != *began)
         };
@@ -129,6 +135,7 @@ pub(super) fn open_journals(
                 "--robot-description",
                 differs(&options.robot_description, &beginning.robot_description),
             ),
+            ("--objects", differs(&options.objects, &beginning.objects)),
             (
                 "--package-path",
                 !options.package_path.is_empty()
@@ -158,6 +165,7 @@ pub(super) fn open_journals(
         options.world_description = beginning.world_description;
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
+        options.objects = beginning.objects;
         options.noise = beginning.noise;
         options.package_path = beginning.package_path;
         options.systems = beginning.systems;

@@ -21,6 +21,7 @@ pub use choosing::handle_chooser::{HandleChooser, HandleQuestion};
 pub use choosing::overhead::Overhead;
 pub use choosing::put_reach::{HeldGrip, PutReach};
 pub use choosing::reach::{can_reach, can_stand, touching_at};
+pub use choosing::shape_grasps::{ShapeGrasps, Ungraspable};
 pub use contact::expected_contacts::CollisionMode;
 pub use contact::hand::releasing_opening;
 pub use contact::holding::{held_objects, take_hold};

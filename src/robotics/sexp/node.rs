@@ -50,6 +50,12 @@ impl<'a> Node<'a> {
         value.as_symbol().ok_or_else(|| self.expected("a name"))
     }
 
+    /// A text between quotes.
+    pub fn text(&self) -> Result<&'a str, DataError> {
+        let text = self.datum.value().as_str();
+        text.ok_or_else(|| self.expected("a text between quotes"))
+    }
+
     /// The name of a keyword without its colon.
     pub(crate) fn as_keyword(&self) -> Option<&'a str> {
         self.datum.value().as_keyword()

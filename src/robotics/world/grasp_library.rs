@@ -150,10 +150,12 @@ pub struct GraspLibrary {
     order: IndexMap<String, Vec<String>>,
     /// By type, arm and name.
     grasps: IndexMap<(String, Side, String), GraspDefinition>,
+    /// Why no hand can grasp objects of a type.
+    refusals: IndexMap<String, String>,
 }
 
 /// The records of a library, each with its keys.
-const RECORDS: &[(&str, &[&str])] = &[
+pub(super) const GRASP_RECORDS: &[(&str, &[&str])] = &[
     ("rotation", &[]),
     ("default-grip", &["effort", "opening"]),
     ("grip", &["effort", "opening"]),
@@ -186,32 +188,89 @@ impl GraspLibrary {
             grips: IndexMap::new(),
             order: IndexMap::new(),
             grasps: IndexMap::new(),
+            refusals: IndexMap::new(),
         }
     }
 
     /// Reads a library; `file_name` is used only in errors.
     pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
-        let mut default_grip = None;
         let mut library = Self::empty();
+        let mut has_default = false;
         for node in file.nodes() {
-            let record = node.record("record", RECORDS)?;
-            match record.head() {
-                "rotation" => library.add_rotation(&record)?,
-                "default-grip" => default_grip = Some(grip(&record)?),
-                "grip" => {
-                    let grip = grip(&record)?;
-                    for name in record.thing("list of types")?.symbols()? {
-                        library.grips.insert(name.to_owned(), grip);
-                    }
-                }
-                "order" => library.add_order(&record)?,
-                _ => library.add_grasp(&record)?,
-            }
+            let record = node.record("record", GRASP_RECORDS)?;
+            has_default |= record.head() == "default-grip";
+            library.add_record(&record)?;
         }
-        library.default_grip = default_grip
-            .ok_or_else(|| file.error(DataProblem::MissingRecord("default-grip".to_owned())))?;
-        Ok(library)
+        match has_default {
+            true => Ok(library),
+            false => Err(file.error(DataProblem::MissingRecord("default-grip".to_owned()))),
+        }
+    }
+
+    /// Takes one of [`GRASP_RECORDS`].
+    pub(super) fn add_record(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        match record.head() {
+            "rotation" => self.add_rotation(record),
+            "default-grip" => {
+                self.default_grip = grip(record)?;
+                Ok(())
+            }
+            "grip" => {
+                let grip = grip(record)?;
+                for name in record.thing("list of types")?.symbols()? {
+                    self.grips.insert(name.to_owned(), grip);
+                }
+                Ok(())
+            }
+            "order" => self.add_order(record),
+            _ => self.add_grasp(record),
+        }
+    }
+
+    /// Notes that the types of a record `(grasp …)` have a grasp of that name.
+    pub(super) fn add_order_of(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let name = record.thing("name")?.symbol()?;
+        for of in record.required("types")?.symbols()? {
+            self.list(of, name);
+        }
+        Ok(())
+    }
+
+    /// A grasp of a type that is not listed yet is tried last.
+    fn list(&mut self, object_type: &str, grasp: &str) {
+        let order = self.order.entry(object_type.to_owned()).or_default();
+        if !order.iter().any(|name| name == grasp) {
+            order.push(grasp.to_owned());
+        }
+    }
+
+    /// Drops all that is said of a type.
+    pub(super) fn forget(&mut self, object_type: &str) {
+        self.order.shift_remove(object_type);
+        self.grips.shift_remove(object_type);
+        self.refusals.shift_remove(object_type);
+        self.grasps.retain(|(of, _, _), _| of != object_type);
+    }
+
+    /// Sets how hard to grip objects of a type, and how wide to open beforehand.
+    pub fn set_grip(&mut self, object_type: &str, grip: Grip) {
+        self.grips.insert(object_type.to_owned(), grip);
+    }
+
+    /// Says why no hand can grasp objects of a type.
+    pub fn refuse(&mut self, object_type: &str, why: String) {
+        self.refusals.insert(object_type.to_owned(), why);
+    }
+
+    /// Why no hand can grasp objects of a type, if its shape was looked at in vain.
+    pub fn refusal(&self, object_type: &str) -> Option<&str> {
+        self.refusals.get(object_type).map(String::as_str)
+    }
+
+    /// Whether a grip is said for a type.
+    pub fn has_grip(&self, object_type: &str) -> bool {
+        self.grips.contains_key(object_type)
     }
 
     /// The names of all grasps, of any type.
@@ -270,10 +329,9 @@ impl GraspLibrary {
         definition: GraspDefinition,
     ) -> Result<(), NotARotation> {
         definition.orientation()?;
-        let order = self.order.entry(object_type.to_owned()).or_default();
-        if !order.iter().any(|name| name == grasp) {
-            order.push(grasp.to_owned());
-        }
+        self.list(object_type, grasp);
+        // What somebody says counts more than what the shape seemed to say.
+        self.refusals.shift_remove(object_type);
         let key = (object_type.to_owned(), arm, grasp.to_owned());
         self.grasps.insert(key, definition);
         Ok(())

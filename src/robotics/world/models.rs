@@ -1,6 +1,8 @@
 //! Everything about a world that never changes: the trees of robot and kitchen, the robot's
 //! description and the kinds of objects, with the geometry prepared for queries.
 
+use std::sync::Arc;
+
 use super::body_name::BodyName;
 use super::kitchen_description::KitchenDescription;
 use super::link_geometry::TreeGeometry;
@@ -15,26 +17,27 @@ use crate::sexp::DataError;
 use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
 
-/// The models that worlds are built from; shared by a world and its copies.
+/// The models that worlds are built from; shared by a world and its copies. A clone shares all parts.
+#[derive(Clone)]
 pub struct Models {
     /// The robot's body.
-    pub robot: KinematicTree,
+    pub robot: Arc<KinematicTree>,
     /// The roles of the robot's links and joints.
-    pub description: RobotDescription,
+    pub description: Arc<RobotDescription>,
     /// The furniture.
-    pub kitchen: KinematicTree,
+    pub kitchen: Arc<KinematicTree>,
     /// What the furniture is for.
-    pub kitchen_description: KitchenDescription,
+    pub kitchen_description: Arc<KitchenDescription>,
     /// The kinds of objects that can be spawned.
-    pub objects: ObjectLibrary,
+    pub objects: Arc<ObjectLibrary>,
     /// What was taken leniently in the files of robot and furniture.
     pub remarks: Vec<UrdfRemark>,
-    pub(crate) robot_geometry: TreeGeometry,
-    pub(crate) kitchen_geometry: TreeGeometry,
+    pub(crate) robot_geometry: Arc<TreeGeometry>,
+    pub(crate) kitchen_geometry: Arc<TreeGeometry>,
     /// The floor that the robot can drive on.
     pub map: MapArea,
     /// Pairs of the robot's solid links that must not touch.
-    pub(crate) self_pairs: LinkPairs,
+    pub(crate) self_pairs: Arc<LinkPairs>,
     /// The hand that each link of the robot belongs to, if any.
     hand_of: Vec<Option<Side>>,
     /// For each body of the robot in the physics engine, the number of the hand that it is of.
@@ -137,20 +140,53 @@ impl Models {
         };
         let footing = robot.links().map(|(link, _)| footing(link)).collect();
         Self {
-            robot,
-            description,
-            kitchen,
-            kitchen_description,
-            objects,
+            robot: Arc::new(robot),
+            description: Arc::new(description),
+            kitchen: Arc::new(kitchen),
+            kitchen_description: Arc::new(kitchen_description),
+            objects: Arc::new(objects),
             remarks: Vec::new(),
-            robot_geometry,
-            kitchen_geometry,
+            robot_geometry: Arc::new(robot_geometry),
+            kitchen_geometry: Arc::new(kitchen_geometry),
             map,
-            self_pairs: LinkPairs::new(self_pairs),
+            self_pairs: Arc::new(LinkPairs::new(self_pairs)),
             hand_of,
             hands,
             footing,
         }
+    }
+
+    /// The same with other kinds of objects.
+    #[must_use]
+    pub fn with_objects(&self, objects: Arc<ObjectLibrary>) -> Self {
+        Self {
+            objects,
+            ..self.clone()
+        }
+    }
+
+    /// The same in another kitchen; the description must belong to that.
+    #[must_use]
+    pub fn with_kitchen(
+        &self,
+        mut kitchen: KinematicTree,
+        kitchen_description: KitchenDescription,
+    ) -> Self {
+        kitchen.set_aliases(kitchen_description.aliases.clone());
+        let geometry = TreeGeometry::new(&kitchen, |_| false);
+        Self {
+            map: MapArea::new(&kitchen, &geometry),
+            kitchen: Arc::new(kitchen),
+            kitchen_description: Arc::new(kitchen_description),
+            kitchen_geometry: Arc::new(geometry),
+            remarks: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Whether two have the same kitchen.
+    pub fn share_kitchen(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.kitchen, &other.kitchen)
     }
 
     /// The name of a link of the robot; the floor for a link of another tree.

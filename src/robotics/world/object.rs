@@ -33,6 +33,11 @@ pub struct Object {
     pub friction: f64,
     pub shapes: Arc<[PlacedShape]>,
     pub(crate) solids: Arc<[Solid]>,
+    /// What is shown of it, unless its type or its shapes say that.
+    pub(crate) looks: Option<Arc<[PlacedShape]>>,
+    /// The point (m, its frame) at which its weight acts.
+    pub(crate) balance: [f64; 3],
+    pub(crate) edition: u32,
     pub bounds: Aabb,
     pub number: u32,
     pub body: BodyHandle,
@@ -69,6 +74,25 @@ impl Object {
     /// Shapes, in the object's own frame.
     pub fn shapes(&self) -> &[PlacedShape] {
         &self.shapes
+    }
+
+    /// What is shown of it, in its own frame, unless its type or its shapes say that.
+    pub fn looks(&self) -> Option<&[PlacedShape]> {
+        self.looks.as_deref()
+    }
+
+    /// Which definition of its type it was made by; 0 for one that is built in.
+    pub fn edition(&self) -> u32 {
+        self.edition
+    }
+
+    /// The point (m) at which its weight acts, in the frame in which the object is at a pose.
+    pub(crate) fn balance_at(&self, pose: &Pose) -> nalgebra::Vector3<f64> {
+        // Exactly the place of the pose for what balances there.
+        match self.balance {
+            [0.0, 0.0, 0.0] => pose.translation.vector,
+            balance => (pose * nalgebra::Point3::from(balance)).coords,
+        }
     }
 
     /// Whether it can tip over. A ball rolls instead, which only its place tells.

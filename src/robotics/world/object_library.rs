@@ -6,11 +6,12 @@
 
 use indexmap::IndexMap;
 
+use super::object_shapes::ObjectShapes;
 use super::solid::{Solid, bounds_of};
-use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
+use crate::mesh::MeshLibrary;
+use crate::sexp::{DataError, DataFile, DataProblem, Record};
 use closest_name::closest_name;
-use spatial::pose::from_xyz_rpy;
-use spatial::{PlacedShape, Shape};
+use spatial::PlacedShape;
 
 /// The text of the built-in library, `world/objects.sexp`.
 pub use descriptions::OBJECTS;
@@ -34,6 +35,13 @@ pub struct ObjectType {
     /// Whether it is the same from all sides: it can be grasped from any of them, and turned
     /// when it is put down.
     pub is_round: bool,
+    /// What is shown of it, in its frame; `None` for a type that looks as `world/looks.sexp` says, or else
+    /// as its shapes.
+    pub looks: Option<Vec<PlacedShape>>,
+    /// The point (m, its frame) at which its weight acts.
+    pub balance: [f64; 3],
+    /// Which definition of the session it comes from; 0 for those that are built in.
+    pub edition: u32,
 }
 
 impl ObjectType {
@@ -52,14 +60,15 @@ pub struct ObjectLibrary {
     available: Vec<String>,
     /// The supertype of each type.
     kind_of: IndexMap<String, String>,
+    /// How many types have been defined since the library was read.
+    editions: u32,
 }
 
 /// The records of a library, each with its keys.
-const RECORDS: &[(&str, &[&str])] = &[
-    ("available", &[]),
-    ("kinds", &[]),
-    ("object", &["mass", "friction", "color", "shapes"]),
-];
+const RECORDS: &[(&str, &[&str])] = &[("available", &[]), ("kinds", &[]), ("object", OBJECT_KEYS)];
+
+/// The keys of a type.
+pub(super) const OBJECT_KEYS: &[&str] = &["mass", "friction", "color", "shapes"];
 
 impl ObjectLibrary {
     /// Reads a library; `file_name` is used only in errors.
@@ -69,6 +78,7 @@ impl ObjectLibrary {
             objects: IndexMap::new(),
             available: Vec::new(),
             kind_of: IndexMap::new(),
+            editions: 0,
         };
         let mut listed = Vec::new();
         for node in file.nodes() {
@@ -122,7 +132,8 @@ impl ObjectLibrary {
         self.lineage(name).any(|n| n == other)
     }
 
-    fn add_kinds(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+    /// Takes a record `(kinds SUPERTYPE TYPE …)`.
+    pub(super) fn add_kinds(&mut self, record: &Record<'_>) -> Result<(), DataError> {
         let Some((of, kinds)) = record.things().split_first() else {
             return Err(record.node().expected("(kinds type kind …)"));
         };
@@ -144,34 +155,40 @@ impl ObjectLibrary {
         Ok(())
     }
 
+    /// Adds a type, or replaces the one of that name; it is listed last if it is new.
+    pub(super) fn define(&mut self, mut object: ObjectType) {
+        self.editions += 1;
+        object.edition = self.editions;
+        if !self.available.contains(&object.name) {
+            self.available.push(object.name.clone());
+        }
+        self.objects.insert(object.name.clone(), object);
+    }
+
+    /// Makes a type one of a more general kind, whatever it was before. An error says why it cannot be.
+    pub(super) fn set_kind(&mut self, name: &str, of: &str) -> Result<(), String> {
+        if self.is_kind_of(of, name) {
+            return Err(format!("{of} is a kind of {name} already, or the same"));
+        }
+        self.kind_of.insert(name.to_owned(), of.to_owned());
+        Ok(())
+    }
+
     fn add_object(&mut self, record: &Record<'_>) -> Result<(), DataError> {
         let node = record.thing("name")?;
-        let name = node.symbol()?.to_owned();
-        let shapes = record.required("shapes")?;
-        let mut solids = Vec::new();
-        for shape in shapes.list()? {
-            add_shape(shape, &mut solids)?;
-        }
-        if solids.is_empty() {
-            return Err(shapes.expected("at least one shape"));
-        }
-        let round: Vec<bool> = shapes
-            .list()?
-            .into_iter()
-            .map(is_round)
-            .collect::<Result<_, _>>()?;
+        let shapes = ObjectShapes::read(record.required("shapes")?, &MeshLibrary::none())?;
         let object = ObjectType {
-            name: name.clone(),
-            is_round: !round.contains(&false),
-            shapes: solids,
+            name: node.symbol()?.to_owned(),
+            is_round: shapes.is_round,
+            shapes: shapes.solids,
             mass: record.required("mass")?.positive()?,
-            friction: match record.optional("friction") {
-                Some(node) => node.positive()?,
-                None => FRICTION,
-            },
+            friction: friction_of(record)?,
             color: record.required("color")?.color()?,
+            looks: None,
+            balance: [0.0; 3],
+            edition: 0,
         };
-        match self.objects.insert(name, object) {
+        match self.objects.insert(object.name.clone(), object) {
             None => Ok(()),
             Some(object) => {
                 let what = format!("the object {}", object.name);
@@ -181,102 +198,17 @@ impl ObjectLibrary {
     }
 }
 
-/// Shapes, each with its keys besides `at` and `rpy`.
-const SHAPES: &[(&str, &[&str])] = &[
-    ("box", &["at", "rpy", "size"]),
-    ("cylinder", &["at", "rpy", "radius", "length"]),
-    ("sphere", &["at", "rpy", "radius"]),
-    ("ring", &["at", "rpy", "count", "radius", "stave", "lean"]),
-];
-
-/// Distance (m) of an axis from the object's up to which it counts as the same.
-const OFF_AXIS: f64 = 0.0025;
-
-/// Whether a shape is round about the object's z axis; a ring of boxes stands for a round wall.
-fn is_round(node: Node<'_>) -> Result<bool, DataError> {
-    let record = node.record("shape", SHAPES)?;
-    let numbers = |key: &str| {
-        record
-            .optional(key)
-            .map_or(Ok([0.0; 3]), |n| n.numbers::<3>())
-    };
-    let ([x, y, _], [roll, pitch, _]) = (numbers("at")?, numbers("rpy")?);
-    let is_centred = libm::hypot(x, y) < OFF_AXIS;
-    Ok(match record.head() {
-        "box" => false,
-        "sphere" => is_centred,
-        _ => is_centred && roll == 0.0 && pitch == 0.0,
-    })
-}
-
-fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataError> {
-    let record = node.record("shape", SHAPES)?;
-    let numbers = |key: &str| {
-        record
-            .optional(key)
-            .map_or(Ok([0.0; 3]), |n| n.numbers::<3>())
-    };
-    let size = |key: &str| {
-        let node = record.required(key)?;
-        let size = node.numbers::<3>()?;
-        match size.iter().all(|s| *s > 0.0) {
-            true => Ok(size),
-            false => Err(node.expected("three numbers above 0")),
-        }
-    };
-    let pose = from_xyz_rpy(numbers("at")?, numbers("rpy")?);
-    let shape = match record.head() {
-        "box" => Shape::Box {
-            size: size("size")?,
-        },
-        "cylinder" => Shape::Cylinder {
-            radius: record.required("radius")?.positive()?,
-            length: record.required("length")?.positive()?,
-        },
-        "sphere" => Shape::Sphere {
-            radius: record.required("radius")?.positive()?,
-        },
-        _ => {
-            let count_node = record.required("count")?;
-            let count = count_node.count()?;
-            if !(3..=64).contains(&count) {
-                return Err(count_node.expected("a whole number from 3 to 64"));
-            }
-            let radius = record.required("radius")?.positive()?;
-            let stave = Shape::Box {
-                size: size("stave")?,
-            };
-            let lean = record.optional("lean").map_or(Ok(0.0), |lean| {
-                let angle = lean.number()?;
-                match angle.abs() < std::f64::consts::FRAC_PI_2 {
-                    true => Ok(angle),
-                    false => Err(lean.expected("an angle (rad) below a quarter turn")),
-                }
-            })?;
-            solids.extend((0..count).map(|i| {
-                let turn = std::f64::consts::TAU * i as f64 / count as f64;
-                let turned = from_xyz_rpy([0.0; 3], [0.0, 0.0, turn]);
-                let out = from_xyz_rpy([radius, 0.0, 0.0], [0.0, lean, 0.0]);
-                PlacedShape {
-                    shape: stave.clone(),
-                    pose: pose * turned * out,
-                    color: None,
-                }
-            }));
-            return Ok(());
-        }
-    };
-    solids.push(PlacedShape {
-        shape,
-        pose,
-        color: None,
-    });
-    Ok(())
+/// The friction that a record gives.
+pub(super) fn friction_of(record: &Record<'_>) -> Result<f64, DataError> {
+    record
+        .optional("friction")
+        .map_or(Ok(FRICTION), |node| node.positive())
 }
 
 #[cfg(test)]
 mod tests {
     use nalgebra::Point3;
+    use spatial::Shape;
 
     use super::*;
 

@@ -152,6 +152,12 @@ impl World {
         &self.models
     }
 
+    /// From now on, objects are of the kinds that these models know; robot and kitchen must be the same.
+    /// Objects that are there stay as they are.
+    pub fn set_object_types(&mut self, models: Arc<Models>) {
+        self.models = models;
+    }
+
     /// Advances by one physics step: robot and kitchen move to where they were set; objects
     /// fall, slide and are carried.
     pub fn step(&mut self) {

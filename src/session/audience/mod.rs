@@ -90,6 +90,11 @@ impl Audience {
     }
 
     /// Whether nobody is shown anything.
+    /// Whether somebody follows who has been shown the kitchen.
+    pub(super) fn follows(&self) -> bool {
+        self.has_followers() || self.view.is_some() || self.writes_files()
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.observer.is_none()
             && !self.has_followers()

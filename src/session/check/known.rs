@@ -57,6 +57,7 @@ impl KnownNames {
             Some("DEF-FACT-GROUP" | "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS") => {
                 self.note_rules(image, form);
             }
+            Some("DEF-OBJECT-TYPE") => self.note_object_type(image, form),
             Some("DEF-ACTION") => self.note_action(image, form),
             _ => {}
         }
@@ -89,6 +90,31 @@ impl KnownNames {
         let mut names: Vec<Value> = vec![definition.car_or_nil()];
         names
             .extend(aliases.flat_map(|option| option.cdr_or_nil().iter_list().collect::<Vec<_>>()));
+        let names = names.iter().filter_map(Value::as_symbol);
+        self.in_rules
+            .extend(names.map(|name| image.name(name).to_uppercase()));
+    }
+
+    /// A type of objects, and its kind.
+    fn note_object_type(&mut self, image: &Image, form: &Value) {
+        let definition = form.cdr_or_nil();
+        let name = definition.car_or_nil();
+        let name = match name.as_cons() {
+            Some(quoted) => quoted.cdr().car_or_nil(),
+            None => name,
+        };
+        let mut names = vec![name];
+        let properties = definition.cdr_or_nil();
+        let properties: Vec<Value> = properties.iter_list().collect();
+        for pair in properties.chunks_exact(2) {
+            let key = pair[0].as_symbol().map(|key| image.name(key));
+            if key == Some("KIND") {
+                names.push(match pair[1].as_cons() {
+                    Some(quoted) => quoted.cdr().car_or_nil(),
+                    None => pair[1].clone(),
+                });
+            }
+        }
         let names = names.iter().filter_map(Value::as_symbol);
         self.in_rules
             .extend(names.map(|name| image.name(name).to_uppercase()));

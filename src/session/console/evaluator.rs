@@ -11,6 +11,7 @@ use crate::bounds::Limits;
 use crate::defect;
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Abort, Event, Outcome};
+use crate::facts;
 use crate::host::SimulationHost;
 use crate::host::call::HostCall;
 use crate::live_host;
@@ -66,6 +67,15 @@ impl Evaluator {
         }
     }
 
+    /// Notes the source that is evaluated from now on: files that it names are beside it, if it is one.
+    pub(crate) fn begin_source(&mut self, source_name: &str) {
+        let is_file = self.image.files.facts(source_name).is_ok();
+        self.host.simulation.meshes.source = match is_file {
+            true => source_name.to_owned(),
+            false => String::new(),
+        };
+    }
+
     /// Evaluates an input.
     pub(crate) fn evaluate(
         &mut self,
@@ -76,6 +86,7 @@ impl Evaluator {
         self.image.polls().begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
+        self.begin_source(source_name);
         let was_stopped = self.console.level() > 0;
         if text.trim().is_empty() {
             // It only shows a stopped evaluation again.
@@ -161,6 +172,7 @@ impl Evaluator {
     /// Evaluates one form at top level.
     pub(crate) fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
+        facts::follow(&mut self.image, &self.host.simulation.models);
         self.host
             .person
             .snapshots

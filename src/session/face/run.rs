@@ -183,6 +183,7 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> (Outcome, Vec<Value>) {
+        self.evaluator.begin_source(source_name);
         let source = self.evaluator.image.sources.add(source_name, text);
         let mut rest = Reader::new(&self.evaluator.image, source);
         let mut last = Vec::new();

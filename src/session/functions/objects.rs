@@ -1,5 +1,6 @@
 //! Builtins for objects: spawning, moving, removing.
 
+use super::object_record::quoted;
 use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
@@ -14,9 +15,9 @@ use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::world::object_library::{FRICTION, ObjectType};
+use robotics::world::object_definitions::plain_type;
 use robotics::world::{Object, SpawnReport, WorldError};
-use spatial::{PlacedShape, Pose, Shape};
+use spatial::{Pose, Shape};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -33,8 +34,8 @@ const FALL: f64 = 0.3;
 pub(super) static TABLE: &[Builtin] = &[
     control(
         "SPAWN-OBJECT",
-        "name type &key pose color mass",
-        "Puts an object of a type into the world.",
+        "name type &key pose color mass mesh",
+        "Puts an object of a type into the world. A type that is not known yet is defined if MESH says what file it looks like; see DEF-OBJECT-TYPE.",
         &[
             "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr-utils:object-exists 'cup-1)) => T",
         ],
@@ -145,18 +146,8 @@ impl Simulation {
             true => color(color_value)?,
             false => [0.6, 0.6, 0.6, 1.0],
         };
-        let kind = ObjectType {
-            name: kind.to_owned(),
-            is_round: matches!(shape, Shape::Sphere { .. }),
-            shapes: vec![PlacedShape {
-                shape,
-                pose: Pose::identity(),
-                color: None,
-            }],
-            mass: number::to_f64(mass).unwrap_or(0.2),
-            friction: FRICTION,
-            color,
-        };
+        let mass = number::to_f64(mass).unwrap_or(0.2);
+        let kind = plain_type(kind, shape, mass, color);
         let report = self
             .world
             .spawn_kind(&name, &kind, pose)
@@ -165,6 +156,20 @@ impl Simulation {
             .entry(name.clone())
             .or_insert_with(|| symbol.clone());
         self.let_settle(image, &name, pose, &report)
+    }
+
+    /// Defines a type by a file of a mesh, unless it is known.
+    fn define_by_mesh(&mut self, image: &mut Image, kind: &Value, mesh: &Value) -> Result<()> {
+        let kind = type_text_of(image, kind)?;
+        if self.models.objects.get(&kind).is_some() {
+            return Ok(());
+        }
+        let Value::Str(file) = mesh else {
+            return Err(Raise::type_error(mesh, known::STRING));
+        };
+        let record = format!("(object {kind} :shapes ((mesh {})))", quoted(&file.text()));
+        let source = self.meshes.source.clone();
+        self.define_object(image, &kind, &record, &source)
     }
 
     /// Lets an object come to rest that was put at a pose, and logs it if it does not, or ends
@@ -241,8 +246,12 @@ fn spawn_keyword(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         image.keyword("POSE"),
         image.keyword("COLOR"),
         image.keyword("MASS"),
+        image.keyword("MESH"),
     ];
-    let [pose, color, mass] = keywords::parse(image, &args[2..], keys)?;
+    let [pose, color, mass, mesh] = keywords::parse(image, &args[2..], keys)?;
+    if let Some(mesh) = mesh {
+        simulation.define_by_mesh(image, &args[1], &mesh)?;
+    }
     let pose = match pose {
         Some(pose) => simulation.pose_in_map(image, &pose)?,
         None => Pose::translation(2.0, 0.0, 0.0),

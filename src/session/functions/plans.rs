@@ -232,7 +232,8 @@ impl Simulation {
 
     /// The definition of a grasp of a type, or of the nearest of its supertypes that has it.
     pub fn definition(&self, kind: &str, arm: Side, grasp: &str) -> Option<GraspDefinition> {
-        let mut kinds = self.models.objects.lineage(kind);
+        let kinds = self.models.objects.lineage(kind);
+        let mut kinds = kinds.take_while(|kind| self.grasps.refusal(kind).is_none());
         kinds.find_map(|k| self.grasps.get(k, arm, grasp)).cloned()
     }
 
@@ -240,7 +241,7 @@ impl Simulation {
     /// tried.
     pub(crate) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
-        for kind in kinds {
+        for kind in kinds.take_while(|kind| self.grasps.refusal(kind).is_none()) {
             let names: Vec<String> = self
                 .grasps
                 .grasps(kind)

@@ -44,8 +44,8 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "%SURFACE-POINT",
         "surface u v",
-        "The point (x y), in the map (m), at the shares U and V of the edges of a surface; NIL if it is none.",
-        &["(length (pw::%surface-point :table-area-main 0.5 0.5)) => 2"],
+        "The point (x y z), in the map (m), at the shares U and V of the edges of a surface, at its top; NIL if it is none.",
+        &["(length (pw::%surface-point :table-area-main 0.5 0.5)) => 3"],
         host!(surface_point),
     ),
     control(
@@ -163,6 +163,7 @@ fn surface_point(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     done(Value::list([
         Value::Double(point.x),
         Value::Double(point.y),
+        Value::Double(extent.top()),
     ]))
 }
 

@@ -31,6 +31,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         functions::locations::VISUALIZATION_TABLE,
     ),
     ("CRAM-BULLET-REASONING", functions::asking::TABLE),
+    ("PLANWRIGHT", functions::object_types::TABLE),
+    ("PLANWRIGHT", functions::kitchens::TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::noise::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),

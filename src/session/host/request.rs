@@ -3,6 +3,7 @@
 use super::call::HostCall;
 use super::{SimulationHost, note_motions};
 use crate::audience::task_news;
+use crate::facts;
 use crate::simulation::jobs::{Completion, Job, Told};
 use cram::designator::MotionRequest;
 use cram::{Advance, Host, Reply, TaskId, Ticket};
@@ -158,6 +159,7 @@ impl SimulationHost {
         self.asking = task;
         self.person.snapshots.touch();
         let reply = work(self, image);
+        facts::follow(image, &self.simulation.models);
         note_motions(&self.simulation, image);
         reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
     }

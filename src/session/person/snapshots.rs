@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 
@@ -13,7 +14,7 @@ use crate::simulation::{Axes, Simulation};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::raise::Raise;
-use robotics::world;
+use robotics::world::{self, Models};
 
 /// Maximum number of forms at top level that can be undone.
 const MAX_FORMS: usize = 100;
@@ -26,6 +27,8 @@ pub(crate) struct Snapshot(Rc<State>);
 
 /// What a snapshot restores.
 struct State {
+    /// The kitchen that the world is in.
+    models: Arc<Models>,
     world: world::Snapshot,
     names: IndexMap<String, Value>,
     held: IndexMap<String, Held>,
@@ -64,6 +67,7 @@ impl Snapshot {
     /// Takes a snapshot of the present state.
     pub(crate) fn take(simulation: &Simulation) -> Self {
         Self(Rc::new(State {
+            models: Arc::clone(&simulation.models),
             world: simulation.world.snapshot(),
             names: simulation.names.clone(),
             held: simulation.held.clone(),
@@ -81,6 +85,9 @@ impl Snapshot {
     /// Restores the state, in which nothing has moved by itself meanwhile.
     fn put_back(&self, simulation: &mut Simulation) {
         let state = &self.0;
+        if !simulation.models.share_kitchen(&state.models) {
+            simulation.enter_kitchen(&state.models);
+        }
         simulation.world.restore(&state.world);
         simulation.names.clone_from(&state.names);
         simulation.held.clone_from(&state.held);
@@ -98,6 +105,7 @@ impl Copied for Snapshot {
         let names = state.names.iter();
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Snapshot(Rc::new(State {
+            models: Arc::clone(&state.models),
             world: state.world.clone(),
             names: names.collect(),
             held: state.held.clone(),

@@ -11,6 +11,7 @@ pub(super) mod injection;
 pub mod jobs;
 pub(crate) mod known_grasps;
 pub(super) mod locations;
+pub(super) mod mesh_places;
 pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
@@ -44,6 +45,7 @@ use view::picture::{LocationMap, Looks};
 use injection::SharedInjection;
 use jobs::Jobs;
 use known_grasps::KnownGrasps;
+use mesh_places::MeshPlaces;
 use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
@@ -58,7 +60,11 @@ pub struct Axes {
 /// The robot in its world.
 pub struct Simulation {
     pub(super) models: Arc<Models>,
+    /// The kitchen in which the session began.
+    home: Arc<Models>,
     pub(super) grasps: KnownGrasps,
+    /// Where meshes of types of objects are.
+    pub(super) meshes: MeshPlaces,
     pub(super) log_level: LogLevel,
     /// The seed of the session.
     seed: u64,
@@ -115,8 +121,10 @@ impl Simulation {
             noises: 0,
             searches: 0,
             put_for_sweep: Vec::new(),
+            home: Arc::clone(&models),
             models,
             grasps: KnownGrasps::default(),
+            meshes: MeshPlaces::default(),
             log_level,
             seed,
             now: 0.0,
@@ -144,7 +152,9 @@ impl Simulation {
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Simulation {
             models: Arc::clone(&self.models),
+            home: Arc::clone(&self.home),
             grasps: self.grasps.clone(),
+            meshes: self.meshes.clone(),
             log_level: self.log_level,
             seed: self.seed,
             now: self.now,
@@ -178,6 +188,7 @@ impl Simulation {
     pub(super) fn restart(&mut self) {
         let noise = self.noise_levels();
         self.world = self.start().clone();
+        self.world.set_object_types(Arc::clone(&self.models));
         self.set_noise(noise);
         self.names.clear();
         self.held.clear();
@@ -224,6 +235,33 @@ impl Simulation {
     /// The types of objects that can be spawned.
     pub fn object_types(&self) -> &ObjectLibrary {
         &self.models.objects
+    }
+
+    /// From now on, objects are of these types; those that are there stay as they are.
+    pub(super) fn know_objects(&mut self, objects: Arc<ObjectLibrary>) {
+        self.models = Arc::new(self.models.with_objects(objects));
+        self.world.set_object_types(Arc::clone(&self.models));
+        self.looks = OnceCell::new();
+    }
+
+    /// Another kitchen without objects, with the robot at its start; types of objects stay known. The
+    /// world of a snapshot may be restored then.
+    pub(super) fn enter_kitchen(&mut self, models: &Models) {
+        let objects = Arc::clone(&self.models.objects);
+        self.models = Arc::new(models.with_objects(objects));
+        self.start = Rc::default();
+        self.looks = OnceCell::new();
+        self.begun_searches = locations::Searches::default();
+        self.out_of_reach = OutOfReach::default();
+        self.restart();
+    }
+
+    /// The kitchen in which the session began, without objects.
+    pub(super) fn go_home(&mut self) {
+        let home = Arc::clone(&self.home);
+        if !self.models.share_kitchen(&home) {
+            self.enter_kitchen(&home);
+        }
     }
 
     /// How objects are grasped.

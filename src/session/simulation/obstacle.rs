@@ -22,5 +22,8 @@ pub(crate) fn obstacle(size: [f64; 3]) -> ObjectType {
         friction: FRICTION,
         color: COLOR,
         is_round: false,
+        looks: None,
+        balance: [0.0; 3],
+        edition: 0,
     }
 }

@@ -13,6 +13,7 @@ impl Simulation {
     pub(crate) fn restart_with(&mut self, seed: u64) {
         self.seed = seed;
         self.noises = 0;
+        self.go_home();
         self.restart();
         self.last_failure = None;
         self.last_account = None;

@@ -24,7 +24,7 @@ const HIT_SECONDS: f64 = 2.5;
 const MAX_MAPS: usize = 256;
 
 /// Name, type and colour of an object; objects that differ in any of these are distinct nodes.
-type ObjectKey = (String, String, [u32; 4]);
+type ObjectKey = (String, String, [u32; 4], u32);
 
 /// Builds frames of one world, and keeps the nodes that occur in them.
 pub struct FrameBuilder {
@@ -37,7 +37,7 @@ pub struct FrameBuilder {
     robot_links: Vec<(LinkId, u32)>,
     objects: IndexMap<ObjectKey, u32>,
     /// The meshes of objects, by type and colour.
-    meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
+    meshes: IndexMap<(String, [u32; 4], u32), Arc<VisualMesh>>,
     /// The maps of locations that have been shown, with their nodes.
     maps: Vec<(Arc<LocationMap>, u32)>,
     joints: Vec<JointId>,
@@ -272,11 +272,12 @@ impl FrameBuilder {
             name,
             object.type_name().to_owned(),
             object.color().map(f32::to_bits),
+            object.edition(),
         );
         if let Some(known) = self.objects.get(&key) {
             return *known;
         }
-        let look = (key.1.clone(), key.2);
+        let look = (key.1.clone(), key.2, key.3);
         let mesh = self.meshes.entry(look);
         let mesh = mesh.or_insert_with(|| VisualMesh::of(&Scene::of_object(object)).into());
         let mesh = Arc::clone(mesh);

@@ -196,13 +196,14 @@ fn into_folder(
         || options.world_description.is_some()
         || options.robot.is_some()
         || options.robot_description.is_some()
+        || options.objects.is_some()
         || options.noise.is_some()
         || !options.systems.is_empty()
         || !options.setup.is_empty();
     if is_special {
         return Err(CommandError::Sweep(
-            "--into keeps the file and the seed of a sweep, but not --world, --robot, --noise, \
-             --systems or --setup: leave them out, or leave out --into"
+            "--into keeps the file and the seed of a sweep, but not --world, --robot, --objects, \
+             --noise, --systems or --setup: leave them out, or leave out --into"
                 .to_owned(),
         ));
     }

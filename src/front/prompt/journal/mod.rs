@@ -2,7 +2,7 @@
 //! however it ended.
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
-//! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `noise`,
+//! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `objects`, `noise`,
 //! `package-path`, `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
 //! that conditions do not stop; its evaluation begins when the record is on disk. `interrupted` says
 //! where it was interrupted, and `ended` that it has ended, with the hash of the world then, and how;
@@ -47,6 +47,8 @@ pub(crate) struct Beginning {
     pub(crate) robot: Option<PathBuf>,
     /// What that robot's links and joints are for.
     pub(crate) robot_description: Option<PathBuf>,
+    /// Further types of objects.
+    pub(crate) objects: Option<PathBuf>,
     /// The errors of the robot's sensors and motors, as on the command line.
     pub(crate) noise: Option<String>,
     /// Folders with the packages that URDFs name.

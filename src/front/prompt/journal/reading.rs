@@ -111,6 +111,7 @@ impl Earlier {
             Record::RobotDescription(file) => {
                 self.beginning.robot_description = Some(file.into());
             }
+            Record::Objects(file) => self.beginning.objects = Some(file.into()),
             Record::Noise(settings) => self.beginning.noise = Some(settings),
             Record::PackagePath(folder) => self.beginning.package_path.push(folder.into()),
             Record::Systems(folder) => self.beginning.systems.push(folder.into()),

@@ -26,6 +26,7 @@ pub(super) enum Record {
     WorldDescription(String),
     Robot(String),
     RobotDescription(String),
+    Objects(String),
     Noise(String),
     PackagePath(String),
     Systems(String),
@@ -56,6 +57,7 @@ impl Record {
             (&beginning.world_description, Record::WorldDescription),
             (&beginning.robot, Record::Robot),
             (&beginning.robot_description, Record::RobotDescription),
+            (&beginning.objects, Record::Objects),
         ];
         let given = files.into_iter().filter_map(|(file, record)| {
             let file = file.as_ref()?;
@@ -87,6 +89,7 @@ impl Record {
             Record::WorldDescription(file) => ("world-description", escaped(file)),
             Record::Robot(file) => ("robot", escaped(file)),
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
+            Record::Objects(file) => ("objects", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
             Record::PackagePath(folder) => ("package-path", escaped(folder)),
             Record::Systems(folder) => ("systems", escaped(folder)),
@@ -119,6 +122,7 @@ impl Record {
             "world-description" => Record::WorldDescription(unescaped(value)),
             "robot" => Record::Robot(unescaped(value)),
             "robot-description" => Record::RobotDescription(unescaped(value)),
+            "objects" => Record::Objects(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),
             "package-path" => Record::PackagePath(unescaped(value)),
             "systems" => Record::Systems(unescaped(value)),
@@ -156,6 +160,9 @@ impl Record {
 
 /// The name of a file. It keeps its meaning when the session is resumed in another directory.
 fn absolute(file: &Path) -> String {
+    if session::is_generated(file) {
+        return file.to_string_lossy().into_owned();
+    }
     let absolute = std::path::absolute(file);
     let file = absolute.as_deref().unwrap_or(file);
     file.to_string_lossy().into_owned()

@@ -73,6 +73,7 @@ fn what_is_written_is_read_again() {
         world_description: Some("/a b.sexp".into()),
         robot: None,
         robot_description: None,
+        objects: Some("/things.sexp".into()),
         noise: Some("position=0.01".to_owned()),
         package_path: vec!["/packages a".into()],
         systems: vec!["/lisp a".into(), "/lisp b".into()],

@@ -92,6 +92,8 @@ struct Candidate {
 /// All ways to take an object in one state of the world.
 pub struct Candidates {
     all: Vec<Candidate>,
+    /// Why no hand can grasp the object, if that is known of its type.
+    refusal: Option<String>,
     /// What keeps the hand from each of them wherever the base is, as far as it is known.
     barred: RefCell<Vec<Option<GraspObstacle>>>,
 }
@@ -101,7 +103,12 @@ impl Candidates {
     pub fn new(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) -> Self {
         let all = candidates(models, grasps, question);
         let barred = RefCell::new(vec![None; all.len()]);
-        Self { all, barred }
+        let refusal = grasps.refusal(&question.kind).map(str::to_owned);
+        Self {
+            all,
+            refusal,
+            barred,
+        }
     }
 
     /// Whether there are none.
@@ -332,6 +339,7 @@ impl<'w> GraspChooser<'w> {
             widest: gripper.gap(gripper.limits.upper),
             tried,
             missing,
+            refusal: self.candidates.refusal.clone(),
         })
     }
 }
@@ -358,7 +366,7 @@ fn bar_too_heavy(world: &World, question: &GraspQuestion, candidates: &Candidate
             candidate.press.min(arm.gripper.effort),
         );
         let weight = object.mass() * GRAVITY;
-        let at = question.in_map.translation.vector;
+        let at = object.balance_at(&question.in_map);
         if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
             let ExcessTorque { torque, limit } = excess;
             *barred = Some(GraspObstacle::TooHeavy { torque, limit });
@@ -420,8 +428,10 @@ fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) 
     let mut all: Vec<Candidate> = Vec::new();
     for side in &question.arms {
         let wanted = |name: &String| question.grasps.is_empty() || question.grasps.contains(name);
-        // A type without grasps of its own has those of its supertype.
-        let mut kinds = models.objects.lineage(&question.kind).map(|kind| {
+        // A type without grasps of its own has those of its supertype, unless its shape rules them out.
+        let kinds = models.objects.lineage(&question.kind);
+        let kinds = kinds.take_while(|kind| grasps.refusal(kind).is_none());
+        let mut kinds = kinds.map(|kind| {
             let listed = grasps.grasps(kind);
             // What is not listed has to be asked for.
             let others = question.grasps.iter().filter(|n| !listed.contains(n));

@@ -3,8 +3,10 @@
 
 pub(crate) mod grasp_chooser;
 pub(crate) mod grasp_reach;
+mod hand_shape;
 pub(crate) mod handle_chooser;
 pub(crate) mod overhead;
 pub(crate) mod put_reach;
 pub(crate) mod reach;
+pub(crate) mod shape_grasps;
 mod shoulder;

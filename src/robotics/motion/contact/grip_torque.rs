@@ -60,6 +60,27 @@ impl Pads {
         })
     }
 
+    /// Those that press on something with a force (N) from both sides of a gap (m) around a point; `None` if
+    /// their size is not known. All is in a frame whose z axis is up.
+    pub(crate) fn between(
+        gripper: &Gripper,
+        friction: f64,
+        at: Vector3<f64>,
+        axis: Vector3<f64>,
+        gap: f64,
+        press: f64,
+    ) -> Option<Self> {
+        let [length, width] = gripper.pad_size?;
+        Some(Self {
+            at,
+            axis,
+            gap,
+            radius: (length * width / PI).sqrt(),
+            press,
+            strength: 2.0 * friction * press,
+        })
+    }
+
     /// Those that will close, from so far apart (m), on an object which is at a pose in the map frame.
     pub(crate) fn closing(
         gripper: &Gripper,

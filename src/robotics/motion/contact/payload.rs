@@ -47,7 +47,7 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
     {
         return Some(PayloadLimit::Maker(payload));
     }
-    let at = world.object_pose(object.name()).ok()?.translation.vector;
+    let at = object.balance_at(&world.object_pose(object.name()).ok()?);
     let gripper = &arm.gripper;
     let tool = arm.tool_for_wrist(&world.link_pose(arm.wrist));
     let gap = gripper.gap(world.robot_configuration().joints.get(gripper.joint));

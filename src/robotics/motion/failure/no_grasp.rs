@@ -26,6 +26,9 @@ pub struct NoGrasp {
     pub tried: Vec<TriedGrasp>,
     /// What the arm lacks for the nearest of the grasps that are out of reach.
     pub missing: Option<Unreachable>,
+    /// Why no hand can grasp objects of the type, if nothing was tried for that reason.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<String>,
 }
 
 /// A grasp that does not work.
@@ -92,8 +95,12 @@ impl fmt::Display for NoGrasp {
             size: [x, y, z],
             widest,
             tried,
+            refusal,
             ..
         } = self;
+        if let Some(refusal) = refusal.as_ref().filter(|_| tried.is_empty()) {
+            return write!(f, "no hand can grasp {object}, a {kind}: it is {refusal}");
+        }
         if tried.is_empty() {
             return write!(
                 f,

@@ -8,4 +8,5 @@ mod handles;
 mod look;
 mod not_finite;
 mod pick_and_place;
+mod shape_grasps;
 mod together;

@@ -62,8 +62,16 @@ impl Appearances {
         Ok(looks)
     }
 
-    /// The looks of an object of this type with these shapes.
-    pub(crate) fn of_object(&self, kind: &str, shapes: &[PlacedShape]) -> Vec<Look> {
+    /// The looks of an object of this type with these shapes, which is shown as `own` if that is given.
+    pub(crate) fn of_object(
+        &self,
+        kind: &str,
+        shapes: &[PlacedShape],
+        own: Option<&[PlacedShape]>,
+    ) -> Vec<Look> {
+        if let Some(own) = own {
+            return as_described(own);
+        }
         let Some(surfaces) = self.objects.get(kind) else {
             return as_described(shapes);
         };
@@ -237,7 +245,7 @@ mod tests {
                 .iter()
                 .map(|s| Look::of_shape(s, 0.0, Finish::Matt))
                 .collect();
-            let looks = Appearances::built_in().of_object(&kind.name, &kind.shapes);
+            let looks = Appearances::built_in().of_object(&kind.name, &kind.shapes, None);
             let (seen, touched) = (bounds(&looks), bounds(&plain));
             // A cup's handle is only drawn; cutlery is drawn thinner than its boxes.
             let most = if kind.name == "cup" { 0.022 } else { 0.012 };

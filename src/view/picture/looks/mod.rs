@@ -32,8 +32,8 @@ pub struct Looks {
     floor: Arc<Surface>,
     furniture: Vec<Dressed>,
     robot: Vec<Dressed>,
-    /// By type.
-    objects: IndexMap<String, Vec<Look>>,
+    /// By type, with the definition that they are of.
+    objects: IndexMap<String, (u32, Vec<Look>)>,
 }
 
 /// A link with its looks.
@@ -53,10 +53,9 @@ impl Looks {
             robot: dressed(&models.robot, Kind::Robot),
             objects: kinds
                 .map(|kind| {
-                    (
-                        kind.name.clone(),
-                        Appearances::built_in().of_object(&kind.name, &kind.shapes),
-                    )
+                    let own = kind.looks.as_deref();
+                    let looks = Appearances::built_in().of_object(&kind.name, &kind.shapes, own);
+                    (kind.name.clone(), (kind.edition, looks))
                 })
                 .collect(),
         }
@@ -80,8 +79,9 @@ impl Looks {
         for object in world.objects() {
             // The object comes from the world itself.
             if let Ok(pose) = world.object_pose(object.name()) {
-                match self.objects.get(object.type_name()) {
-                    Some(looks) => add_object(object, looks, &pose, &mut bodies),
+                let looks = self.objects.get(object.type_name());
+                match looks.filter(|(edition, _)| *edition == object.edition()) {
+                    Some((_, looks)) => add_object(object, looks, &pose, &mut bodies),
                     // Of a type for which these looks were not made.
                     None => bodies.extend(object_scene(object).bodies),
                 }
@@ -102,7 +102,8 @@ fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
 /// The appearance of an object, in its own frame.
 fn object_scene(object: &Object) -> Scene {
     let mut scene = Scene::default();
-    let looks = Appearances::built_in().of_object(object.type_name(), object.shapes());
+    let looks =
+        Appearances::built_in().of_object(object.type_name(), object.shapes(), object.looks());
     add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
     scene
 }

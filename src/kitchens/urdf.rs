@@ -1,0 +1,112 @@
+//! The text of a URDF, link by link.
+
+use std::fmt::Write;
+
+/// A box: its middle and its edges (m), and the name of its material.
+pub(crate) type Block = ([f64; 3], [f64; 3], &'static str);
+
+/// How a link moves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Moves {
+    /// Not at all.
+    Fixed,
+    /// Along its x axis, so far (m).
+    Slides(f64),
+    /// About its z axis, or the opposite one, so far (rad).
+    Turns { is_left: bool, angle: f64 },
+}
+
+/// The text of a URDF under construction.
+pub(crate) struct Urdf(String);
+
+impl Urdf {
+    /// An empty one, whose root is `world`.
+    pub(crate) fn new(name: &str, materials: &[(&str, [f64; 3])]) -> Self {
+        let mut urdf = Self(String::with_capacity(1 << 16));
+        urdf.line(format_args!("<?xml version=\"1.0\"?>"));
+        urdf.line(format_args!("<robot name=\"{name}\">"));
+        for (name, [red, green, blue]) in materials {
+            urdf.line(format_args!(
+                "  <material name=\"{name}\"><color rgba=\"{red} {green} {blue} 1\"/></material>"
+            ));
+        }
+        urdf.line(format_args!("  <link name=\"world\"/>"));
+        urdf
+    }
+
+    fn line(&mut self, text: impl std::fmt::Display) {
+        // Writing into a text cannot fail.
+        let _ = writeln!(self.0, "{text}");
+    }
+
+    /// Adds a link of blocks, at a place and a heading (rad) in the frame of another one.
+    pub(crate) fn link(
+        &mut self,
+        name: &str,
+        parent: &str,
+        [x, y, z]: [f64; 3],
+        yaw: f64,
+        moves: Moves,
+        blocks: &[Block],
+    ) {
+        self.link_that_shows(name, parent, [x, y, z], yaw, moves, blocks, blocks);
+    }
+
+    /// The same for a link that shows other blocks than those that are solid.
+    #[allow(clippy::too_many_arguments, reason = "a link is made of so many")]
+    pub(crate) fn link_that_shows(
+        &mut self,
+        name: &str,
+        parent: &str,
+        [x, y, z]: [f64; 3],
+        yaw: f64,
+        moves: Moves,
+        blocks: &[Block],
+        shown: &[Block],
+    ) {
+        self.line(format_args!("  <link name=\"{name}\">"));
+        let both = [(shown, true), (blocks, false)];
+        let both = both
+            .into_iter()
+            .flat_map(|(blocks, is_shown)| blocks.iter().map(move |block| (block, is_shown)));
+        for (([x, y, z], [a, b, c], material), is_shown) in both {
+            let shape = format!(
+                "<origin xyz=\"{x:.4} {y:.4} {z:.4}\"/><geometry><box size=\"{a:.4} {b:.4} {c:.4}\"/></geometry>"
+            );
+            self.line(match is_shown {
+                true => format!("    <visual>{shape}<material name=\"{material}\"/></visual>"),
+                false => format!("    <collision>{shape}</collision>"),
+            });
+        }
+        self.line(format_args!("  </link>"));
+        let (kind, axis, upper) = match moves {
+            Moves::Fixed => ("fixed", None, 0.0),
+            Moves::Slides(way) => ("prismatic", Some("1 0 0"), way),
+            Moves::Turns { is_left, angle } => {
+                let axis = if is_left { "0 0 -1" } else { "0 0 1" };
+                ("revolute", Some(axis), angle)
+            }
+        };
+        self.line(format_args!(
+            "  <joint name=\"{name}_joint\" type=\"{kind}\">"
+        ));
+        self.line(format_args!(
+            "    <parent link=\"{parent}\"/><child link=\"{name}\"/>"
+        ));
+        self.line(format_args!(
+            "    <origin xyz=\"{x:.4} {y:.4} {z:.4}\" rpy=\"0 0 {yaw}\"/>"
+        ));
+        if let Some(axis) = axis {
+            self.line(format_args!(
+                "    <axis xyz=\"{axis}\"/><limit lower=\"0\" upper=\"{upper}\" effort=\"100\" velocity=\"1\"/>"
+            ));
+        }
+        self.line(format_args!("  </joint>"));
+    }
+
+    /// The whole text.
+    pub(crate) fn finish(mut self) -> String {
+        self.line(format_args!("</robot>"));
+        self.0
+    }
+}

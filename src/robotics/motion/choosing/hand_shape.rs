@@ -1,0 +1,75 @@
+//! The solids of a hand in the frame of its tool, opened to some gap.
+
+use parry3d_f64::bounding_volume::BoundingVolume;
+use parry3d_f64::math::{Pose as ParryPose, Vector};
+use parry3d_f64::query::intersection_test;
+use parry3d_f64::shape::Shape;
+
+use crate::robot::Side;
+use crate::world::Models;
+use crate::world::solid::{Solid, from_parry_vector, to_parry};
+use spatial::Pose;
+
+/// The solids of a hand.
+pub(super) struct HandShape {
+    /// Each with its pose in the frame of the tool.
+    solids: Vec<(Solid, ParryPose)>,
+}
+
+impl HandShape {
+    /// The hand of a side with its pads so far apart (m).
+    pub(super) fn new(models: &Models, side: Side, gap: f64) -> Self {
+        let arm = models.description.arm(side);
+        let gripper = &arm.gripper;
+        let mut joints = models.description.start_positions(&models.robot);
+        joints.set(gripper.joint, gripper.position_for_gap(gap));
+        let mut poses = Vec::new();
+        let robot = &models.robot;
+        robot.forward_kinematics(&Pose::identity(), &joints, &mut poses);
+        let wrist = poses.get(arm.wrist.index()).copied().unwrap_or_default();
+        let tool = arm.tool_for_wrist(&wrist).inverse();
+        let links: Vec<_> = gripper.links().collect();
+        let parts = models.robot_geometry.solid_links.iter();
+        let parts = parts.filter(|part| links.contains(&part.link));
+        let solids = parts.flat_map(|part| {
+            let link = poses.get(part.link.index()).copied().unwrap_or_default();
+            let at = to_parry(&(tool * link));
+            let solids = part.solids.iter();
+            solids.map(move |solid| (solid.clone(), at * solid.pose))
+        });
+        Self {
+            solids: solids.collect(),
+        }
+    }
+
+    /// Whether it touches any of the solids, given in the frame in which the tool is at a pose.
+    pub(super) fn touches(&self, tool: &Pose, solids: &[Solid]) -> bool {
+        let tool = to_parry(tool);
+        self.solids.iter().any(|(own, at)| {
+            let at = tool * *at;
+            let bounds = own.shape.compute_aabb(&at);
+            solids
+                .iter()
+                .any(|other| bounds.intersects(&other.bounds) && overlaps(&*own.shape, &at, other))
+        })
+    }
+
+    /// How low (m) it reaches with the tool at a pose.
+    pub(super) fn lowest(&self, tool: &Pose) -> f64 {
+        let tool = to_parry(tool);
+        let lows = self.solids.iter().map(|(own, at)| {
+            let at = tool * *at;
+            let down = at.rotation.inverse() * Vector::new(0.0, 0.0, -1.0);
+            let low = own.shape.as_support_map().map(|shape| {
+                from_parry_vector(at.transform_point(shape.local_support_point(down))).z
+            });
+            low.unwrap_or_else(|| own.shape.compute_aabb(&at).mins.z)
+        });
+        lows.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Whether a shape at a pose overlaps a solid; shapes of which that is not known do.
+fn overlaps(shape: &dyn Shape, at: &ParryPose, other: &Solid) -> bool {
+    intersection_test(at, shape, &other.pose, &*other.shape).map_or(true, |hit| hit.intersecting)
+}
