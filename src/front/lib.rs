@@ -53,6 +53,7 @@
 #![warn(missing_docs)]
 
 mod command;
+mod grade_report;
 mod jupyter;
 mod manual;
 #[doc(hidden)]

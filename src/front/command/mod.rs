@@ -12,6 +12,7 @@ mod cache;
 mod check;
 mod completions;
 mod failure;
+mod grade;
 mod heap;
 mod jupyter;
 mod man;
@@ -99,6 +100,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Replay(wanted)) => replay::replay(options, &wanted),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
+        Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check(wanted)) => check::check(options, &wanted),

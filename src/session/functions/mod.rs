@@ -6,6 +6,7 @@ mod containers;
 mod explaining;
 mod grasps;
 mod leaving;
+mod lessons;
 mod locations;
 mod noise;
 mod objects;
