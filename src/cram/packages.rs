@@ -425,7 +425,7 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
         false,
     ),
     ("PLANWRIGHT", "CRAM-DESIGNATORS", "DEF-ACTION", true),
-    // What sweeps, which are written in Lisp, ask of the session.
+    // What sweeps and lessons, which are written in Lisp, ask of the session.
     (
         "PLANWRIGHT",
         "PLAN-SYSTEM",
@@ -434,7 +434,8 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
          %SWEEP-UNIT %SWEEP-OVERRIDE %SWEEP-SET %SWEEP-NOTE %SWEEP-FORGET %NORMAL-DEVIATE \
          %SWEEP-KNOWN %TYPE-OF-OBJECT \
          %SWEEP-SUMMARY %SURFACE-POINT %PLACE-ON-SURFACE %PLACE-ON-FLOOR %SETTLE-WORLD \
-         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P",
+         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P \
+         %DEEDS %BEGIN-DEEDS %LESSON-NAMES",
         false,
     ),
     (

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout)]
 
 mod closed;
+mod grade;
 #[cfg(unix)]
 mod interrupts;
 mod outputs;

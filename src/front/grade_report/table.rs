@@ -40,7 +40,7 @@ pub(crate) fn table(task: &Task, all: &[Graded]) -> String {
         let missed = all.iter().filter(|one| one.undone(step) > 0).count();
         if missed > 0 {
             text.push_str(&format!(
-                "  not done in each world: {} ({missed})\n",
+                "  {}: not done in each world by {missed}\n",
                 visible(step)
             ));
         }

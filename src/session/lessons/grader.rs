@@ -22,6 +22,8 @@ const LESSON: &str = "lesson";
 const MAX_LESSON_LOOKS: u64 = 1_000_000;
 /// Maximum number of characters of what a submission prints that are kept.
 const MAX_KEPT: usize = 2000;
+/// Share of the looks after which cleaning up is ended, too.
+const CLEANING: u64 = 10;
 /// The class of conditions that tell a plan of a limit to memory.
 const HEAP_EXHAUSTED: &str = "HEAP-EXHAUSTED-ERROR";
 
@@ -86,7 +88,10 @@ impl Grader {
         let found = defect::caught(|| {
             let mut session = self.loaded.copied().ok()?;
             session.close();
-            session.set_time_limit(Some(self.allowance.wall_clock));
+            // Macros of the submission are expanded, which may take for ever.
+            let polls = session.image_mut().polls();
+            polls.begin(Some(self.allowance.looks));
+            polls.set_again(Some((self.allowance.looks / CLEANING).max(1)));
             Some(session.check(name, text))
         });
         found.ok().flatten().unwrap_or_default()

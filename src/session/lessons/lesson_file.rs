@@ -106,7 +106,11 @@ impl LessonFile {
                 abort = Some(aborted);
             }
             if let Some(abort) = abort {
-                return Err(placed(name, &abort));
+                if abort.main_place().is_some_and(|at| *at.name == **name) {
+                    return Err(placed(name, &abort));
+                }
+                let at = located(session, place, name);
+                return Err(format!("{at}: {}", abort.report.trim_end()));
             }
         }
         if found == 0 {

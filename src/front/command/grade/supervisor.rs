@@ -3,7 +3,7 @@
 use std::env;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
@@ -87,7 +87,7 @@ impl Supervisor {
     ) -> Result<(), String> {
         let work = Work {
             lesson: self.lesson.clone(),
-            file: graded.file.clone(),
+            file: place_name(&graded.file),
             text: graded.text.clone(),
             seed: self.seed,
             from,
@@ -200,6 +200,15 @@ impl Supervisor {
         }
         let _ = fs::remove_file(&path);
     }
+}
+
+/// The name of a submission in places: folders differ between machines.
+fn place_name(file: &str) -> String {
+    let name = Path::new(file).file_name();
+    name.map_or_else(
+        || file.to_owned(),
+        |name| name.to_string_lossy().into_owned(),
+    )
 }
 
 /// Whether a submission could not end by itself in a world.
