@@ -56,6 +56,7 @@ mod command;
 mod grade_report;
 mod jupyter;
 mod manual;
+mod mcp;
 #[doc(hidden)]
 pub mod measured;
 mod precompiled;

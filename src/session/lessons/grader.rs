@@ -115,14 +115,20 @@ impl Grader {
         world: u64,
         keep: Option<&Path>,
     ) -> Result<Mark, String> {
-        let mut judge = self.loaded.copied().map_err(str::to_owned)?;
         let form = format!("(planwright::%begin-lesson {seed} {world})");
-        if let Some(Datum::List(invalid)) = ask(&mut judge, &form)?.first() {
+        let begun = || -> Result<(Session, Vec<Datum>), String> {
+            let mut session = self.loaded.copied().map_err(str::to_owned)?;
+            let told = ask(&mut session, &form)?;
+            Ok((session, told))
+        };
+        let (mut judge, told) = begun()?;
+        if let Some(Datum::List(invalid)) = told.first() {
             let texts = invalid.iter().filter_map(Datum::as_text);
             let why = texts.collect::<Vec<_>>().join(": ");
             return Ok(unrun(world, Ending::Invalid, why));
         }
-        let mut session = judge.copied().map_err(str::to_owned)?;
+        // The same once more: what a plan of the lesson's has left could not be copied.
+        let (mut session, _) = begun()?;
         ask(&mut session, "(planwright::%inject-lesson-faults)")?;
         session.end_set_up();
         if let Some(path) = keep {

@@ -78,7 +78,7 @@ impl Snapshot {
         simulation.jobs.clear();
     }
 
-    /// Takes the world of another session over, of which this one or both are copies. The names of objects
+    /// Takes the world of another session over, where both are copies of one session, or one of the other. The names of objects
     /// are those that are known here.
     pub(crate) fn adopt(&self, simulation: &mut Simulation) {
         let state = &self.0;
