@@ -6,6 +6,7 @@ mod closed;
 mod grade;
 #[cfg(unix)]
 mod interrupts;
+mod mcp;
 mod outputs;
 mod pseudo_terminal;
 #[cfg(unix)]

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::Duration;
 
 use serde_json::{Value, json};
@@ -42,7 +43,11 @@ pub(super) fn run(
     page: Option<&Path>,
 ) -> Result<Ran, String> {
     if let Some(path) = page {
+        // The page is the server's, not the plan's, which has no files.
+        let closed = Arc::clone(&session.image().files);
+        session.image_mut().files = Arc::clone(&session.options().outside.files);
         let kept = session.keep_run(path);
+        session.image_mut().files = closed;
         kept.map_err(|error| error.to_string())?;
     }
     let printed = Rc::new(RefCell::new((0_usize, String::new())));
