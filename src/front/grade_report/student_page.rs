@@ -43,7 +43,7 @@ pub(crate) fn student_page(task: &Task, one: &Graded) -> String {
     if let Some((world, page)) = &one.replay {
         text.push_str(&format!(
             "<h2>What happened in world {world}</h2>\n\
-             <iframe title=\"The run in world {world}\" sandbox=\"allow-scripts\" \
+             <iframe title=\"The run in world {world}\" \
              style=\"width: 100%; height: 36em; border: 1px solid var(--line)\" srcdoc=\"{}\"></iframe>\n",
             attribute(page)
         ));
