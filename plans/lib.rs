@@ -36,6 +36,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "sweep-draws.plan",
     "sweep-predicates.plan",
     "sweeps.plan",
+    "lessons.plan",
     "going.plan",
     "perceiving.plan",
     "gripper.plan",
@@ -101,9 +102,25 @@ pub const TUTORIAL: &[(&str, &str)] = files![
     "sweeps/transporting.plan",
 ];
 
+/// Name and text of the lessons' files.
+pub const LESSONS: &[(&str, &str)] = files![
+    "lessons/bring-the-bottle.lesson",
+    "lessons/see-more.lesson",
+    "lessons/better-arm.lesson",
+    "lessons/look-again.lesson",
+];
+
+/// The names of the lessons, in the order in which they are best learned.
+pub fn lesson_names() -> impl Iterator<Item = &'static str> {
+    let files = LESSONS
+        .iter()
+        .filter_map(|(file, _)| file.rsplit('/').next());
+    files.filter_map(|file| file.strip_suffix(".lesson"))
+}
+
 /// The text of a file that programs may load by its name, such as `plans/tutorial/skills.plan`,
 /// though there is no such file.
 pub fn text_of(name: &str) -> Option<&'static str> {
-    let mut files = TUTORIAL.iter().chain(DEMOS);
+    let mut files = TUTORIAL.iter().chain(DEMOS).chain(LESSONS);
     files.find(|(file, _)| *file == name).map(|(_, text)| *text)
 }

@@ -242,7 +242,8 @@ pub static PACKAGES: &[PackageRow] = &[
         &["PW"],
         "VISUALIZE-COSTMAP WITH-NOISE DEF-OBJECT-TYPE LOAD-OBJECT-TYPES DEFSWEEP SWEEP SWEEP-WORLD RUN-SWEEP-WORLD INJECTED-FAULTS ON-SURFACE-P UPRIGHT-P \
          ARMS-PARKED-P NOTHING-ON-FLOOR-P NO-PENETRATION-P \
-         WITH-INJECTED-FAILURES EXPORT-EPISODE",
+         WITH-INJECTED-FAILURES DEFLESSON LESSON HINT PICKED-UP-P PUT-DOWN-P NO-COLLISION-P PERFORMED-P \
+         MOTION-FAILED-P FAILURES-HANDLED-P EXPORT-EPISODE",
     ),
 ];
 
@@ -438,7 +439,7 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     // Programs leave by the names that SBCL has for it.
     ("SB-EXT", "PLANWRIGHT", "QUIT EXIT", true),
     ("UIOP", "PLANWRIGHT", "QUIT", true),
-    // What sweeps, which are written in Lisp, ask of the session.
+    // What sweeps and lessons, which are written in Lisp, ask of the session.
     (
         "PLANWRIGHT",
         "PLAN-SYSTEM",
@@ -447,7 +448,8 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
          %SWEEP-UNIT %SWEEP-OVERRIDE %SWEEP-SET %SWEEP-NOTE %SWEEP-FORGET %NORMAL-DEVIATE \
          %SWEEP-KNOWN %TYPE-OF-OBJECT \
          %SWEEP-SUMMARY %SURFACE-POINT %PLACE-ON-SURFACE %PLACE-ON-FLOOR %SETTLE-WORLD \
-         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P",
+         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P \
+         %DEEDS %BEGIN-DEEDS %LESSON-NAMES",
         false,
     ),
     (

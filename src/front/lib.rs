@@ -53,8 +53,10 @@
 #![warn(missing_docs)]
 
 mod command;
+mod grade_report;
 mod jupyter;
 mod manual;
+mod mcp;
 #[doc(hidden)]
 pub mod measured;
 mod precompiled;

@@ -17,6 +17,7 @@ pub mod functions;
 mod host;
 mod illustrate;
 mod interruption;
+pub mod lessons;
 mod live_host;
 mod log_level;
 mod mesh_files;

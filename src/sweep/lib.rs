@@ -10,6 +10,7 @@ mod division;
 pub mod draw;
 mod feature;
 pub mod influence;
+pub mod mark;
 mod normal;
 pub mod paired;
 pub mod pairs;
@@ -20,5 +21,6 @@ pub mod summary;
 mod tree;
 
 pub use draw::Draws;
+pub use mark::Mark;
 pub use normal::normal_quantile;
 pub use record::{Drawn, Ending, Record};

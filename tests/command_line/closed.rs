@@ -62,6 +62,10 @@ fn a_closed_session_refuses_files_ports_and_edits() {
         "(btr-utils:move-robot '((1 1 0) (0 0 0 1)))",
         "(rewind)",
         "(set-noise :position 0.1)",
+        "(roslisp-utilities:startup-ros)",
+        "(pw::%sweep-begin 0 0)",
+        "(pw::%sweep-run-ends)",
+        "(progn (btr::%begin-trial) (pp-tut::with-simulated-robot (pp-tut::park-arms)))",
     ] {
         let (status, out, err) = closed("refused", &[form]);
         if status == Some(0) {

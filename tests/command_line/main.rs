@@ -3,8 +3,10 @@
 #![allow(clippy::print_stdout)]
 
 mod closed;
+mod grade;
 #[cfg(unix)]
 mod interrupts;
+mod mcp;
 mod outputs;
 mod pseudo_terminal;
 #[cfg(unix)]

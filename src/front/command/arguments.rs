@@ -5,7 +5,9 @@ use clap::{Parser, Subcommand};
 
 use super::check::CheckArguments;
 use super::completions::CompletionsArguments;
+use super::grade::GradeArguments;
 use super::jupyter::JupyterCommand;
+use super::mcp::McpArguments;
 use super::options::Options;
 use super::picture::PictureArguments;
 use super::prompt::PromptOptions;
@@ -56,6 +58,10 @@ pub(crate) enum Command {
     Picture(Box<PictureArguments>),
     /// Run a plan in many worlds that differ in a declared way: how often does it work?
     Sweep(Box<SweepOptions>),
+    /// Grade what students have handed in: each in closed worlds of its own, by what happened there
+    Grade(Box<GradeArguments>),
+    /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output)
+    Mcp(McpArguments),
     /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect
     Swank(SwankOptions),
     /// Use planwright in notebooks of Jupyter

@@ -76,6 +76,9 @@ pub(crate) enum CommandError {
     /// A sweep cannot be run.
     #[error("{0}")]
     Sweep(String),
+    /// Submissions cannot be graded.
+    #[error("{0}")]
+    Grade(String),
     /// Not all that was asked for could be written.
     #[error("{}", lines(.0))]
     Unwritten(Vec<CommandError>),

@@ -12,9 +12,11 @@ mod cache;
 mod check;
 mod completions;
 mod failure;
+mod grade;
 mod heap;
 mod jupyter;
 mod man;
+mod mcp;
 mod open;
 mod options;
 mod outputs;
@@ -49,6 +51,7 @@ use watching::WatchArguments;
 
 #[cfg(test)]
 pub(crate) use open::open_default;
+pub(crate) use open::open_for_programs;
 
 /// Runs the command line of this process. `in_use` tells how many bytes its allocator has given
 /// out.
@@ -99,6 +102,8 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Replay(wanted)) => replay::replay(options, &wanted),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
+        Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
+        Some(Command::Mcp(wanted)) => mcp::mcp(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check(wanted)) => check::check(options, &wanted),

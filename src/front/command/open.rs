@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[cfg(test)]
 use clap::Parser;
@@ -17,6 +18,7 @@ use lisp::files::{bytes_of, text_of};
 use lisp::guard::set_stack_budget;
 use lisp::visible::visible;
 use robotics::robot::urdf_text;
+use robotics::world::Models;
 use session::dialogue::Evaluate;
 use session::{self, Session, SessionOptions, is_generated};
 
@@ -84,6 +86,15 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         session.close();
     }
     Ok(session)
+}
+
+/// A fresh session with options, in a kitchen whose descriptions have been read.
+pub(crate) fn open_for_programs(
+    options: &SessionOptions,
+    models: &Arc<Models>,
+) -> Result<Session, String> {
+    set_stack_budget(COMPILER_STACK);
+    Session::with_models(options, Arc::clone(models)).map_err(|error| error.to_string())
 }
 
 /// The description of the kitchen's furniture: the one that is given, or else the file beside the

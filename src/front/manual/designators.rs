@@ -20,7 +20,7 @@ pub(crate) fn write(to: &mut String, image: &Image) {
     chapter(to, image, Class::Motion);
 }
 
-fn chapter(to: &mut String, image: &Image, class: Class) {
+pub(super) fn chapter(to: &mut String, image: &Image, class: Class) {
     for row in schema::all(image, class) {
         write_row(to, image, &row);
     }

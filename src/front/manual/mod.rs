@@ -12,6 +12,8 @@ mod objects;
 
 use std::fmt::Write;
 
+use cram::designator::value::Class;
+use lisp::image::Image;
 use session::Session;
 
 const INTRODUCTION: &str = include_str!("introduction.md");
@@ -46,6 +48,32 @@ pub(crate) fn markdown(session: &Session) -> String {
     designators::write(&mut to, image);
     functors::write(&mut to, image);
     failures::write(&mut to, image);
+    objects::write(
+        &mut to,
+        simulation.object_types(),
+        simulation.grasp_library(),
+    );
+    to
+}
+
+/// The actions, with their keys.
+pub(crate) fn actions(image: &Image) -> String {
+    let mut to = String::new();
+    designators::chapter(&mut to, image, Class::Action);
+    to
+}
+
+/// The motions, with their keys.
+pub(crate) fn motions(image: &Image) -> String {
+    let mut to = String::new();
+    designators::chapter(&mut to, image, Class::Motion);
+    to
+}
+
+/// The types of objects, with their grasps.
+pub(crate) fn object_types(session: &Session) -> String {
+    let mut to = String::new();
+    let simulation = session.simulation();
     objects::write(
         &mut to,
         simulation.object_types(),

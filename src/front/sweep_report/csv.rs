@@ -66,7 +66,7 @@ pub(crate) fn csv(records: &[Record]) -> String {
 
 /// A row, as RFC 4180 has it. No cell is a formula: one that a spreadsheet would take for one begins with
 /// an apostrophe.
-fn row(cells: &[String]) -> String {
+pub(crate) fn row(cells: &[String]) -> String {
     let quoted = |cell: &String| {
         let is_number = cell.parse::<f64>().is_ok();
         let is_formula = !is_number && cell.starts_with(['=', '+', '-', '@', '\t', '\r']);

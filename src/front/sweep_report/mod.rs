@@ -7,8 +7,8 @@ mod junit;
 mod names;
 mod page;
 
-pub(crate) use csv::csv;
+pub(crate) use csv::{csv, row};
 pub(crate) use escape::escaped;
 pub(crate) use heat_map::{axes, heat_map};
 pub(crate) use junit::junit;
-pub(crate) use page::{fragment, html};
+pub(crate) use page::{STYLE, fragment, html};

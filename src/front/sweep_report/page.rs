@@ -14,7 +14,8 @@ const MAX_LISTED: usize = 200;
 /// Kinds with this many worlds or fewer are unfolded at first.
 const MAX_UNFOLDED: usize = 12;
 
-const STYLE: &str = "\
+/// How pages about many worlds look.
+pub(crate) const STYLE: &str = "\
 :root { --paper: #fff; --ink: #1c2127; --soft: #5a646e; --line: #d4d9de; --good: #2c7a3f; --bad: #b3322b; }
 @media (prefers-color-scheme: dark) {
   :root { --paper: #15191d; --ink: #e4e8eb; --soft: #9aa5af; --line: #343c44; --good: #4caf6a; --bad: #e0645c; }

@@ -110,6 +110,11 @@ impl Evaluator {
             sink(event);
         });
         self.tell_halt(was_stopped, aborted);
+        let ended = (outcome == Outcome::Aborted).then_some(class.as_str());
+        self.look_at_lesson(ended, &mut |event| {
+            record.note(&event);
+            sink(event);
+        });
         record.end(outcome, self.image.polls().seen_at());
         let word = match outcome {
             Outcome::Finished => "finished",

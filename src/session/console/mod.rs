@@ -15,6 +15,7 @@ mod halting;
 mod input;
 mod inspector;
 mod judging;
+mod lesson;
 mod line_breaks;
 mod other_syntax;
 pub(crate) mod recovery;

@@ -4,6 +4,8 @@ use super::observer::Observer;
 use super::{PlanEvent, TaskLog};
 use crate::Session;
 use crate::audience::FollowerId;
+use crate::lessons::{Deeds, Witness};
+use std::rc::Rc;
 
 /// An observer of a session.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -19,6 +21,14 @@ impl Session {
             .audience
             .add_follower(&host.simulation, &self.evaluator.image, observer);
         ObserverId(added)
+    }
+
+    /// Notes what happens from now on.
+    pub(crate) fn note_deeds(&mut self, deeds: Rc<Deeds>) {
+        let host = &mut self.evaluator.host;
+        let (simulation, image) = (&host.simulation, &self.evaluator.image);
+        let witness = Box::new(Witness::new(deeds));
+        host.audience.add_follower(simulation, image, witness);
     }
 
     /// Observes no more.

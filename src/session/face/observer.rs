@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::plan_event::{PlanEvent, PlanEventKind, TaskBegin, TaskEnd};
-use robotics::motion::held_objects;
+use crate::lessons::held;
 use robotics::robot::Side;
-use robotics::world::{CollisionHit, World};
+use robotics::world::CollisionHit;
 use view::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 
 /// Tells a function of the program what happens.
@@ -88,14 +88,4 @@ impl Follower for Observer {
     }
 
     fn collide(&mut self, _: f64, _: &CollisionHit) {}
-}
-
-/// The objects that the hands hold.
-fn held(world: &World) -> Vec<(Side, String)> {
-    let sides = [Side::Left, Side::Right].into_iter();
-    let held = sides.flat_map(|side| {
-        let objects = held_objects(world, side).into_iter();
-        objects.map(move |object| (side, object))
-    });
-    held.collect()
 }

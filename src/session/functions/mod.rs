@@ -7,6 +7,7 @@ mod explaining;
 mod grasps;
 mod kitchens;
 mod leaving;
+mod lessons;
 mod locations;
 mod noise;
 mod object_record;

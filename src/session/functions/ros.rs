@@ -1,6 +1,6 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
-use crate::host::call::{done, host};
+use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::plans::{DEMO_SYSTEMS, demo_text};
 use crate::simulation::Simulation;
@@ -42,7 +42,7 @@ pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
         "",
         "Nothing to start: the robot is here already. Takes the world back to its start.",
         &["(roslisp-utilities::%startup-ros) => NIL"],
-        host!(startup_ros),
+        edit!(startup_ros),
     ),
     control(
         "%SHUTDOWN-ROS",

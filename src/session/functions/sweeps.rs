@@ -27,21 +27,21 @@ pub(super) static TABLE: &[Builtin] = &[
         "seed world",
         "Takes everything to the start of a world of a sweep: no objects, the robot at the origin, random numbers as its seed and number say.",
         &[],
-        host!(begin),
+        edit!(begin),
     ),
     control(
         "%SWEEP-RUN-BEGINS",
         "",
         "The plan begins: from here on its time is counted.",
         &[],
-        host!(run_begins),
+        edit!(run_begins),
     ),
     control(
         "%SWEEP-RUN-ENDS",
         "",
         "The plan has ended.",
         &[],
-        host!(run_ends),
+        edit!(run_ends),
     ),
     control(
         "%INJECT",
@@ -90,7 +90,7 @@ pub(super) static TABLE: &[Builtin] = &[
         "name",
         "As RESTORE, without a word.",
         &[],
-        host!(restore_quietly),
+        edit!(restore_quietly),
     ),
     pure(
         "%MUTE-OUTPUT",

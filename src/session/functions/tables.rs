@@ -42,6 +42,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::watching::TABLE),
     ("PLAN-SYSTEM", functions::sweeps::TABLE),
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
+    ("PLAN-SYSTEM", functions::lessons::TABLE),
     ("PLANWRIGHT", crate::record::TABLE),
     ("SWANK", crate::objects::TABLE),
     ("SWANK", functions::serving::TABLE),

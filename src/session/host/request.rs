@@ -29,7 +29,13 @@ impl Host for SimulationHost {
     }
 
     fn perform(&mut self, image: &mut Image, task: TaskId, motion: MotionRequest) -> Reply {
-        self.reply(image, task, |host, image| host.begin(image, &motion))
+        self.reply(image, task, |host, image| {
+            // What is done in a copy of the world has not been done.
+            if host.is_closed && host.person.snapshots.is_trial() {
+                return Err(closed());
+            }
+            host.begin(image, &motion)
+        })
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {

@@ -82,6 +82,15 @@ impl Snapshot {
         simulation.jobs.clear();
     }
 
+    /// Takes the world of another session over, where both are copies of one session, or one of the other. The names of objects
+    /// are those that are known here.
+    pub(crate) fn adopt(&self, simulation: &mut Simulation) {
+        let state = &self.0;
+        simulation.world.restore(&state.world);
+        simulation.held.clone_from(&state.held);
+        simulation.jobs.clear();
+    }
+
     /// Restores the state, in which nothing has moved by itself meanwhile.
     fn put_back(&self, simulation: &mut Simulation) {
         let state = &self.0;

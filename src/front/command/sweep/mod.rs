@@ -8,11 +8,11 @@ mod interrupt;
 mod job;
 mod kept;
 mod options;
-mod pool;
+pub(super) mod pool;
 mod progress;
 mod replay;
 mod shrink;
-mod worker;
+pub(super) mod worker;
 mod worlds;
 
 use std::fs;

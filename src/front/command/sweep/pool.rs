@@ -10,7 +10,7 @@ use crate::command::stack::THREAD_STACK;
 /// every result, in the order of the work, as soon as it and all before it are known; if it returns
 /// false, no more work is begun. Returns all results up to the first that is missing. Nothing is kept
 /// of work that has not begun, of which there may be any amount.
-pub(super) fn in_order<W, I, R: Send, F: FnMut(W) -> R>(
+pub(in crate::command) fn in_order<W, I, R: Send, F: FnMut(W) -> R>(
     threads: usize,
     work: I,
     worker: impl Fn() -> F + Sync,

@@ -26,7 +26,7 @@ pub(super) fn index_of_engine() -> Option<u64> {
 }
 
 /// How many threads there are: as the engine says, else as the machine has.
-pub(super) fn threads() -> usize {
+pub(in crate::command) fn threads() -> usize {
     let of_slurm = env::var("SLURM_CPUS_PER_TASK");
     let of_slurm = of_slurm.ok().and_then(|count| count.parse().ok());
     let of_hq = env::var("HQ_CPUS").ok();

@@ -26,7 +26,8 @@ setInterval(() => {
   const now = addressNow();
   if (now === told) return;
   told = now;
-  history.replaceState(null, '', now);
+  // A saved run that is shown within another page has no address of its own.
+  if (location.protocol !== 'about:') history.replaceState(null, '', now);
 }, 700);
 
 // Goes to where the address points, as far as that is known; anything else in it is ignored.
