@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::{CommandError, Status};
-use super::open::open_session;
+use super::open::{open_for_programs, open_session};
 use super::options::{LogLevel, Options};
 use super::outputs::Outputs;
 use crate::mcp::{Server, World};
@@ -30,7 +30,8 @@ pub(crate) fn mcp(options: &Options, wanted: &McpArguments) -> Result<Status, Co
         ..options.clone()
     };
     let session = open_session(&quiet)?;
-    let world = World::new(session, wanted.folder.clone()).map_err(CommandError::Open)?;
+    let world = World::new(session, wanted.folder.clone(), open_for_programs)
+        .map_err(CommandError::Open)?;
     let input = io::stdin().lock();
     Server::new(world).serve(input, io::stdout().lock())?;
     Ok(Status::Good)

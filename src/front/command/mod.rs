@@ -51,7 +51,6 @@ use watching::WatchArguments;
 
 #[cfg(test)]
 pub(crate) use open::open_default;
-pub(crate) use open::open_for_programs;
 
 /// Runs the command line of this process. `in_use` tells how many bytes its allocator has given
 /// out.

@@ -89,7 +89,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
 }
 
 /// A fresh session with options, in a kitchen whose descriptions have been read.
-pub(crate) fn open_for_programs(
+pub(super) fn open_for_programs(
     options: &SessionOptions,
     models: &Arc<Models>,
 ) -> Result<Session, String> {

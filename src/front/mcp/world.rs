@@ -3,31 +3,39 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::command::open_for_programs;
 use lisp::files::Closed;
 use robotics::world::Models;
 use session::{LogLevel, Session, SessionOptions};
+
+/// Makes a session with options, in a kitchen whose descriptions have been read.
+type Open = fn(&SessionOptions, &Arc<Models>) -> Result<Session, String>;
 
 /// The world at hand, and how to make others.
 pub(crate) struct World {
     options: SessionOptions,
     models: Arc<Models>,
+    open: Open,
     at_hand: Session,
     folder: Option<PathBuf>,
 }
 
 impl World {
     /// A fresh world. `folder` is where pages may be written, if anywhere.
-    pub(crate) fn new(session: Session, folder: Option<PathBuf>) -> Result<World, String> {
+    pub(crate) fn new(
+        session: Session,
+        folder: Option<PathBuf>,
+        open: Open,
+    ) -> Result<World, String> {
         let options = SessionOptions {
             log_level: LogLevel::Warn,
             ..session.options().clone()
         };
         let models = Arc::clone(session.models());
-        let at_hand = made(&options, &models)?;
+        let at_hand = made(open, &options, &models)?;
         Ok(World {
             options,
             models,
+            open,
             at_hand,
             folder,
         })
@@ -35,13 +43,14 @@ impl World {
 
     /// A session with a fresh world.
     pub(super) fn fresh(&self) -> Result<Session, String> {
-        made(&self.options, &self.models)
+        made(self.open, &self.options, &self.models)
     }
 
     /// How to make sessions with fresh worlds.
     pub(super) fn maker(&self) -> impl Fn() -> Result<Session, String> + use<> {
         let (options, models) = (self.options.clone(), Arc::clone(&self.models));
-        move || made(&options, &models)
+        let open = self.open;
+        move || made(open, &options, &models)
     }
 
     /// The session with the world at hand.
@@ -85,8 +94,8 @@ fn shown(path: &Path) -> String {
 }
 
 /// A session without files.
-fn made(options: &SessionOptions, models: &Arc<Models>) -> Result<Session, String> {
-    let mut session = open_for_programs(options, models)?;
+fn made(open: Open, options: &SessionOptions, models: &Arc<Models>) -> Result<Session, String> {
+    let mut session = open(options, models)?;
     session.image_mut().files = Arc::new(Closed);
     let entered = session.run("start", "(in-package :pp-tut)");
     entered.map_err(|failure| failure.to_string())?;

@@ -1,8 +1,8 @@
 //! A lesson under way at the prompt: after each input, what has happened is looked at.
 
 use super::evaluator::Evaluator;
+use crate::deeds::{Deed, Deeds};
 use crate::dialogue::Event;
-use crate::lessons::{Deed, Deeds};
 use crate::live_host::LiveHost;
 use cram::Evaluation;
 use lisp::value::Value;

@@ -4,7 +4,7 @@ use super::observer::Observer;
 use super::{PlanEvent, TaskLog};
 use crate::Session;
 use crate::audience::FollowerId;
-use crate::lessons::{Deeds, Witness};
+use crate::deeds::{Deeds, Witness};
 use std::rc::Rc;
 
 /// An observer of a session.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::plan_event::{PlanEvent, PlanEventKind, TaskBegin, TaskEnd};
-use crate::lessons::held;
+use crate::deeds::held;
 use robotics::robot::Side;
 use robotics::world::CollisionHit;
 use view::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};

@@ -1,8 +1,8 @@
 //! What lessons ask of the session: what has happened, and which lessons are built in.
 
+use crate::deeds::{Deed, Deeds, Witness};
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit};
-use crate::lessons::{Deed, Deeds, Witness};
 use cram::Reply;
 use lisp::builtin::{Builtin, control, pure};
 use lisp::image::Image;

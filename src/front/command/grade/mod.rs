@@ -17,7 +17,7 @@ use super::outputs::Outputs;
 use super::sweep::{pool, worker::threads};
 use crate::grade_report::{Graded, Task, class_page, csv, junit, student_page, table};
 pub(crate) use options::GradeArguments;
-use session::lessons::LessonFile;
+use session::lesson_file::LessonFile;
 use submission::Submission;
 use supervisor::Supervisor;
 use sweep::Ending;

@@ -12,7 +12,7 @@ use crate::command::failure::{CommandError, Status, read};
 use crate::command::open::open_session;
 use crate::command::options::{LogLevel, Options};
 use session::dialogue::Finding;
-use session::lessons::{Allowance, Grader};
+use session::grading::{Allowance, Grader};
 use sweep::Mark;
 
 /// Looks for an interrupt that a submission may take in a world: some seconds of pure calculation. One that

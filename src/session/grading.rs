@@ -5,11 +5,11 @@ use std::path::Path;
 use std::rc::Rc;
 use std::time::Duration;
 
-use super::deeds::{Deed, Deeds};
-use super::{LessonFile, LessonPlan};
 use crate::bounds::{Limit, Limits};
+use crate::deeds::{Deed, Deeds};
 use crate::dialogue::{Evaluate, Finding};
 use crate::face::{Datum, Failure, PlanEventKind};
+use crate::lesson_file::{LessonFile, LessonPlan};
 use crate::person::Snapshot;
 use crate::{Session, defect};
 use cram::Handlers;
