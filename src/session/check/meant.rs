@@ -151,10 +151,14 @@ fn call_hint(image: &Image, form: &Value, name: Sym) -> Option<String> {
 fn unknown_call(image: &Image, form: &Value, variable: Sym, depth: usize) -> Option<Sym> {
     let depth = depth.checked_sub(1)?;
     let parts = || form.iter_list().take(MAX_PARTS);
+    let head = parts().next()?.as_symbol()?;
+    // What stands in a call of a macro is not evaluated as it stands.
+    if let FunctionCell::Macro(_) | FunctionCell::Builtin = image.symbol(head).function {
+        return None;
+    }
     if let Some(found) = parts().find_map(|part| unknown_call(image, &part, variable, depth)) {
         return Some(found);
     }
-    let head = parts().next()?.as_symbol()?;
     let is_argument = parts()
         .skip(1)
         .any(|part| part.as_symbol() == Some(variable));
