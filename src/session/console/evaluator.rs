@@ -165,11 +165,13 @@ impl Evaluator {
         }
         let mended = line_breaks::restored(source_name, text, sink);
         let text = mended.as_deref().unwrap_or(text);
-        other_syntax::tell(source_name, text, sink);
         if self.console.level() > 0 {
             return self.console_input(source_name, text, sink);
         }
         let asked = self.in_full(source_name, text);
+        if asked.is_none() {
+            other_syntax::tell(source_name, text, sink);
+        }
         let text = asked.as_deref().unwrap_or(text);
         self.evaluate_text(source_name, text, sink)
     }
