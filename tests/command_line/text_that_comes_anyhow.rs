@@ -138,7 +138,12 @@ fn a_question_about_completions_is_left_by_ctrl_c() {
             "ar '(1))\r",
             "\n1\nCL-USER>",
         ),
-        ("(m", "--More--", "ax 1 2)\r", "\n2\nCL-USER>"),
+        (
+            "(d",
+            "--More--",
+            "igit-char-p #\\5)\r",
+            "\n5\nCL-USER>",
+        ),
     ] {
         terminal.keys(begun);
         terminal.keys(TAB);
