@@ -138,12 +138,7 @@ fn a_question_about_completions_is_left_by_ctrl_c() {
             "ar '(1))\r",
             "\n1\nCL-USER>",
         ),
-        (
-            "(d",
-            "--More--",
-            "igit-char-p #\\5)\r",
-            "\n5\nCL-USER>",
-        ),
+        ("(d", "--More--", "igit-char-p #\\5)\r", "\n5\nCL-USER>"),
     ] {
         terminal.keys(begun);
         terminal.keys(TAB);
