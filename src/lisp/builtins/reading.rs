@@ -82,6 +82,15 @@ fn reset_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
     })
 }
 
+/// Has a character been made a part of symbols like a letter?
+#[builtin("%CONSTITUENT-P", "character readtable")]
+fn is_constituent(image: &mut Image, args: &[Value]) -> Outcome {
+    let c = character(&args[0])?;
+    with_readtable(image, args.get(1), |table| {
+        Value::bool(table.constituents.borrow().contains(&c))
+    })
+}
+
 /// Lets a character be a part of symbols like a letter.
 #[builtin("%SET-CONSTITUENT", "character readtable")]
 fn set_constituent(image: &mut Image, args: &[Value]) -> Outcome {
@@ -567,6 +576,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
     set_macro_character,
     reset_macro_character,
     set_constituent,
+    is_constituent,
     dispatch_macro_character,
     set_dispatch_macro_character,
 ];

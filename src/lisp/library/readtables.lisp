@@ -10,7 +10,9 @@
   (let ((*readtable* (copy-readtable nil))) (set-macro-character #\\! (get-macro-character #\\')) (read-from-string \"!a\")) => 'A ; 2"
   (check-type character character)
   (multiple-value-bind (function non-terminating-p) (%macro-character character readtable)
-    (let ((standard (and (null function) (%standard-reader character))))
+    (let ((standard (and (null function)
+                         (not (%constituent-p character readtable))
+                         (%standard-reader character))))
       (values (or function standard)
               (if standard (char= character #\#) non-terminating-p)))))
 
@@ -93,7 +95,7 @@ compares readtables finds the same ones.")
   (check-type character character)
   (check-type sub-character character)
   (or (%dispatch-macro-character character sub-character readtable)
-      (and (char= character #\#)
+      (and (%standard-dispatching-p character readtable)
            (find (char-upcase sub-character) "'(\\:.*+-ABCOPRSX=#|")
            (if (char= sub-character #\|)
                #'%skip-block
@@ -135,9 +137,15 @@ compares readtables finds the same ones.")
       (%reset-macro-character character readtable)
       (set-macro-character character '%read-dispatched non-terminating-p readtable)))
 
+(defun %standard-dispatching-p (character readtable)
+  "Is it # with its meaning in the standard syntax?"
+  (and (char= character #\#)
+       (null (%macro-character character readtable))
+       (not (%constituent-p character readtable))))
+
 (defun %check-dispatching (character readtable)
   "Signals an error unless functions of a further character read what begins with a character."
-  (unless (or (char= character #\#)
+  (unless (or (%standard-dispatching-p character readtable)
               (eq (%macro-character character readtable) '%read-dispatched))
     (error "~s is no dispatching macro character; MAKE-DISPATCH-MACRO-CHARACTER makes it one."
            character)))

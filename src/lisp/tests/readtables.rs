@@ -110,3 +110,25 @@ fn blanks_can_be_macro_characters() {
         ),
     ]);
 }
+
+#[test]
+fn a_cleared_character_dispatches_no_more_until_it_is_made_to() {
+    check(&[
+        (
+            "(let ((rt (copy-readtable nil))) (set-syntax-from-char #\\# #\\A rt) (list (get-macro-character #\\# rt) (ignore-errors (get-dispatch-macro-character #\\# #\\x rt))))",
+            "(NIL NIL)",
+        ),
+        (
+            "(let ((rt (copy-readtable nil))) (set-syntax-from-char #\\# #\\A rt) (handler-case (get-dispatch-macro-character #\\# #\\x rt) (error () :no)))",
+            ":NO",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\# #\\A) (make-dispatch-macro-character #\\# t) (set-dispatch-macro-character #\\# #\\! (lambda (s c n) (declare (ignore c n)) (list (read s t nil t)))) (list (read-from-string \"#!5\") (read-from-string \"#'car\")))",
+            "((5) #'CAR)",
+        ),
+        (
+            "(let ((rt (copy-readtable nil))) (set-syntax-from-char #\\( #\\A rt) (get-macro-character #\\( rt))",
+            "NIL ; NIL",
+        ),
+    ]);
+}
