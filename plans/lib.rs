@@ -26,6 +26,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "sight-facts.plan",
     "world-facts.plan",
     "trace-facts.plan",
+    "episodes.plan",
     "ros.plan",
     "retrying.plan",
     "locations.plan",

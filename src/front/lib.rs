@@ -74,7 +74,7 @@ pub use robotics::robot::Side;
 pub use session::dialogue::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub use session::outside::{Clock, MachineClock, Outside};
 pub use session::{
-    Datum, Failure, FramedPose, InterruptHandle, Limit, Limits, ObserverId, PlanEvent,
+    Datum, Failure, FramedPose, InterruptHandle, KeptOutput, Limit, Limits, ObserverId, PlanEvent,
     PlanEventKind, RestoreError, Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled,
     Within,
 };

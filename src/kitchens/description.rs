@@ -3,10 +3,9 @@
 use std::fmt::Write;
 
 use crate::furniture::Inventory;
-use crate::plan::Plan;
 
 /// The description of a kitchen with that inventory.
-pub(crate) fn description(plan: &Plan, inventory: &Inventory) -> String {
+pub(crate) fn description(inventory: &Inventory) -> String {
     let mut text = String::new();
     let mut line = |form: String| {
         // Writing into a text cannot fail.
@@ -128,6 +127,5 @@ pub(crate) fn description(plan: &Plan, inventory: &Inventory) -> String {
             "(view island :link {island} :at (0 0 0) :eye (-2.0 -1.7 2.0))"
         ));
     }
-    let _ = plan;
     text
 }

@@ -3,12 +3,14 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::draws::Numbers;
-use crate::plan::{ASIDE, Module, Plan, Row, Standing, Unit};
-use crate::urdf::{Block, Moves, Urdf};
+use crate::modules::{Module, Unit};
+use crate::opening::Door;
+use crate::plan::{Plan, Row, Standing};
+use crate::urdf::{Block, Joint, Urdf};
 
 /// Thickness (m) of boards, and gaps between fronts.
-const BOARD: f64 = 0.018;
-const GAP: f64 = 0.004;
+pub(super) const BOARD: f64 = 0.018;
+pub(super) const GAP: f64 = 0.004;
 /// Height (m) and thickness of walls.
 const WALL: f64 = 0.1;
 /// Height (m) of the foot of a wall.
@@ -81,19 +83,19 @@ pub(crate) fn write(plan: &Plan, numbers: &Numbers) -> (String, Inventory) {
     (urdf.finish(), inventory)
 }
 
-struct Maker<'a> {
-    plan: &'a Plan,
-    numbers: &'a Numbers,
-    urdf: Urdf,
-    inventory: Inventory,
+/// Makes the links of a plan.
+pub(super) struct Maker<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) numbers: &'a Numbers,
+    pub(super) urdf: Urdf,
+    pub(super) inventory: Inventory,
 }
 
 impl Maker<'_> {
     fn room(&mut self) {
         let [x, y] = self.plan.start;
-        let (moves, none) = (Moves::Fixed, &[]);
-        self.urdf
-            .link("room", "world", [-x, -y, 0.0], 0.0, moves, none);
+        let corner = Joint::fixed("world", [-x, -y, 0.0], 0.0);
+        self.urdf.link("room", corner, &[]);
         let [width, far] = self.plan.room.high;
         let height = self.plan.style.ceiling;
         let [open, close] = self.plan.doorway;
@@ -142,12 +144,11 @@ impl Maker<'_> {
             let shown: Vec<Block> = shown.collect();
             let at = [0.0; 3];
             self.urdf
-                .link_that_shows(name, "room", at, 0.0, Moves::Fixed, &blocks, &shown);
+                .link_that_shows(name, Joint::fixed("room", at, 0.0), &blocks, &shown);
         }
     }
 
     fn row(&mut self, row: &Row) {
-        let style = self.plan.style;
         for (number, module) in row.modules.iter().enumerate() {
             if module.width >= 0.01 {
                 self.module(row, number, module);
@@ -168,7 +169,6 @@ impl Maker<'_> {
                 self.hanging(row, &name, module);
             }
         }
-        let _ = style;
     }
 
     /// The place of a frame whose x axis looks out of the fronts of a row.
@@ -245,148 +245,24 @@ impl Maker<'_> {
         }
         if !module.unit.is_tall() {
             self.urdf
-                .link(&name, "room", at, yaw, Moves::Fixed, &blocks);
+                .link(&name, Joint::fixed("room", at, yaw), &blocks);
         }
         match module.unit {
             Unit::Drawers(shares) => self.drawers(&name, width, [low, high], shares),
             Unit::Door { is_left } => {
-                self.door(&name, &name, is_left, width, [low, high], 0.75, [0.12, 0.3]);
+                self.door(&Door {
+                    unit: &name,
+                    name: &name,
+                    is_left,
+                    width,
+                    span: [low, high],
+                    handle_at: 0.75,
+                    handle_length: [0.12, 0.3],
+                });
             }
             Unit::Fridge { is_left } => self.fridge(at, yaw, width, is_left),
             _ => {}
         }
-    }
-
-    /// The bar of a handle and its posts, along y or z.
-    fn handle(&self, length: f64, is_upright: bool) -> Vec<Block> {
-        let style = self.plan.style;
-        let thick = style.bar;
-        let along = |length: f64| match is_upright {
-            true => [thick, thick, length],
-            false => [thick, length, thick],
-        };
-        let post = style.ahead;
-        let mut blocks: Vec<Block> = vec![([0.0; 3], along(length), "handle")];
-        for end in [-1.0, 1.0] {
-            let far = end * (length - thick) / 2.0;
-            let at = match is_upright {
-                true => [-(thick + post) / 2.0, 0.0, far],
-                false => [-(thick + post) / 2.0, far, 0.0],
-            };
-            blocks.push((at, [post, thick, thick], "handle"));
-        }
-        blocks
-    }
-
-    fn drawers(&mut self, unit: &str, width: f64, [low, high]: [f64; 2], shares: &[f64]) {
-        let style = self.plan.style;
-        let length = (style.depth - 0.08).min(style.travel + 0.04);
-        let mut from = low;
-        let count = shares.len();
-        for (number, share) in shares.iter().enumerate() {
-            let tall = (high - low) * share;
-            let middle = from + tall / 2.0;
-            let name = format!("{unit}_drawer_{}", count - number);
-            let inner = width - 2.0 * BOARD - 0.03;
-            // What is inside ends below the drawer above.
-            let side = (tall - 0.055).max(0.04);
-            let bottom = -tall / 2.0 + 0.025;
-            let walls = bottom + side / 2.0 + 0.005;
-            let blocks: [Block; 5] = [
-                (
-                    [style.front / 2.0, 0.0, 0.0],
-                    [style.front, width - GAP, tall - GAP],
-                    "front",
-                ),
-                (
-                    [-length / 2.0, 0.0, bottom],
-                    [length, inner, 0.012],
-                    "inner",
-                ),
-                (
-                    [-length / 2.0, (inner - 0.014) / 2.0, walls],
-                    [length, 0.014, side],
-                    "inner",
-                ),
-                (
-                    [-length / 2.0, -(inner - 0.014) / 2.0, walls],
-                    [length, 0.014, side],
-                    "inner",
-                ),
-                (
-                    [-length + 0.007, 0.0, walls],
-                    [0.014, inner - 0.028, side],
-                    "inner",
-                ),
-            ];
-            let main = format!("{name}_main");
-            let way = style.travel.min(length);
-            self.urdf.link(
-                &main,
-                unit,
-                [0.0, 0.0, middle],
-                0.0,
-                Moves::Slides(way),
-                &blocks,
-            );
-            let bar = (width - 0.09).min(self.numbers.between("handle.length", 0.16, 0.6));
-            let place = match self.numbers.flag("handle.middle", 0.4) {
-                true => 0.0,
-                false => (tall / 2.0 - 0.045).max(0.0),
-            };
-            let ahead = style.front + style.ahead + style.bar / 2.0;
-            let blocks = self.handle(bar, false);
-            let handle = format!("{name}_handle");
-            self.urdf.link(
-                &handle,
-                &main,
-                [ahead, 0.0, place],
-                0.0,
-                Moves::Fixed,
-                &blocks,
-            );
-            self.inventory.drawers.push((main, middle, tall));
-            from += tall;
-        }
-    }
-
-    /// A door with an upright handle: whose middle is at a share of its height, and how long at most.
-    #[allow(clippy::too_many_arguments, reason = "a door is made of so many")]
-    fn door(
-        &mut self,
-        unit: &str,
-        name: &str,
-        is_left: bool,
-        width: f64,
-        [low, high]: [f64; 2],
-        share: f64,
-        lengths: [f64; 2],
-    ) {
-        let style = self.plan.style;
-        let side = if is_left { -1.0 } else { 1.0 };
-        let tall = high - low - GAP;
-        let door = format!("{name}_door");
-        // The hinge is at the outer edge.
-        let panel: Block = (
-            [-style.front / 2.0, -side * width / 2.0, 0.0],
-            [style.front, width - GAP, tall],
-            "front",
-        );
-        let moves = Moves::Turns {
-            is_left,
-            angle: FRAC_PI_2,
-        };
-        let at = [style.front, side * width / 2.0, (low + high) / 2.0];
-        self.urdf.link(&door, unit, at, 0.0, moves, &[panel]);
-        let length = lengths[1].min(tall * 0.8).max(lengths[0].min(tall * 0.9));
-        let up = ((share - 0.5) * tall)
-            .clamp(-(tall - length) / 2.0 + 0.02, (tall - length) / 2.0 - 0.02);
-        let ahead = style.ahead + style.bar / 2.0;
-        let place = [ahead, -side * (width - 0.045), up];
-        let blocks = self.handle(length, true);
-        let handle = format!("{name}_door_handle");
-        self.urdf
-            .link(&handle, &door, place, 0.0, Moves::Fixed, &blocks);
     }
 
     fn fridge(&mut self, at: [f64; 3], yaw: f64, width: f64, is_left: bool) {
@@ -415,7 +291,7 @@ impl Maker<'_> {
             ));
         }
         self.urdf
-            .link("fridge", "room", at, yaw, Moves::Fixed, &blocks);
+            .link("fridge", Joint::fixed("room", at, yaw), &blocks);
         let (tall, wall) = (roof - low, 0.03);
         let inside = width - 2.0 * wall;
         let blocks: [Block; 5] = [
@@ -460,16 +336,16 @@ impl Maker<'_> {
             ));
         }
         self.urdf
-            .link(main, "fridge", [0.0; 3], 0.0, Moves::Fixed, &blocks);
-        self.door(
-            main,
-            "fridge",
+            .link(main, Joint::fixed("fridge", [0.0; 3], 0.0), &blocks);
+        self.door(&Door {
+            unit: main,
+            name: "fridge",
             is_left,
             width,
-            [low, roof],
-            0.45,
-            [0.3, 0.5],
-        );
+            span: [low, roof],
+            handle_at: 0.45,
+            handle_length: [0.3, 0.5],
+        });
         self.inventory.fridge = Some(main.to_owned());
         self.inventory.usual_joint = Some("fridge_door_joint".to_owned());
     }
@@ -516,7 +392,7 @@ impl Maker<'_> {
                 ]
             }
         };
-        self.urdf.link(name, "room", at, yaw, Moves::Fixed, &blocks);
+        self.urdf.link(name, Joint::fixed("room", at, yaw), &blocks);
         if row.name == "island" {
             self.inventory.island = Some(name.to_owned());
         }
@@ -527,7 +403,7 @@ impl Maker<'_> {
             // It is let in: what stands on it stands on the counter.
             let plate: Block = ([0.0, 0.0, 0.0], [0.5, module.width - 0.04, 0.001], "glass");
             self.urdf
-                .link_that_shows("hob", "room", at, yaw, Moves::Fixed, &[], &[plate]);
+                .link_that_shows("hob", Joint::fixed("room", at, yaw), &[], &[plate]);
         }
     }
 
@@ -575,33 +451,8 @@ impl Maker<'_> {
             at[2] + z,
         ];
         self.urdf
-            .link("sink", "room", place, yaw, Moves::Fixed, &blocks);
+            .link("sink", Joint::fixed("room", place, yaw), &blocks);
         self.inventory.sink = Some("sink".to_owned());
-    }
-
-    /// Whether the door of a cabinet on the wall has room to open.
-    fn opens(&self, row: &Row, module: &Module, is_left: bool) -> bool {
-        let style = self.plan.style;
-        let depth = style.hanging[2];
-        let (from, to) = (module.at, module.at + module.width);
-        let aside = match is_left {
-            true => [from - ASIDE, to],
-            false => [from, to + ASIDE],
-        };
-        let ahead = depth + module.width + style.front + style.ahead + style.bar;
-        let needed = row.rectangle([depth + 0.03, aside[0]], [ahead, aside[1]]);
-        let mut others = self.plan.rows.iter().flat_map(|other| {
-            let modules = other.modules.iter();
-            modules.filter_map(move |one| {
-                let depth = match one.unit.is_tall() {
-                    true => style.depth + 0.08,
-                    false if other.name != row.name && other.has_wall => depth + 0.08,
-                    false => return None,
-                };
-                Some(other.rectangle([0.0, one.at], [depth, one.at + one.width]))
-            })
-        });
-        needed.is_inside(&self.plan.room) && !others.any(|other| other.overlaps(&needed))
     }
 
     /// A cabinet on the wall over a module, or the hood over the hob.
@@ -622,7 +473,7 @@ impl Maker<'_> {
                     "steel",
                 );
                 self.urdf
-                    .link("hood", "room", at, yaw, Moves::Fixed, &[block]);
+                    .link("hood", Joint::fixed("room", at, yaw), &[block]);
             }
             Unit::Drawers(_) | Unit::Door { .. } | Unit::Dishwasher
                 if self.numbers.flag(&format!("{name}.there"), 0.6)
@@ -665,11 +516,19 @@ impl Maker<'_> {
                 ];
                 let count = if high - low > 0.6 { 6 } else { 5 };
                 self.urdf
-                    .link(name, "room", at, yaw, Moves::Fixed, &blocks[..count]);
+                    .link(name, Joint::fixed("room", at, yaw), &blocks[..count]);
                 let wanted = self.numbers.flag(&format!("{name}.hinge"), 0.5);
                 let mut hinges = [wanted, !wanted].into_iter();
                 if let Some(is_left) = hinges.find(|is_left| self.opens(row, module, *is_left)) {
-                    self.door(name, name, is_left, width, [low, high], 0.15, [0.1, 0.14]);
+                    self.door(&Door {
+                        unit: name,
+                        name,
+                        is_left,
+                        width,
+                        span: [low, high],
+                        handle_at: 0.15,
+                        handle_length: [0.1, 0.14],
+                    });
                 }
             }
             _ => {}
@@ -692,6 +551,6 @@ impl Maker<'_> {
             }
         }
         self.urdf
-            .link(name, "room", [x, y, one.height], 0.0, Moves::Fixed, &blocks);
+            .link(name, Joint::fixed("room", [x, y, one.height], 0.0), &blocks);
     }
 }

@@ -9,6 +9,8 @@ mod description;
 mod draws;
 mod floor;
 mod furniture;
+mod modules;
+mod opening;
 mod plan;
 #[cfg(test)]
 mod tests;
@@ -67,7 +69,7 @@ impl Kitchen {
 
     fn of_plan(plan: &Plan, numbers: &Numbers, rejections: Vec<Rejection>) -> Self {
         let (urdf, inventory) = furniture::write(plan, numbers);
-        let description = description::description(plan, &inventory);
+        let description = description::description(&inventory);
         Self {
             urdf,
             description,

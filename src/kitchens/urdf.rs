@@ -16,6 +16,29 @@ pub(crate) enum Moves {
     Turns { is_left: bool, angle: f64 },
 }
 
+/// How a link is joined to another one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Joint<'a> {
+    /// The other link.
+    pub(crate) parent: &'a str,
+    /// Its place (m) and heading (rad) in the frame of that.
+    pub(crate) at: [f64; 3],
+    pub(crate) yaw: f64,
+    pub(crate) moves: Moves,
+}
+
+impl<'a> Joint<'a> {
+    /// One that does not move.
+    pub(crate) fn fixed(parent: &'a str, at: [f64; 3], yaw: f64) -> Self {
+        Self {
+            parent,
+            at,
+            yaw,
+            moves: Moves::Fixed,
+        }
+    }
+}
+
 /// The text of a URDF under construction.
 pub(crate) struct Urdf(String);
 
@@ -39,28 +62,16 @@ impl Urdf {
         let _ = writeln!(self.0, "{text}");
     }
 
-    /// Adds a link of blocks, at a place and a heading (rad) in the frame of another one.
-    pub(crate) fn link(
-        &mut self,
-        name: &str,
-        parent: &str,
-        [x, y, z]: [f64; 3],
-        yaw: f64,
-        moves: Moves,
-        blocks: &[Block],
-    ) {
-        self.link_that_shows(name, parent, [x, y, z], yaw, moves, blocks, blocks);
+    /// Adds a link of blocks, at a joint.
+    pub(crate) fn link(&mut self, name: &str, joint: Joint<'_>, blocks: &[Block]) {
+        self.link_that_shows(name, joint, blocks, blocks);
     }
 
     /// The same for a link that shows other blocks than those that are solid.
-    #[allow(clippy::too_many_arguments, reason = "a link is made of so many")]
     pub(crate) fn link_that_shows(
         &mut self,
         name: &str,
-        parent: &str,
-        [x, y, z]: [f64; 3],
-        yaw: f64,
-        moves: Moves,
+        joint: Joint<'_>,
         blocks: &[Block],
         shown: &[Block],
     ) {
@@ -79,6 +90,12 @@ impl Urdf {
             });
         }
         self.line(format_args!("  </link>"));
+        let Joint {
+            parent,
+            at: [x, y, z],
+            yaw,
+            moves,
+        } = joint;
         let (kind, axis, upper) = match moves {
             Moves::Fixed => ("fixed", None, 0.0),
             Moves::Slides(way) => ("prismatic", Some("1 0 0"), way),

@@ -1,6 +1,5 @@
 //! Grades submissions: each in worlds of its own, judged in an image that it has never seen.
 
-use std::cell::RefCell;
 use std::path::Path;
 use std::rc::Rc;
 use std::time::Duration;
@@ -8,7 +7,7 @@ use std::time::Duration;
 use crate::bounds::{Limit, Limits};
 use crate::deeds::{Deed, Deeds};
 use crate::dialogue::{Evaluate, Finding};
-use crate::face::{Datum, Failure, PlanEventKind};
+use crate::face::{Datum, Failure};
 use crate::lesson_file::{LessonFile, LessonPlan};
 use crate::person::Snapshot;
 use crate::{Session, defect};
@@ -156,10 +155,10 @@ impl Grader {
             Pairs(Handlers::of(image).counts(image))
         };
         session.evaluator.host.simulation.complete(&mut record);
-        let steps = self.plan.steps.iter();
-        let mut unmet = steps.filter(|step| record.expectations.get(&step.name) != Some(&true));
+        let mut steps = self.plan.steps.iter();
+        let unmet = steps.find(|step| record.expectations.get(&step.name) != Some(&true));
         let mut mark = Mark {
-            record: record.clone(),
+            record,
             why: String::new(),
             line: None,
             printed: tried.printed,
@@ -171,7 +170,7 @@ impl Grader {
                 mark.record.cause = simulation.failed_by();
                 mark.record.bodies = simulation.bodies_of_failure();
             }
-        } else if let Some(step) = unmet.next() {
+        } else if let Some(step) = unmet {
             mark.record.outcome = Ending::Expectation;
             mark.record.class = Some(step.name.clone());
             mark.why = format!("It ends, but this was not done: {}", step.text);
@@ -183,21 +182,7 @@ impl Grader {
     fn try_out(&self, session: &mut Session, name: &str, text: &str) -> Tried {
         let deeds = Rc::new(Deeds::default());
         session.note_deeds(Rc::clone(&deeds));
-        let printed = Rc::new(RefCell::new((0_usize, String::new())));
-        let interrupter = session.interrupter();
-        let most = self.allowance.output;
-        let noted = Rc::clone(&printed);
-        session.on_event(move |event| {
-            if let PlanEventKind::Printed(text) = &event.kind {
-                let (bytes, kept) = &mut *noted.borrow_mut();
-                *bytes = bytes.saturating_add(text.len());
-                let room = MAX_KEPT.saturating_sub(kept.chars().count());
-                kept.extend(text.chars().take(room));
-                if *bytes > most {
-                    interrupter.interrupt();
-                }
-            }
-        });
+        let (_, printed) = session.keep_output(MAX_KEPT, self.allowance.output);
         let began = session.time();
         session.evaluator.host.simulation.begin_tally();
         let limits = |simulated: f64| Limits {
@@ -215,12 +200,11 @@ impl Grader {
             run = { asked }.run(LESSON, "(planwright::%run-lesson)");
         }
         session.evaluator.host.simulation.end_tally();
-        let (bytes, kept) = printed.take();
         Tried {
             failure: run.err(),
             deeds,
-            is_loud: bytes > most,
-            printed: kept,
+            is_loud: printed.is_too_long(),
+            printed: printed.take(),
         }
     }
 

@@ -62,8 +62,8 @@ use view::watch::live::Updates;
 pub use audience::{Audience, Filming, WatchError};
 pub use bounds::{InterruptHandle, Limit, Limits};
 pub use face::{
-    Datum, Failure, FramedPose, ObserverId, PlanEvent, PlanEventKind, RestoreError, Snapshot,
-    TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
+    Datum, Failure, FramedPose, KeptOutput, ObserverId, PlanEvent, PlanEventKind, RestoreError,
+    Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions, is_generated};

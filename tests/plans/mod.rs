@@ -37,3 +37,17 @@ mod trace;
 mod transporting;
 mod types;
 mod whole_plan;
+
+use session::Session;
+use session::dialogue::{Evaluate, Event};
+
+/// The last value of a text, or the report of what went wrong.
+fn said(session: &mut Session, text: &str) -> String {
+    let mut said = String::new();
+    session.evaluate("test", text, &mut |event| match event {
+        Event::Values(values) => said = values.join(" ; "),
+        Event::Aborted(abort) => said = abort.report,
+        _ => {}
+    });
+    said
+}

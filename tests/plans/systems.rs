@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use super::said;
 use session::dialogue::{Evaluate, Event};
 use session::{Session, SessionOptions};
 
@@ -37,17 +38,6 @@ impl Drop for Folder {
         // What is left in a folder for temporary files does no harm.
         let _ = fs::remove_dir_all(&self.0);
     }
-}
-
-/// The last value of a text, or the report of what went wrong.
-fn said(session: &mut Session, text: &str) -> String {
-    let mut said = String::new();
-    session.evaluate("test", text, &mut |event| match event {
-        Event::Values(values) => said = values.join(" ; "),
-        Event::Aborted(abort) => said = abort.report,
-        _ => {}
-    });
-    said
 }
 
 /// A file that notes that it has been loaded.

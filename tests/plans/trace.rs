@@ -1,6 +1,7 @@
 //! Questions to the past: what plans have performed, when, and what came of it.
 
-use session::dialogue::{Evaluate, Event};
+use super::said;
+use serde_json::Value;
 use session::{Session, SessionOptions};
 
 fn session() -> Session {
@@ -13,17 +14,6 @@ fn session() -> Session {
                    (cut:force-ll (prolog:prolog goal))))",
     );
     session
-}
-
-/// The values of the last form of a text, or the report of what went wrong.
-fn said(session: &mut Session, text: &str) -> String {
-    let mut said = String::new();
-    session.evaluate("test", text, &mut |event| match event {
-        Event::Values(values) => said = values.join(" ; "),
-        Event::Aborted(abort) => said = abort.report,
-        _ => {}
-    });
-    said
 }
 
 #[test]
@@ -129,4 +119,58 @@ fn an_interrupted_or_failed_plan_is_told_as_such() {
     ] {
         assert_eq!(said(&mut session, question), answer, "{question}");
     }
+}
+
+/// The lines of a file of an episode.
+fn lines(folder: &str, name: &str) -> Vec<Value> {
+    let text = std::fs::read_to_string(format!("{folder}/{name}.jsonl")).expect("it was written");
+    let lines = text.lines().map(serde_json::from_str);
+    lines.collect::<Result<_, _>>().expect("each line is JSON")
+}
+
+#[test]
+fn an_episode_says_the_same_as_the_questions() {
+    let folder = std::env::temp_dir().join(format!("planwright-episode-{}", std::process::id()));
+    let folder = folder.to_str().expect("the name is text");
+    let mut session = session();
+    said(
+        &mut session,
+        "(cpl:top-level
+           (cpl:with-failure-handling
+               ((common-fail:perception-object-not-found (failure)
+                  (declare (ignore failure))
+                  (return nil)))
+             (exe:perform (desig:an action (type detecting) (object (desig:an object (type \"a \\\"b\\\" \\\\\")))))))",
+    );
+    let count = said(&mut session, &format!("(pw:export-episode {folder:?})"));
+    let tasks = lines(folder, "task");
+    assert_eq!(tasks.len().to_string(), count);
+    assert_eq!(
+        said(&mut session, "(length (answers '?t '(coe:task ?t)))"),
+        count
+    );
+    for (number, task) in tasks.iter().enumerate() {
+        assert_eq!(task["task"], number);
+        let parent = task["parent"].as_u64();
+        assert_eq!(parent.is_none(), task["kind"] == "top-level", "{task}");
+        assert!(task["ended"].as_f64() >= task["started"].as_f64(), "{task}");
+    }
+    let failed = said(
+        &mut session,
+        "(length (answers '?t '(coe:task-outcome ?t :failed)))",
+    );
+    let failures = lines(folder, "failure");
+    assert_eq!(failures.len().to_string(), failed);
+    assert!(!failures.is_empty());
+    assert!(
+        failures
+            .iter()
+            .all(|one| one["class"] == "perception-object-not-found")
+    );
+    let keys: Vec<Value> = lines(folder, "param");
+    assert!(
+        keys.iter()
+            .any(|one| one["key"] == "type" && one["text"] == "DETECTING")
+    );
+    std::fs::remove_dir_all(folder).expect("the folder is there");
 }

@@ -25,7 +25,7 @@ pub(crate) fn class_page(task: &Task, all: &[Graded], files: &[String]) -> Strin
             escaped(name)
         ));
     }
-    text.push_str("<th>style</th><th>most often</th></tr>\n");
+    text.push_str("<th>style</th><th class=\"words\">most often</th></tr>\n");
     for (one, file) in all.iter().zip(files) {
         let (passed, tried) = one.passed();
         text.push_str(&format!(
@@ -43,7 +43,7 @@ pub(crate) fn class_page(task: &Task, all: &[Graded], files: &[String]) -> Strin
             .map(|(why, _)| escaped(why))
             .unwrap_or_default();
         text.push_str(&format!(
-            "<td>{}</td><td style=\"text-align: left; white-space: normal\">{why}</td></tr>\n",
+            "<td>{}</td><td class=\"words\">{why}</td></tr>\n",
             one.style.len()
         ));
     }

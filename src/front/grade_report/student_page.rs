@@ -27,14 +27,14 @@ pub(crate) fn student_page(task: &Task, one: &Graded) -> String {
         };
         text.push_str(&format!("<li>{} – {said}</li>\n", escaped(what)));
     }
-    text.push_str("</ul>\n<h2>Worlds</h2>\n<div class=\"wide\" tabindex=\"0\"><table><tr><th>world</th><th>result</th><th>why</th></tr>\n");
+    text.push_str("</ul>\n<h2>Worlds</h2>\n<div class=\"wide\" tabindex=\"0\"><table><tr><th>world</th><th>result</th><th class=\"words\">why</th></tr>\n");
     for mark in &one.marks {
         let result = match mark.record.outcome {
             Ending::Success => "passed".to_owned(),
             other => other.to_string(),
         };
         text.push_str(&format!(
-            "<tr><td>{}</td><td>{result}</td><td style=\"text-align: left; white-space: normal\">{}</td></tr>\n",
+            "<tr><td>{}</td><td>{result}</td><td class=\"words\">{}</td></tr>\n",
             mark.record.world,
             escaped(&mark.why)
         ));

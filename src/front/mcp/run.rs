@@ -50,21 +50,10 @@ pub(super) fn run(
         session.image_mut().files = closed;
         kept.map_err(|error| error.to_string())?;
     }
-    let printed = Rc::new(RefCell::new((0_usize, String::new())));
+    let (keeper, printed) = session.keep_output(MAX_TOLD, MAX_PRINTED);
     let nodes: Rc<RefCell<Vec<String>>> = Rc::default();
-    let interrupter = session.interrupter();
-    let (noted, traced) = (Rc::clone(&printed), Rc::clone(&nodes));
+    let traced = Rc::clone(&nodes);
     let observer = session.on_event(move |event| match &event.kind {
-        PlanEventKind::Printed(text) => {
-            let (bytes, kept) = &mut *noted.borrow_mut();
-            *bytes = bytes.saturating_add(text.len());
-            if kept.len() < MAX_TOLD {
-                kept.extend(text.chars().take(MAX_TOLD - kept.len()));
-            }
-            if *bytes > MAX_PRINTED {
-                interrupter.interrupt();
-            }
-        }
         PlanEventKind::Ended(end) if !matches!(end.id, TaskId::Task(_)) => {
             let mut lines = traced.borrow_mut();
             if lines.len() < MAX_LINES {
@@ -92,6 +81,7 @@ pub(super) fn run(
     };
     let ran = session.within(limits).run(name, text);
     session.remove_observer(observer);
+    session.remove_observer(keeper);
     let values = match ran {
         // The values of the last form, as they are printed.
         Ok(_) => {
@@ -111,13 +101,12 @@ pub(super) fn run(
         let written = session.write_kept_run();
         written.map_err(|error| error.to_string())?;
     }
-    let (bytes, printed) = printed.take();
     Ok(Ran {
         values,
-        printed,
+        is_loud: printed.is_too_long(),
+        printed: printed.take(),
         trace: nodes.take(),
         simulated: session.time() - began,
-        is_loud: bytes > MAX_PRINTED,
     })
 }
 

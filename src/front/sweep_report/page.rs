@@ -28,6 +28,7 @@ pre, code { font: 13px/1.5 ui-monospace, Menlo, Consolas, monospace; } pre { ove
 details { border-top: 1px solid var(--line); padding: 6px 0; } summary { cursor: pointer; overflow-wrap: anywhere; } summary b { display: inline-block; min-width: 3em; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; margin: 8px 0; font-size: 13px; font-variant-numeric: tabular-nums; }
 td, th { padding: 3px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; } td:first-child, th:first-child { text-align: left; padding-left: 0; }
+td.words, th.words { text-align: left; white-space: normal; }
 img { max-width: 100%; height: auto; border-radius: 6px; } p { color: var(--soft); margin: 4px 0; }
 ";
 

@@ -224,11 +224,43 @@ fn call(image: &Image, sym: Sym, lambda_list: &str) -> String {
     }
 }
 
+/// How deeply nested a lambda list is shown, and how many parts of a list.
+const MAX_NESTED: usize = 20;
+const MAX_PARTS: usize = 200;
+
+/// A lambda list as its author wrote it: symbols without their packages. `None` if it is nested more
+/// deeply than that.
+fn bare(image: &Image, value: &Value, depth: usize) -> Option<String> {
+    let depth = depth.checked_sub(1)?;
+    let Value::Cons(_) = value else {
+        return Some(match value.as_symbol() {
+            Some(sym) if image.is_keyword(sym) => format!(":{}", image.name(sym).to_lowercase()),
+            Some(sym) => image.name(sym).to_lowercase(),
+            None => print::to_string(image, value, true),
+        });
+    };
+    let mut parts = Vec::new();
+    let mut rest = value.clone();
+    while let Value::Cons(pair) = &rest {
+        if parts.len() >= MAX_PARTS {
+            return None;
+        }
+        parts.push(bare(image, &pair.car(), depth)?);
+        let next = pair.cdr();
+        rest = next;
+    }
+    if !rest.is_nil() {
+        parts.push(format!(". {}", bare(image, &rest, depth)?));
+    }
+    Some(format!("({})", parts.join(" ")))
+}
+
 /// Lambda list, without parentheses, and documentation of a function.
 fn of_definition(image: &Image, function: &Function) -> (String, Option<String>) {
     match &function.body {
         Body::Closure { code, .. } => {
-            let list = print::to_string(image, code.lambda_list.shown(), true).to_lowercase();
+            let parameters = code.lambda_list.shown();
+            let list = bare(image, parameters, MAX_NESTED).unwrap_or_default();
             let inner = list
                 .strip_prefix('(')
                 .and_then(|rest| rest.strip_suffix(')'))

@@ -21,6 +21,8 @@ pub(super) struct Body {
     pub(super) ignored: Vec<Sym>,
     /// The documentation string.
     pub doc: Option<Rc<str>>,
+    /// The lambda list that was written, if the function has another one.
+    written: Option<Value>,
 }
 
 /// Splits the declarations, and a documentation string if one is allowed, from a body.
@@ -28,7 +30,7 @@ pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
     let mut forms = body.clone();
     let mut specials = Vec::new();
     let mut ignored = Vec::new();
-    let mut doc = None;
+    let (mut doc, mut written) = (None, None);
     while let Value::Cons(cons) = &forms {
         let first = cons.car();
         match &first {
@@ -38,6 +40,10 @@ pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
             Value::Cons(c) if c.car().as_symbol() == Some(known::DECLARE) => {
                 specials.extend(declared(&c.cdr(), &[known::SPECIAL]));
                 ignored.extend(declared(&c.cdr(), &[known::IGNORE, known::IGNORABLE]));
+                let own = c.cdr().car_or_nil();
+                if own.car_or_nil().as_symbol() == Some(known::WRITTEN_LAMBDA_LIST) {
+                    written = Some(own.cdr_or_nil().car_or_nil());
+                }
             }
             _ => break,
         }
@@ -49,6 +55,7 @@ pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
         specials,
         ignored,
         doc,
+        written,
     }
 }
 
@@ -106,7 +113,7 @@ impl Compiler<'_> {
             body: node,
             free,
             id,
-            lambda_list: lambda_list.clone(),
+            lambda_list: body.written.unwrap_or_else(|| lambda_list.clone()),
             doc: body.doc,
         }))
     }

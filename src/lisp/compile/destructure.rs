@@ -208,10 +208,12 @@ pub(crate) fn macro_function(
     let_form.extend(parts.declarations);
     let_form.push(block);
     let ignored = Value::list([known::IGNORE.into(), environment.clone()]);
+    let written = Value::list([known::WRITTEN_LAMBDA_LIST.into(), lambda_list.clone()]);
     let mut lambda = vec![
         known::LAMBDA.into(),
         Value::list([whole, environment]),
         Value::list([known::DECLARE.into(), ignored]),
+        Value::list([known::DECLARE.into(), written]),
     ];
     lambda.extend(parts.doc.map(|doc| Value::string(doc.as_ref())));
     lambda.push(Value::list(let_form));

@@ -102,3 +102,23 @@ fn special_variables_are_no_symbol_macros() {
         ),
     ]);
 }
+
+#[test]
+fn a_macro_is_described_by_the_lambda_list_that_was_written() {
+    check(&[
+        (
+            "(progn (defmacro twice ((name &optional (start 0)) &body forms) \"Does it twice.\" `(let ((,name ,start)) ,@forms ,@forms))
+               (let ((said (with-output-to-string (*standard-output*) (describe 'twice))))
+                 (list (search \"(twice (name &optional (start 0)) &body forms)\" said) (search \"#:\" said))))",
+            "(54 NIL)",
+        ),
+        ("(progn (defmacro both (a &key b) `(list ,a ,b)) (both 1 :b 2))", "(1 2)"),
+        (
+            "(let ((*package* (make-package :drawers :use '(:cl))))
+               (eval (read-from-string \"(defun pull (handle &key (by 7) (how :softly)) (list handle by how))\"))
+               (let ((said (with-output-to-string (*standard-output*) (let ((*package* (find-package :cl-user))) (describe (find-symbol \"PULL\" :drawers))))))
+                 (numberp (search \"(pull handle &key (by 7) (how :softly))\" said))))",
+            "T",
+        ),
+    ]);
+}

@@ -89,12 +89,12 @@ impl Audience {
         }
     }
 
-    /// Whether nobody is shown anything.
-    /// Whether somebody follows who has been shown the kitchen.
-    pub(super) fn follows(&self) -> bool {
-        self.has_followers() || self.view.is_some() || self.writes_files()
+    /// Whether somebody has been shown the kitchen, and would have to be shown another one.
+    pub(super) fn shows_kitchen(&self) -> bool {
+        self.view.is_some() || self.writes_files()
     }
 
+    /// Whether nobody is shown anything.
     pub(super) fn is_empty(&self) -> bool {
         self.observer.is_none()
             && !self.has_followers()

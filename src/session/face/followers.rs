@@ -1,10 +1,10 @@
 //! Observing a session.
 
 use super::observer::Observer;
-use super::{PlanEvent, TaskLog};
+use super::{KeptOutput, PlanEvent, PlanEventKind, TaskLog};
 use crate::Session;
 use crate::audience::FollowerId;
-use crate::deeds::{Deeds, Witness};
+use crate::deeds::Deeds;
 use std::rc::Rc;
 
 /// An observer of a session.
@@ -27,8 +27,24 @@ impl Session {
     pub(crate) fn note_deeds(&mut self, deeds: Rc<Deeds>) {
         let host = &mut self.evaluator.host;
         let (simulation, image) = (&host.simulation, &self.evaluator.image);
-        let witness = Box::new(Witness::new(deeds));
-        host.audience.add_follower(simulation, image, witness);
+        let observer = Box::new(deeds.observer());
+        host.audience.add_follower(simulation, image, observer);
+    }
+
+    /// Keeps what is printed from now on, as many characters as that; the evaluation under way is
+    /// interrupted once there are more bytes than may be.
+    pub fn keep_output(&mut self, characters: usize, max_bytes: usize) -> (ObserverId, KeptOutput) {
+        let output = KeptOutput::new(characters, max_bytes);
+        let (kept, interrupter) = (output.clone(), self.interrupter());
+        let observer = self.on_event(move |event| {
+            if let PlanEventKind::Printed(text) = &event.kind {
+                kept.add(text);
+                if kept.is_too_long() {
+                    interrupter.interrupt();
+                }
+            }
+        });
+        (observer, output)
     }
 
     /// Observes no more.

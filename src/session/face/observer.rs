@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use super::plan_event::{PlanEvent, PlanEventKind, TaskBegin, TaskEnd};
-use crate::deeds::held;
+use robotics::motion::held_objects;
 use robotics::robot::Side;
-use robotics::world::CollisionHit;
+use robotics::world::{CollisionHit, World};
 use view::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 
 /// Tells a function of the program what happens.
-pub(super) struct Observer {
+pub(crate) struct Observer {
     tell: Box<dyn FnMut(&PlanEvent)>,
     /// What has begun and has not ended.
     open: BTreeSet<TaskId>,
@@ -18,7 +18,7 @@ pub(super) struct Observer {
 }
 
 impl Observer {
-    pub(super) fn new(tell: Box<dyn FnMut(&PlanEvent)>) -> Observer {
+    pub(crate) fn new(tell: Box<dyn FnMut(&PlanEvent)>) -> Observer {
         Observer {
             tell,
             open: BTreeSet::new(),
@@ -87,5 +87,17 @@ impl Follower for Observer {
         }
     }
 
-    fn collide(&mut self, _: f64, _: &CollisionHit) {}
+    fn collide(&mut self, time: f64, hit: &CollisionHit) {
+        let bodies = [&hit.moving, &hit.other].map(ToString::to_string);
+        self.tell(time, PlanEventKind::Collided(bodies));
+    }
+}
+
+/// The objects that the hands hold.
+fn held(world: &World) -> Vec<(Side, String)> {
+    let held = Side::BOTH.into_iter().flat_map(|side| {
+        let objects = held_objects(world, side).into_iter();
+        objects.map(move |object| (side, object))
+    });
+    held.collect()
 }

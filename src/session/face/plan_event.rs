@@ -42,6 +42,8 @@ pub enum PlanEventKind {
         /// The hand.
         side: Side,
     },
+    /// Two bodies were, or would have been, in each other, so that a motion has failed: their names.
+    Collided([String; 2]),
 }
 
 /// The begin of a task, an action or a motion.

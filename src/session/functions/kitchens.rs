@@ -26,7 +26,11 @@ pub(super) static TABLE: &[Builtin] = &[control(
 )];
 
 fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    if host.audience.follows() {
+    let seed = match args.first().filter(|seed| seed.is_true()) {
+        None => None,
+        Some(given) => Some(seed_of(given)?),
+    };
+    if host.audience.shows_kitchen() {
         return Err(Raise::simple(
             "The live view and recordings show one kitchen: end them, or start planwright with --world generated:SEED.",
         ));
@@ -37,18 +41,11 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
             "The robot moves: stop it before it gets another kitchen.",
         ));
     }
-    let Some(given) = args.first().filter(|seed| seed.is_true()) else {
+    let Some(seed) = seed else {
         simulation.go_home();
         simulation.restart();
         return done(Value::NIL);
     };
-    let seed = match given {
-        Value::Int(seed) => u64::try_from(*seed).ok(),
-        Value::Big(seed) => u64::try_from(&**seed).ok(),
-        _ => None,
-    };
-    let seed =
-        seed.ok_or_else(|| Raise::simple("A seed is an integer from 0 to 18446744073709551615."))?;
     let kitchen = generated_kitchen(seed).map_err(Raise::reporting)?;
     let name = format!("generated:{seed}");
     let tree = KinematicTree::built_in(&kitchen.urdf, &name).map_err(Raise::reporting)?;
@@ -77,4 +74,14 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
         .flat_map(|(key, value)| [image.keyword(key).into(), value])
         .collect();
     done(Value::list(entries))
+}
+
+/// The seed that a value is.
+fn seed_of(given: &Value) -> Result<u64> {
+    let seed = match given {
+        Value::Int(seed) => u64::try_from(*seed).ok(),
+        Value::Big(seed) => u64::try_from(&**seed).ok(),
+        _ => None,
+    };
+    seed.ok_or_else(|| Raise::simple("A seed is an integer from 0 to 18446744073709551615."))
 }

@@ -1,6 +1,6 @@
 //! What lessons ask of the session: what has happened, and which lessons are built in.
 
-use crate::deeds::{Deed, Deeds, Witness};
+use crate::deeds::{Deed, Deeds};
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit};
 use cram::Reply;
@@ -78,7 +78,7 @@ fn begin(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Re
     if let Some(witness) = deeds.witness() {
         host.audience.remove_follower(witness);
     }
-    let witness = Box::new(Witness::new(std::rc::Rc::clone(&deeds)));
+    let witness = Box::new(std::rc::Rc::clone(&deeds).observer());
     let (audience, simulation) = (&mut host.audience, &host.simulation);
     let witness = audience.add_follower(simulation, image, witness);
     deeds.set_witness(Some(witness));

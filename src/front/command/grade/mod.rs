@@ -131,11 +131,15 @@ fn report(wanted: &GradeArguments, task: &Task, all: &[Graded]) -> Result<Status
     }
     write!(io::stdout(), "{}", table(task, all))?;
     let marks = || all.iter().flat_map(|one| &one.marks);
-    Ok(match () {
-        () if marks().any(|mark| mark.record.outcome == Ending::Defect) => Status::Defective,
-        () if all.iter().all(Graded::is_passed) => Status::Good,
-        () => Status::Bad,
-    })
+    Ok(
+        if marks().any(|mark| mark.record.outcome == Ending::Defect) {
+            Status::Defective
+        } else if all.iter().all(Graded::is_passed) {
+            Status::Good
+        } else {
+            Status::Bad
+        },
+    )
 }
 
 /// Where a lesson is: a file, or the name of one that is built in.

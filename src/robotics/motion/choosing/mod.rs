@@ -3,6 +3,7 @@
 
 pub(crate) mod grasp_chooser;
 pub(crate) mod grasp_reach;
+mod hand_directions;
 mod hand_shape;
 pub(crate) mod handle_chooser;
 pub(crate) mod overhead;
@@ -10,3 +11,4 @@ pub(crate) mod put_reach;
 pub(crate) mod reach;
 pub(crate) mod shape_grasps;
 mod shoulder;
+pub(crate) mod ungraspable;

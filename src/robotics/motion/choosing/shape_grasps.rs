@@ -7,13 +7,13 @@
 //! the hand gets there without touching anything else of the object or what it stands on, and if the
 //! pads bear the torque of its weight. Everything is at fixed places: the same shape has the same grasps.
 
-use std::f64::consts::{FRAC_PI_4, PI};
-
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::Ray;
 
+use super::hand_directions::{AWAY, Direction, directions};
 use super::hand_shape::HandShape;
+use super::ungraspable::Ungraspable;
 use crate::motion::contact::grip_torque::Pads;
 use crate::robot::Side;
 use crate::robot::description::Gripper;
@@ -32,8 +32,6 @@ const NARROW: f64 = 0.012;
 /// the object does not stand exactly level.
 const ABOVE_GROUND: f64 = 0.0015;
 const EASY_ABOVE: f64 = 0.01;
-/// How far (m) the hand approaches and lifts.
-const AWAY: f64 = 0.15;
 /// Where on that way (m) it is tested.
 const ON_THE_WAY: [f64; 4] = [0.0, 0.02, 0.05, 0.1];
 /// Depths (m) of the tool's point behind where it would meet the object.
@@ -73,58 +71,6 @@ pub struct ShapeGrasps {
     pub grip: Grip,
 }
 
-/// Why no hand can grasp objects of a type.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ungraspable {
-    /// An arm cannot carry them.
-    TooHeavy {
-        /// Mass (kg) of one, and the maximum.
-        mass: f64,
-        payload: f64,
-    },
-    /// There is nothing that fits between fingers.
-    TooWide {
-        /// Width (m) of the narrowest part that a hand could come at, and the maximum.
-        width: f64,
-        most: f64,
-    },
-    /// Where they fit, the surface is too slanted for friction.
-    TooSlanted,
-    /// Something of the object, or what it stands on, is in the way of the hand.
-    NoRoom,
-    /// The pads do not bear the torque of its weight.
-    TooLongLever,
-}
-
-impl std::fmt::Display for Ungraspable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::TooHeavy { mass, payload } => write!(
-                f,
-                "too heavy by {:.1} kg: it has {mass:.1} kg, and an arm carries {payload:.1} kg",
-                mass - payload
-            ),
-            Self::TooWide { width, most } => write!(
-                f,
-                "too wide by {:.0} mm: its narrowest part is {:.0} mm wide, and fingers go around {:.0} mm",
-                ((width - most) * 1e3).max(1.0),
-                width * 1e3,
-                most * 1e3
-            ),
-            Self::TooSlanted => {
-                f.write_str("too slanted: where fingers fit around it, they would slip off")
-            }
-            Self::NoRoom => f.write_str(
-                "not accessible: where fingers fit around it, the object itself or what it stands on is in \
-                 the way of the hand",
-            ),
-            Self::TooLongLever => f.write_str(
-                "too unbalanced: where fingers fit around it, its weight would turn it in the hand",
-            ),
-        }
-    }
-}
-
 /// How far an attempt to grasp gets, the farthest last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Stage {
@@ -134,87 +80,12 @@ enum Stage {
     Torque,
 }
 
-/// A direction from which a hand comes, with the axis along which its fingers close.
-struct Direction {
-    name: &'static str,
-    is_top: bool,
-    /// The axes of the hand in the frame of the object: closing, up, ahead.
-    axes: Matrix3<f64>,
-    pregrasp: [f64; 3],
-    second_pregrasp: [f64; 3],
-}
-
 /// A grasp with its merits.
 struct Found {
     cost: f64,
     direction: usize,
     at: Vector3<f64>,
     gap: f64,
-}
-
-/// The names of the sides, counter-clockwise from +x: straight, from above, and over a rim.
-const SIDES: [[&str; 3]; 8] = [
-    ["front", "front-above", "front-rim"],
-    ["front-left", "front-left-above", "front-left-rim"],
-    ["left-side", "left-side-above", "left-side-rim"],
-    ["back-left", "back-left-above", "back-left-rim"],
-    ["back", "back-above", "back-rim"],
-    ["back-right", "back-right-above", "back-right-rim"],
-    ["right-side", "right-side-above", "right-side-rim"],
-    ["front-right", "front-right-above", "front-right-rim"],
-];
-
-/// All directions that are tried; around a round object, which is grasped from all sides as from one, those
-/// from one side.
-fn directions(is_round: bool) -> Vec<Direction> {
-    let mut all = Vec::new();
-    let down = -Vector3::z();
-    for turn in 0..if is_round { 1 } else { 8 } {
-        let (sine, cosine) = trig::sin_cos(f64::from(turn) * PI / 8.0);
-        let closing = Vector3::new(sine, cosine, 0.0);
-        all.push(Direction {
-            name: "top",
-            is_top: true,
-            axes: Matrix3::from_columns(&[closing, down.cross(&closing), down]),
-            pregrasp: [0.0, 0.0, AWAY],
-            second_pregrasp: [0.0, 0.0, AWAY],
-        });
-    }
-    let count = if is_round { 1 } else { SIDES.len() };
-    for (side, names) in SIDES.iter().take(count).enumerate() {
-        let (sine, cosine) = trig::sin_cos(side as f64 * FRAC_PI_4);
-        let out = Vector3::new(cosine, sine, 0.0);
-        let closing = Vector3::new(sine, -cosine, 0.0);
-        let away = out * AWAY;
-        all.push(Direction {
-            name: names[0],
-            is_top: false,
-            axes: Matrix3::from_columns(&[closing, Vector3::z(), -out]),
-            pregrasp: [away.x, away.y, AWAY],
-            second_pregrasp: away.into(),
-        });
-        let ahead = (down - out).normalize();
-        let away = -ahead * AWAY;
-        all.push(Direction {
-            name: names[1],
-            is_top: false,
-            axes: Matrix3::from_columns(&[closing, ahead.cross(&closing), ahead]),
-            pregrasp: away.into(),
-            second_pregrasp: away.into(),
-        });
-        // One finger over the rim and one under it, 60 degrees off the vertical.
-        let ahead = (down - out * 3_f64.sqrt()).normalize();
-        let closing = (out - Vector3::z() * 3_f64.sqrt()).normalize();
-        let away = -ahead * AWAY;
-        all.push(Direction {
-            name: names[2],
-            is_top: false,
-            axes: Matrix3::from_columns(&[closing, ahead.cross(&closing), ahead]),
-            pregrasp: away.into(),
-            second_pregrasp: away.into(),
-        });
-    }
-    all
 }
 
 impl ShapeGrasps {

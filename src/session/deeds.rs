@@ -4,13 +4,12 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use crate::audience::FollowerId;
+use crate::face::{Observer, PlanEvent, PlanEventKind};
 use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::value::copy::Copier;
-use robotics::motion::held_objects;
 use robotics::robot::Side;
-use robotics::world::{CollisionHit, World};
-use view::watch::{Cause, Follower, Observation, TaskId, TaskState, WatchEvent};
+use view::watch::{TaskId, TaskState};
 
 /// Maximum number of deeds that are kept.
 const MAX_DEEDS: usize = 100_000;
@@ -80,6 +79,15 @@ impl Deeds {
         }
     }
 
+    /// What notes those that happen from now on.
+    pub(crate) fn observer(self: Rc<Self>) -> Observer {
+        Observer::new(Box::new(move |event| {
+            if let Some(deed) = deed_of(event) {
+                self.note(deed);
+            }
+        }))
+    }
+
     /// Who notes them, if anybody does.
     pub(crate) fn witness(&self) -> Option<FollowerId> {
         self.witness.get()
@@ -101,63 +109,27 @@ impl Extension for Deeds {
     }
 }
 
-/// A follower that notes what happens.
-pub(crate) struct Witness {
-    deeds: Rc<Deeds>,
-    /// What the hands hold; `None` before the world has been seen.
-    held: Option<Vec<(Side, String)>>,
-}
-
-impl Witness {
-    /// One that notes what happens there.
-    pub(crate) fn new(deeds: Rc<Deeds>) -> Witness {
-        Witness { deeds, held: None }
-    }
-}
-
-impl Follower for Witness {
-    fn see(&mut self, observation: &Observation<'_>, _: Cause) {
-        let held = held(observation.world);
-        let Some(before) = self.held.replace(held.clone()) else {
-            return;
-        };
-        for (side, object) in before.iter().filter(|one| !held.contains(one)) {
-            let (side, object) = (*side, object.clone());
-            self.deeds.note(Deed::Released { object, side });
-        }
-        for (side, object) in held.into_iter().filter(|one| !before.contains(one)) {
-            self.deeds.note(Deed::Held { object, side });
-        }
-    }
-
-    fn hear(&mut self, _: f64, event: &WatchEvent) {
-        let WatchEvent::Task(news) = event else {
-            return;
-        };
-        match (news.id, news.state) {
-            (TaskId::Action(_) | TaskId::Motion(_), TaskState::Succeeded) => {
-                self.deeds.note(Deed::Performed(news.name.clone()));
-            }
-            (TaskId::Motion(_), TaskState::Failed) => self.deeds.note(Deed::Failed {
-                motion: news.name.clone(),
-                class: news.class.clone(),
-            }),
-            _ => {}
-        }
-    }
-
-    fn collide(&mut self, _: f64, hit: &CollisionHit) {
-        let bodies = [&hit.moving, &hit.other].map(ToString::to_string);
-        self.deeds.note(Deed::Collided(bodies));
-    }
-}
-
-/// The objects that the hands hold.
-pub(crate) fn held(world: &World) -> Vec<(Side, String)> {
-    let sides = [Side::Left, Side::Right].into_iter();
-    let held = sides.flat_map(|side| {
-        let objects = held_objects(world, side).into_iter();
-        objects.map(move |object| (side, object))
-    });
-    held.collect()
+/// What an event is as a deed, if it is one.
+fn deed_of(event: &PlanEvent) -> Option<Deed> {
+    Some(match &event.kind {
+        PlanEventKind::Held { object, side } => Deed::Held {
+            object: object.clone(),
+            side: *side,
+        },
+        PlanEventKind::Released { object, side } => Deed::Released {
+            object: object.clone(),
+            side: *side,
+        },
+        PlanEventKind::Collided(bodies) => Deed::Collided(bodies.clone()),
+        PlanEventKind::Ended(end) => match (end.id, &end.failure) {
+            (TaskId::Task(_), _) => return None,
+            (_, None) if end.state == TaskState::Succeeded => Deed::Performed(end.name.clone()),
+            (TaskId::Motion(_), Some((class, _))) => Deed::Failed {
+                motion: end.name.clone(),
+                class: class.clone(),
+            },
+            _ => return None,
+        },
+        _ => return None,
+    })
 }
