@@ -140,7 +140,7 @@ fn an_episode_says_the_same_as_the_questions() {
                ((common-fail:perception-object-not-found (failure)
                   (declare (ignore failure))
                   (return nil)))
-             (exe:perform (desig:an action (type detecting) (object (desig:an object (type \"a \\\"b\\\" \\\\\")))))))",
+             (exe:perform (desig:an action (type detecting) (object (desig:an object (type spoon)))))))",
     );
     let count = said(&mut session, &format!("(pw:export-episode {folder:?})"));
     let tasks = lines(folder, "task");
@@ -172,5 +172,12 @@ fn an_episode_says_the_same_as_the_questions() {
         keys.iter()
             .any(|one| one["key"] == "type" && one["text"] == "DETECTING")
     );
+    let odd = said(
+        &mut session,
+        r#"(coe::json-string (format nil "a \"b\" \\ ~c ~c é" #\tab #\rubout))"#,
+    );
+    let odd: String = serde_json::from_str(&odd).expect("it prints as a string");
+    let odd: String = serde_json::from_str(&odd).expect("it is a string of JSON");
+    assert_eq!(odd, "a \"b\" \\ \t \u{7f} é");
     std::fs::remove_dir_all(folder).expect("the folder is there");
 }

@@ -105,6 +105,9 @@ fn what_documents_and_transcripts_evaluate_has_no_mistakes() {
         let mut session = with_demos();
         for input in inputs(&text, name.ends_with(".md")) {
             count += 1;
+            if input.starts_with("(lesson ") {
+                session.evaluate("lesson", &input, &mut |_| {});
+            }
             for finding in found_in(&mut session, &name, &input) {
                 let is_meant = MEANT.contains(&(name.as_str(), finding.as_str()));
                 // Files that are loaded define what later inputs use.
