@@ -134,3 +134,53 @@ fn noise_that_begins_anew_makes_other_errors() {
     };
     assert_ne!(look(), look());
 }
+
+/// How far (m) bottles end from their target, with the noise of the robot: where they were taken from
+/// a table and brought to the other one. A plan that fails brings none.
+fn misses(noise: &str, count: usize) -> Vec<f64> {
+    let mut all = Vec::new();
+    for number in 0..count {
+        let mut cook = Cook::new();
+        let shown = cook.done(&format!(
+            "(progn
+               (btr-utils:spawn-object 'b :bottle :pose (list (list (- -1.0 (* 0.07 {number})) -0.85 0.86) '(0 0 0 1)))
+               (pw:set-noise {noise})
+               (handler-case
+                   (with-simulated-robot
+                     (let ((?to (make-pose \"map\" '((-0.85 1.5 0.961) (0 0 0 1)))))
+                       (perform (an action (type transporting) (object (an object (type bottle)))
+                                   (location (a location (on (an object (type counter-top)
+                                                                (urdf-name table-area-main)
+                                                                (part-of kitchen)))))
+                                   (target (a location (pose ?to))))))
+                     :brought)
+                 (cpl:plan-failure () :failed)))"
+        ));
+        if shown.contains(":BROUGHT") {
+            let world = cook.session.simulation().world();
+            let at = world.object_pose("B").expect("it is there").translation.vector;
+            all.push((at.x + 0.85).hypot(at.y - 1.5));
+        }
+    }
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+#[test]
+fn errors_are_felt_where_things_end() {
+    let without = misses("", 2);
+    assert!(without.len() == 2 && without.iter().all(|miss| *miss < 1e-3), "{without:?}");
+    for noise in [
+        ":position 0.01",
+        ":odometry-position 0.01",
+        ":odometry-yaw 0.02",
+        ":grasp-position 0.01",
+    ] {
+        let felt = misses(noise, 3);
+        let most = felt.last().copied().unwrap_or_default();
+        assert!((2e-3..0.05).contains(&most), "{noise}: {felt:?}");
+    }
+    let usual = misses(":usual", 7);
+    let middle = usual.get(usual.len() / 2).copied().unwrap_or_default();
+    assert!((5e-3..30e-3).contains(&middle), "{usual:?}");
+}

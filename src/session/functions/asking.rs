@@ -430,7 +430,7 @@ fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Res
 }
 
 fn hand_reaches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let tool = simulation.base().inverse() * simulation.pose_in_map(image, &args[0])?;
+    let tool = simulation.believed_base().inverse() * simulation.pose_in_map(image, &args[0])?;
     let side = side(image, &args[1])?;
     let object = args.get(2).filter(|object| object.is_true());
     let object = object.map(|name| simulation.object_named(image, name));
@@ -469,6 +469,7 @@ fn put_in_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
         grasp: type_text(image, &args[2]),
         turn: 0.0,
         taken_from,
+        tool_in_object: None,
     };
     simulation.held.insert(name, held);
     done(Value::NIL)

@@ -181,7 +181,7 @@ impl Simulation {
         };
         // The robot may have moved since, so the pose in the map frame counts.
         let in_base = match (entry("POSE-IN-MAP"), entry("POSE")) {
-            (Some(in_map), _) => self.base().inverse() * in_map,
+            (Some(in_map), _) => self.believed_base().inverse() * in_map,
             (None, Some(in_base)) => in_base,
             (None, None) => {
                 return Err(Raise::simple(format!(
@@ -425,7 +425,8 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         side,
         turn: definition.map_or(0.0, |d| simulation.turn_of(&object, side, &d)),
         grasp,
-        taken_from: simulation.base() * object.in_base,
+        taken_from: simulation.believed_base() * object.in_base,
+        tool_in_object: simulation.believed_grip(&object.in_base, side),
     };
     simulation.held.insert(object.name, held);
     done(Value::NIL)
@@ -449,7 +450,7 @@ fn taken_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     let name = simulation.object_named(image, &args[0])?;
     let held = simulation.held.get(&name);
     done(held.map_or(Value::NIL, |held| {
-        simulation.in_base(&(simulation.base().inverse() * held.taken_from))
+        simulation.in_base(&(simulation.believed_base().inverse() * held.taken_from))
     }))
 }
 
@@ -470,7 +471,7 @@ fn grip(simulation: &Simulation, image: &Image, args: &[Value]) -> Result<HeldGr
 fn pose_in_base(simulation: &Simulation, image: &Image, pose: &Value) -> Result<Pose> {
     match frame_of(pose) {
         Some(frame) if simulation.is_base(&frame) => simulation.pose_as_given(image, pose),
-        _ => Ok(simulation.base().inverse() * simulation.pose_in_map(image, pose)?),
+        _ => Ok(simulation.believed_base().inverse() * simulation.pose_in_map(image, pose)?),
     }
 }
 

@@ -343,7 +343,7 @@ fn get_robot_transformation(
     done(transform_stamped(
         "map",
         simulation.base_frame(),
-        &simulation.base(),
+        &simulation.believed_base(),
     ))
 }
 

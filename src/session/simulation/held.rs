@@ -19,6 +19,9 @@ pub(crate) struct Held {
     pub turn: f64,
     /// Where it was detected before that, in the map.
     pub(crate) taken_from: Pose,
+    /// The pose of the tool in the frame of the object as the robot takes it to be, if it may err: as the
+    /// object was seen, and as the hand was to go.
+    pub(crate) tool_in_object: Option<Pose>,
 }
 
 impl Simulation {
@@ -53,6 +56,31 @@ impl Simulation {
         let kind = self.world.object(object)?.type_name();
         let grasp = held.and_then(|held| self.definition(kind, side, held.grasp.as_ref()?));
         let turn = held.map_or(0.0, |held| held.turn);
-        HeldGrip::of(&self.world, side, object, grasp.as_ref(), turn)
+        let grip = HeldGrip::of(&self.world, side, object, grasp.as_ref(), turn)?;
+        Ok(match held.and_then(|held| held.tool_in_object) {
+            Some(tool) => grip.as_believed(tool),
+            None => grip,
+        })
+    }
+
+    /// How the robot takes a hand to hold an object that it sees at a pose in the frame of the base: the
+    /// pose of the tool in the frame of the object; `None` if it does not err.
+    pub(crate) fn believed_grip(&self, object_in_base: &Pose, side: Side) -> Option<Pose> {
+        let noise = self.world.noise()?;
+        let arm = self.models.description.arm(side);
+        let tool = arm.tool_for_wrist(&self.world.link_pose(arm.wrist));
+        let tool = noise.believed_hand(side, &(self.base().inverse() * tool));
+        Some(object_in_base.inverse() * tool)
+    }
+
+    /// Corrects how the robot takes a hand to hold an object, if it sees a held one.
+    pub(super) fn see_grip(&mut self, object: &str, in_base: &Pose) {
+        let Some(side) = self.held.get(object).map(|held| held.side) else {
+            return;
+        };
+        let believed = self.believed_grip(in_base, side);
+        if let Some(held) = self.held.get_mut(object) {
+            held.tool_in_object = believed;
+        }
     }
 }

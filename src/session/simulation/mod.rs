@@ -278,6 +278,11 @@ impl Simulation {
     pub(super) fn base(&self) -> Pose {
         self.world.robot_configuration().base
     }
+
+    /// Where the robot takes its base to be in the map frame.
+    pub(super) fn believed_base(&self) -> Pose {
+        self.world.believed_base()
+    }
 }
 
 fn starting_world(models: &Arc<Models>) -> World {

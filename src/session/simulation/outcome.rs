@@ -55,6 +55,9 @@ impl Simulation {
                 Value::NIL
             }
             MotionOutcome::Detected(objects) => {
+                for object in objects {
+                    self.see_grip(&object.name, &object.pose_in_base);
+                }
                 let named = objects.iter().map(|o| (self.symbol_of(&o.name), o));
                 let named: Vec<(Value, &DetectedObject)> = named.collect();
                 detected(image, &named, subject, self.base_frame())

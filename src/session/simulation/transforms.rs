@@ -35,14 +35,14 @@ impl Simulation {
         pose_stamped(self.base_frame(), pose)
     }
 
-    /// The pose of a frame in the map frame.
+    /// The pose of a frame in the map frame, for the robot's links as the robot takes it to be.
     pub(crate) fn frame_in_map(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
         if self.is_map(name) {
             return Ok(Pose::identity());
         }
         if let Some(link) = self.models.robot.link_named(name) {
-            return Ok(self.world.link_pose(link));
+            return Ok(self.world.to_belief(&self.world.link_pose(link)));
         }
         if let Some(link) = self.models.kitchen.link_named(name) {
             return Ok(self.world.furniture_pose(link));

@@ -71,6 +71,13 @@ impl HeldGrip {
         })
     }
 
+    /// The grip as the robot takes it to be, with the tool at the pose in the frame of the object.
+    #[must_use]
+    pub fn as_believed(mut self, tool_in_object: Pose) -> Self {
+        self.tool_in_object = tool_in_object;
+        self
+    }
+
     /// The grip that a hand has after picking an object up by a grasp, turned (rad) about the axis of
     /// a round object. How far the fingers will be apart on it is not known: they open as far (m) to let
     /// go as to grasp.

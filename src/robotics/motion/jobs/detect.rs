@@ -4,7 +4,7 @@ use super::job::{Activity, DetectedObject, Job, MotionOutcome, MotionStatus, Pro
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::perception::Sight;
-use crate::world::noise::Perceived;
+use crate::world::noise::{Perceived, Sighting};
 use crate::world::{Object, World};
 
 /// Which objects are looked for.
@@ -59,7 +59,7 @@ impl Search {
         let sight = Sight::of_robot(world);
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
         for object in world.objects() {
-            let perceived = world.noise().map(|noise| noise.perceived(object.name()));
+            let perceived = perceived(world, &sight, object);
             let type_name = apparent_type(world, object, perceived.as_ref());
             if !self.matches(object.name(), type_name) || perceived.is_some_and(|p| p.is_missed) {
                 continue;
@@ -77,7 +77,7 @@ impl Search {
                     name: object.name().to_owned(),
                     type_name: type_name.to_owned(),
                     pose_in_base: base.inverse() * pose,
-                    pose_in_map: pose,
+                    pose_in_map: world.to_belief(&pose),
                 });
             }
             candidates.push(visibility);
@@ -93,6 +93,20 @@ impl Search {
         }
         Ok(seen)
     }
+}
+
+/// What the camera makes of the object if it errs.
+fn perceived(world: &World, sight: &Sight<'_>, object: &Object) -> Option<Perceived> {
+    let noise = world.noise()?;
+    let at = world.object_pose(object.name()).ok()?;
+    let camera = sight.picture().camera();
+    let at = camera.pose.inverse_transform_point(&at.translation.vector.into());
+    let distance = at.coords.norm();
+    let sighting = Sighting {
+        distance,
+        cosine: at.z / distance.max(f64::EPSILON),
+    };
+    Some(noise.perceived(object.name(), &sighting))
 }
 
 /// The type that an object is taken for.

@@ -71,8 +71,10 @@ pub struct BaseMotion {
     ahead_is_sure: bool,
     /// Number of paths found so far.
     plans: u32,
-    /// How far beside the end of the path the base arrives: x, y (m) and heading (rad).
+    /// How far the base is beside where the robot takes it to be at the end of the path, and at its
+    /// beginning: x, y (m) and heading (rad).
     drift: BasePlace,
+    former_drift: BasePlace,
     replanning: Replanning,
 }
 
@@ -94,6 +96,7 @@ impl Drive {
             ahead_is_sure: false,
             plans: 0,
             drift: [0.0; 3],
+            former_drift: [0.0; 3],
             replanning: Replanning::default(),
         })
     }
@@ -115,7 +118,8 @@ impl BaseMotion {
         self.steady >= STEADY
     }
 
-    fn plan(&self, world: &World) -> Result<TrajectoryFollower, MotionFailure> {
+    /// A trajectory, and the length of its path (m).
+    fn plan(&self, world: &World) -> Result<(TrajectoryFollower, f64), MotionFailure> {
         check_finite(ProcessModule::Navigation, &self.goal)?;
         let path = plan_drive(world, self.goal)?;
         let base = &world.models().description.base;
@@ -132,7 +136,7 @@ impl BaseMotion {
             <BasePlace>::try_from(place).is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
         };
         let trajectory = Trajectory::rounded(&points, &limits, &mut is_free);
-        Ok(TrajectoryFollower::new(trajectory))
+        Ok((TrajectoryFollower::new(trajectory), length_of(&path)))
     }
 
     /// Searches for a path; what is in the way while the posture changes may be gone later.
@@ -148,13 +152,15 @@ impl BaseMotion {
             Attempt::Now => {}
         }
         match self.plan(world) {
-            Ok(follower) => {
+            Ok((follower, way)) => {
                 self.plans += 1;
                 self.replanning.reset();
                 self.ahead = None;
                 self.follower = Some(follower);
-                let noise = world.noise();
-                self.drift = noise.map_or([0.0; 3], |noise| noise.of_drive(world.steps()));
+                if let Some(noise) = world.noise() {
+                    self.former_drift = noise.base_error();
+                    self.drift = noise.of_drive(world.steps(), way);
+                }
                 None
             }
             Err(failure) if failure.may_pass() => {
@@ -231,7 +237,7 @@ impl BaseMotion {
         {
             return self.give_up_trajectory(hit);
         }
-        let next = next_place(follower, &self.drift, world);
+        let (next, error) = next_place(follower, [&self.former_drift, &self.drift], world);
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
             return match self.trouble.take() {
                 Some(failure) => Some(MotionStatus::failed(failure)),
@@ -244,6 +250,7 @@ impl BaseMotion {
             follower.advance()
         }
         world.set_robot_configuration(&next);
+        note_error(world, error);
         None
     }
 
@@ -252,13 +259,14 @@ impl BaseMotion {
         let Some(follower) = &mut self.follower else {
             return;
         };
-        let next = next_place(follower, &self.drift, world);
+        let (next, error) = next_place(follower, [&self.former_drift, &self.drift], world);
         if guard::obstacle(world, &next, &AllowedPairs::none()).is_some() {
             follower.stop();
             return;
         }
         follower.brake();
         world.set_robot_configuration(&next);
+        note_error(world, error);
     }
 
     /// Stops; another path is searched for in the next ticks.
@@ -270,13 +278,14 @@ impl BaseMotion {
     }
 }
 
-/// The robot after the next step along the path, beside which the base drifts by `drift` on the
-/// whole.
+/// The robot after the next step along the path, beside which the base drifts, and how far it is beside
+/// where the robot takes it to be then. That has been the first drift at the beginning of the path and is
+/// the second one at its end.
 fn next_place(
     follower: &TrajectoryFollower,
-    drift: &BasePlace,
+    [former, drift]: [&BasePlace; 2],
     world: &World,
-) -> RobotConfiguration {
+) -> (RobotConfiguration, BasePlace) {
     let mut place = follower.next();
     // A cubic, so that the drift changes the speed of the base nowhere at once.
     let fraction = follower.fraction();
@@ -284,7 +293,28 @@ fn next_place(
     for (axis, drift) in place.iter_mut().zip(drift) {
         *axis += drift * share;
     }
-    at_place(world.robot_configuration(), &place)
+    let mut error = *drift;
+    for (error, former) in error.iter_mut().zip(former) {
+        *error += (former - *error) * (1.0 - share);
+    }
+    (at_place(world.robot_configuration(), &place), error)
+}
+
+/// Sets how far the base is beside where the robot takes it to be.
+fn note_error(world: &mut World, error: BasePlace) {
+    if let Some(noise) = world.noise_mut() {
+        noise.set_base_error(error);
+    }
+}
+
+/// The length of a path of the base (m), in which a turn counts as much as a circle of half a metre's
+/// radius.
+fn length_of(path: &[BasePlace]) -> f64 {
+    let legs = path.iter().zip(path.iter().skip(1));
+    legs.map(|([x, y, yaw], [to_x, to_y, to_yaw])| {
+        libm::hypot(to_x - x, to_y - y) + 0.5 * (to_yaw - yaw).abs()
+    })
+    .sum()
 }
 
 /// The torso's and the arms' joints.

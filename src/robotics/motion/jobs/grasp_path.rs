@@ -74,8 +74,7 @@ fn follow(
 ) -> Result<(), MotionFailure> {
     let mut poses = [None; 2];
     poses[side.index()] = Some(PoseGoal::InBase(station.tool));
-    let goal = HandGoal::new(poses, path, mode, Some(object.to_owned()));
-    let mut goal = goal.without_error();
+    let mut goal = HandGoal::new(poses, path, mode, Some(object.to_owned()));
     for plans in 0..HandGoal::MAX_PLANS {
         let plan = goal.plan(world, plans)?;
         world.teleport_robot(&plan.end(world.robot_configuration()));

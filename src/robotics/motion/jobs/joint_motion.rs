@@ -25,6 +25,9 @@ pub trait JointGoal: Clone + 'static {
     /// What the robot is doing, such as "looking".
     fn what(&self) -> &'static str;
 
+    /// Lets the robot miss the goal by as much as it errs. Called before each plan.
+    fn err(&mut self, _: &mut World) {}
+
     /// The plan to the goal; `plans` is the number of earlier plans.
     fn plan(&mut self, world: &World, plans: u32) -> Result<JointPlan, MotionFailure>;
 
@@ -91,12 +94,13 @@ impl<G: JointGoal> JointMotion<G> {
     }
 
     /// Plans. What is in the way while the robot is still moving may be gone later.
-    fn try_plan(&mut self, world: &World) -> Result<(), MotionFailure> {
+    fn try_plan(&mut self, world: &mut World) -> Result<(), MotionFailure> {
         match self.replanning.next(world, G::BLOCKED_TIMEOUT) {
             Attempt::Later => return Ok(()),
             Attempt::GiveUp(failure) => return Err(failure),
             Attempt::Now => {}
         }
+        self.goal.err(world);
         match self.goal.plan(world, self.plans) {
             Ok(plan) => {
                 self.plans += 1;

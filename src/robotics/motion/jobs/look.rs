@@ -89,7 +89,7 @@ impl LookGoal {
         let base = world.robot_configuration().base;
         let origin = |pose: &Pose| Point3::from(pose.translation.vector);
         Ok(match &self.target {
-            LookTarget::InMap(pose) => Some(origin(pose)),
+            LookTarget::InMap(pose) => Some(origin(&world.from_belief(pose))),
             LookTarget::InBase(pose) => Some(origin(&(base * pose))),
             LookTarget::Direction(direction) => direction.point().map(|p| base * p),
             LookTarget::Frame(name) => {

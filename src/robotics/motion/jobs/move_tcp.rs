@@ -88,28 +88,6 @@ impl HandGoal {
         }
     }
 
-    /// The same goals, which the hands do not miss.
-    pub(super) fn without_error(mut self) -> Self {
-        self.has_erred = true;
-        self
-    }
-
-    /// Lets empty hands that approach an object miss their goals by as much as the robot does.
-    fn err(&mut self, world: &World) {
-        let Some(noise) = world.noise() else { return };
-        if self.has_erred || self.mode == CollisionMode::AvoidAll {
-            return;
-        }
-        self.has_erred = true;
-        for (side, goal) in Side::BOTH.into_iter().zip(&mut self.poses) {
-            let Some(PoseGoal::InBase(pose) | PoseGoal::InMap(pose)) = goal else {
-                continue;
-            };
-            if held_objects(world, side).is_empty() {
-                *pose = noise.of_approach(world.steps(), side, pose);
-            }
-        }
-    }
 }
 
 impl JointGoal for HandGoal {
@@ -125,9 +103,23 @@ impl JointGoal for HandGoal {
         }
     }
 
+    /// Empty hands that approach an object miss it.
+    fn err(&mut self, world: &mut World) {
+        if self.has_erred || world.noise().is_none() || self.mode == CollisionMode::AvoidAll {
+            return;
+        }
+        self.has_erred = true;
+        for (side, goal) in Side::BOTH.into_iter().zip(&mut self.poses) {
+            if held_objects(world, side).is_empty()
+                && let Some(goal) = goal
+            {
+                *goal = missed(*goal, side, world);
+            }
+        }
+    }
+
     fn plan(&mut self, world: &World, plans: u32) -> Result<JointPlan, MotionFailure> {
-        self.err(world);
-        let base = world.robot_configuration().base;
+        let base = world.believed_base();
         let goals = Side::BOTH.into_iter().zip(self.poses);
         let goals: Vec<(Side, Pose)> = goals
             .filter_map(|(side, goal)| Some((side, in_base(goal?, &base))))
@@ -167,7 +159,7 @@ impl JointGoal for HandGoal {
 
     /// Another job may have moved the torso, or the base for a goal in the map frame.
     fn arrived(&mut self, world: &mut World) -> Arrival {
-        let base = world.robot_configuration().base;
+        let base = world.believed_base();
         for (side, goal) in Side::BOTH.into_iter().zip(self.poses) {
             let Some(goal) = goal else { continue };
             let hand = tcp_in_base(world, side);
@@ -191,7 +183,16 @@ impl JointGoal for HandGoal {
     }
 }
 
-/// The goal in the frame of the base.
+/// Where a hand arrives instead of at the goal.
+pub(super) fn missed(goal: PoseGoal, side: Side, world: &mut World) -> PoseGoal {
+    let (step, base) = (world.steps(), world.believed_base());
+    match world.noise_mut() {
+        None => goal,
+        Some(noise) => PoseGoal::InBase(noise.of_approach(step, side, &in_base(goal, &base))),
+    }
+}
+
+/// The goal in the frame of the base, which the robot takes to be at the pose in the map.
 pub(super) fn in_base(goal: PoseGoal, base: &Pose) -> Pose {
     match goal {
         PoseGoal::InBase(pose) => pose,

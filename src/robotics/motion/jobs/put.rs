@@ -7,7 +7,7 @@
 
 use super::job::{Job, MotionOutcome, check_finite, numbers_of};
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
-use super::move_tcp::{PoseGoal, in_base};
+use super::move_tcp::{PoseGoal, in_base, missed};
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
 use crate::motion::contact::holding::held_objects;
 use crate::motion::failure::motion_failure::MotionFailure;
@@ -39,6 +39,8 @@ pub struct PutGoal {
     object: String,
     /// Whether the arm first moves to where it can begin.
     is_detour: bool,
+    /// Whether the goal has got the errors of the robot.
+    has_erred: bool,
 }
 
 impl Put {
@@ -49,6 +51,7 @@ impl Put {
             pose,
             object: String::new(),
             is_detour: false,
+            has_erred: false,
         }))
     }
 }
@@ -64,7 +67,7 @@ impl PutGoal {
     }
 
     fn outcome(&self, world: &World, support: Option<BodyName>) -> MotionOutcome {
-        let base = world.robot_configuration().base;
+        let base = world.believed_base();
         let hand = tcp_in_base(world, self.side);
         let raised = hand.translation.z - in_base(self.pose, &base).translation.z;
         MotionOutcome::Put { support, raised }
@@ -81,11 +84,18 @@ impl JointGoal for PutGoal {
         "putting down"
     }
 
+    fn err(&mut self, world: &mut World) {
+        if !self.has_erred {
+            self.has_erred = true;
+            self.pose = missed(self.pose, self.side, world);
+        }
+    }
+
     fn plan(&mut self, world: &World, plans: u32) -> Result<JointPlan, MotionFailure> {
         let side = self.side;
         let held = held_objects(world, side).into_iter().next();
         self.object = held.ok_or(MotionFailure::HoldsNothing { side })?;
-        let goal = in_base(self.pose, &world.robot_configuration().base);
+        let goal = in_base(self.pose, &world.believed_base());
         check_finite(Self::MODULE, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
         let contacts = ExpectedContacts::of(

@@ -55,7 +55,7 @@ impl Simulation {
                     )));
                 }
                 Target {
-                    pose: self.base() * seen.in_base,
+                    pose: self.believed_base() * seen.in_base,
                     name: seen.name.clone(),
                     item: Item::Object(seen.name),
                 }
