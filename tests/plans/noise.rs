@@ -158,7 +158,11 @@ fn misses(noise: &str, count: usize) -> Vec<f64> {
         ));
         if shown.contains(":BROUGHT") {
             let world = cook.session.simulation().world();
-            let at = world.object_pose("B").expect("it is there").translation.vector;
+            let at = world
+                .object_pose("B")
+                .expect("it is there")
+                .translation
+                .vector;
             all.push((at.x + 0.85).hypot(at.y - 1.5));
         }
     }
@@ -169,7 +173,10 @@ fn misses(noise: &str, count: usize) -> Vec<f64> {
 #[test]
 fn errors_are_felt_where_things_end() {
     let without = misses("", 2);
-    assert!(without.len() == 2 && without.iter().all(|miss| *miss < 1e-3), "{without:?}");
+    assert!(
+        without.len() == 2 && without.iter().all(|miss| *miss < 1e-3),
+        "{without:?}"
+    );
     for noise in [
         ":position 0.01",
         ":odometry-position 0.01",

@@ -78,7 +78,9 @@ impl NoiseSetting {
         Self::new("odometry-yaw", 3.0, 0.02, |l| &mut l.odometry_yaw),
         Self::new("grasp-position", 0.5, 0.002, |l| &mut l.grasp_position),
         Self::new("grasp-yaw", 3.0, 0.01, |l| &mut l.grasp_yaw),
-        Self::new("calibration-position", 0.5, 0.005, |l| &mut l.calibration_position),
+        Self::new("calibration-position", 0.5, 0.005, |l| {
+            &mut l.calibration_position
+        }),
         Self::new("calibration-yaw", 3.0, 0.01, |l| &mut l.calibration_yaw),
     ];
 
@@ -451,9 +453,7 @@ impl super::World {
     pub fn from_belief(&self, believed: &Pose) -> Pose {
         match &self.state.noise {
             None => *believed,
-            Some(_) => {
-                self.robot_configuration().base * self.believed_base().inverse() * believed
-            }
+            Some(_) => self.robot_configuration().base * self.believed_base().inverse() * believed,
         }
     }
 
@@ -562,7 +562,14 @@ mod tests {
             let step = (step / DRIVES as f64).sqrt();
             assert!((deviation - 0.01).abs() < 1.5e-3, "{way}: {deviation}");
             // A short way changes little of the error.
-            assert!(if way < 0.1 { step < 0.003 } else { step > 0.005 }, "{way}: {step}");
+            assert!(
+                if way < 0.1 {
+                    step < 0.003
+                } else {
+                    step > 0.005
+                },
+                "{way}: {step}"
+            );
         }
     }
 

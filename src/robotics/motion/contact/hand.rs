@@ -22,9 +22,20 @@ const BAR_DEPTH: f64 = 0.025;
 
 /// Allows any link of the hand to touch any object.
 pub(crate) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
+    let objects = world.objects().map(|object| object.name().to_owned());
+    hand_may_touch(world, side, objects)
+}
+
+/// The hand may touch the objects.
+pub(crate) fn hand_may_touch(
+    world: &World,
+    side: Side,
+    objects: impl IntoIterator<Item = String>,
+) -> AllowedPairs {
     let names = hand_names(world, side);
-    world.objects().fold(AllowedPairs::none(), |all, object| {
-        all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
+    let objects = objects.into_iter();
+    objects.fold(AllowedPairs::none(), |all, object| {
+        all.and_all(names.clone(), &BodyName::Object(object))
     })
 }
 

@@ -100,7 +100,9 @@ fn perceived(world: &World, sight: &Sight<'_>, object: &Object) -> Option<Percei
     let noise = world.noise()?;
     let at = world.object_pose(object.name()).ok()?;
     let camera = sight.picture().camera();
-    let at = camera.pose.inverse_transform_point(&at.translation.vector.into());
+    let at = camera
+        .pose
+        .inverse_transform_point(&at.translation.vector.into());
     let distance = at.coords.norm();
     let sighting = Sighting {
         distance,

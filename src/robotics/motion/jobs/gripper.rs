@@ -3,7 +3,7 @@
 use super::grip::Grip;
 use super::job::{Activity, Job, MotionOutcome, MotionStatus, Progress, check_finite};
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
-use crate::motion::contact::hand::{gripper_of, hand_may_touch_objects, pressing};
+use crate::motion::contact::hand::{gripper_of, hand_may_touch, hand_may_touch_objects, pressing};
 use crate::motion::contact::holding::{held_objects, press};
 use crate::motion::failure::joint_limit::violation;
 use crate::motion::failure::motion_failure::MotionFailure;
@@ -12,7 +12,7 @@ use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
 use crate::robot::{LinkId, Side};
-use crate::world::{AllowedPairs, BodyName, CollisionHit, World};
+use crate::world::{BodyName, CollisionHit, World};
 
 /// A goal farther outside the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
@@ -163,11 +163,12 @@ impl JointGoal for FingerGoal {
         let limits = speeds::limits_of(&world.models().description, &joints);
         let trajectory = Trajectory::new(&path, &limits);
         self.is_closing = path[0] > path[1];
-        // Closing fingers may meet what is between them; opening ones push nothing away.
+        // Closing fingers may meet what is between them. Opening ones push nothing away; what they let go
+        // of may lean on one of them until it stands.
         let allowed = if self.is_closing {
             hand_may_touch_objects(world, self.side)
         } else {
-            AllowedPairs::none()
+            hand_may_touch(world, self.side, held_objects(world, self.side))
         };
         Ok(JointPlan::new(joints, trajectory, allowed))
     }

@@ -87,7 +87,6 @@ impl HandGoal {
             has_erred: false,
         }
     }
-
 }
 
 impl JointGoal for HandGoal {

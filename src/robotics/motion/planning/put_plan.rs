@@ -98,9 +98,13 @@ impl PutPlan<'_> {
         failure.unwrap_or_else(|error| MotionFailure::UnknownName(error.to_string()))
     }
 
-    /// An error if the object would not stay where it meets something.
+    /// An error if the object would not stay where it meets something. A robot that errs does not know
+    /// how exactly the object lies in its hand, and so it cannot tell.
     fn check_stand(&self, contact: &Pose) -> Result<(), MotionFailure> {
         let world = self.task.world;
+        if world.noise().is_some() {
+            return Ok(());
+        }
         let unknown = |error: WorldError| MotionFailure::UnknownName(error.to_string());
         let place = self.object_at(contact).map_err(unknown)?;
         let trial = world.stand_trial(self.object, &place).map_err(unknown)?;
