@@ -44,6 +44,8 @@ pub struct SessionOptions {
     /// How large the errors of the robot's sensors and motors are, such as
     /// `position=0.01,misses=0.1`; an empty text stands for usual errors, `None` for none.
     pub noise: Option<String>,
+    /// Whether no joint moves faster than its URDF says.
+    pub is_faithful: bool,
     /// Folders in which systems, the libraries of Common Lisp, are looked for.
     pub systems: Vec<String>,
     /// The least severe log lines that are shown.
@@ -71,6 +73,7 @@ impl Default for SessionOptions {
             package_paths: Vec::new(),
             mesh_cache: None,
             noise: None,
+            is_faithful: false,
             systems: Vec::new(),
             log_level: LogLevel::Info,
             realtime: None,
@@ -218,8 +221,17 @@ impl SessionOptions {
         description.map_err(|error| SessionError::Models(error.to_string()))
     }
 
-    /// Reads the description of the robot's links and joints.
+    /// The description of the robot's links and joints, at the speeds that were asked for.
     fn description(&self, robot: &KinematicTree) -> Result<RobotDescription, SessionError> {
+        let description = self.read_description(robot)?;
+        Ok(match self.is_faithful {
+            true => description.as_fast_as_urdf(robot),
+            false => description,
+        })
+    }
+
+    /// Reads the description of the robot's links and joints.
+    fn read_description(&self, robot: &KinematicTree) -> Result<RobotDescription, SessionError> {
         let wrong = |error: DataError| SessionError::Models(error.to_string());
         if let Some((name, text)) = &self.robot_description {
             return RobotDescription::from_sexp(text, name, robot).map_err(wrong);

@@ -30,6 +30,7 @@ mod renamed_robot;
 mod searching;
 mod session_copies;
 mod spawning;
+mod speeds;
 mod sweeps;
 mod systems;
 mod things_on_things;

@@ -221,6 +221,9 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     if let Some(bytes) = options.heap {
         add("heap", bytes.to_string());
     }
+    if options.faithful {
+        given.push("--faithful".to_owned());
+    }
     if options.closed {
         given.push("--closed".to_owned());
     }

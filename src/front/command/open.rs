@@ -57,6 +57,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         package_paths: package_paths(&options.package_path)?,
         mesh_cache: cache::directory("meshes"),
         noise: options.noise.clone(),
+        is_faithful: options.faithful,
         systems: folders("--systems", &options.systems)?,
         log_level: match options.log_level {
             LogLevel::Debug => session::LogLevel::Debug,

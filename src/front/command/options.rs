@@ -51,6 +51,9 @@ pub(crate) struct Options {
         default_missing_value = ""
     )]
     pub(crate) noise: Option<String>,
+    /// Let no joint move faster than its URDF says: the PR2's torso then takes 23 s for 0.3 m
+    #[arg(long, global = true)]
+    pub(crate) faithful: bool,
     /// Let what is evaluated use no files and open no ports, and refuse edits of the world, such as
     /// spawn-object: plans can only move the robot, calculate and print
     #[arg(long, global = true)]

@@ -100,6 +100,7 @@ pub(super) fn open_journals(
         robot_description: options.robot_description.clone(),
         objects: options.objects.clone(),
         noise: options.noise.clone(),
+        is_faithful: options.faithful,
         package_path: options.package_path.clone(),
         systems: options.systems.clone(),
         setup: options.setup.clone(),
@@ -155,6 +156,7 @@ pub(super) fn open_journals(
                 "--noise",
                 options.noise.is_some() && options.noise != beginning.noise,
             ),
+            ("--faithful", options.faithful && !beginning.is_faithful),
         ];
         let unused = unused.iter().filter(|(_, is_unused)| *is_unused);
         opened.remarks.extend(unused.map(|(option, _)| {
@@ -167,6 +169,7 @@ pub(super) fn open_journals(
         options.robot_description = beginning.robot_description;
         options.objects = beginning.objects;
         options.noise = beginning.noise;
+        options.faithful = beginning.is_faithful;
         options.package_path = beginning.package_path;
         options.systems = beginning.systems;
         // Who resumes a session as a closed one trusts neither its inputs nor the files that it names.

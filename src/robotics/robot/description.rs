@@ -247,6 +247,17 @@ impl RobotDescription {
         })
     }
 
+    /// The description with no joint faster than its URDF says.
+    #[must_use]
+    pub fn as_fast_as_urdf(mut self, tree: &KinematicTree) -> Self {
+        for (speed, (_, joint)) in self.speeds.iter_mut().zip(tree.joints()) {
+            if let Some(limit) = joint.max_velocity {
+                speed.velocity = speed.velocity.min(limit);
+            }
+        }
+        self
+    }
+
     /// Positions of all joints after start-up.
     pub fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
         let mut q = tree.zero_positions();

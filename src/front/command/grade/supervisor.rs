@@ -149,6 +149,9 @@ impl Supervisor {
             if let Some(noise) = &self.options.noise {
                 command.arg(format!("--noise={noise}"));
             }
+            if self.options.faithful {
+                command.arg("--faithful");
+            }
             let mut child = command
                 .stdin(Stdio::piped())
                 .stdout(Stdio::piped())

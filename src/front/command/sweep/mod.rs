@@ -198,12 +198,13 @@ fn into_folder(
         || options.robot_description.is_some()
         || options.objects.is_some()
         || options.noise.is_some()
+        || options.faithful
         || !options.systems.is_empty()
         || !options.setup.is_empty();
     if is_special {
         return Err(CommandError::Sweep(
             "--into keeps the file and the seed of a sweep, but not --world, --robot, --objects, \
-             --noise, --systems or --setup: leave them out, or leave out --into"
+             --noise, --faithful, --systems or --setup: leave them out, or leave out --into"
                 .to_owned(),
         ));
     }

@@ -3,7 +3,7 @@
 //!
 //! A journal is a text file of records, one on each line: a word, a checksum, and a text (see
 //! [`record`]). `seed`, `world`, `world-description`, `robot`, `robot-description`, `objects`, `noise`,
-//! `package-path`, `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
+//! `faithful`, `package-path`, `systems`, `setup` and `closed` say how the session began. `input` is an input, `pasted` an input
 //! that conditions do not stop; its evaluation begins when the record is on disk. `interrupted` says
 //! where it was interrupted, and `ended` that it has ended, with the hash of the world then, and how;
 //! `loaded` names a file that it has loaded, or one with which the session began, with a digest. While
@@ -51,6 +51,8 @@ pub(crate) struct Beginning {
     pub(crate) objects: Option<PathBuf>,
     /// The errors of the robot's sensors and motors, as on the command line.
     pub(crate) noise: Option<String>,
+    /// Whether no joint moves faster than its URDF says.
+    pub(crate) is_faithful: bool,
     /// Folders with the packages that URDFs name.
     pub(crate) package_path: Vec<PathBuf>,
     /// Folders in which systems are looked for.

@@ -113,6 +113,7 @@ impl Earlier {
             }
             Record::Objects(file) => self.beginning.objects = Some(file.into()),
             Record::Noise(settings) => self.beginning.noise = Some(settings),
+            Record::Faithful => self.beginning.is_faithful = true,
             Record::PackagePath(folder) => self.beginning.package_path.push(folder.into()),
             Record::Systems(folder) => self.beginning.systems.push(folder.into()),
             Record::Setup(file) => self.beginning.setup.push(file.into()),

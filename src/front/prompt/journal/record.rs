@@ -28,6 +28,7 @@ pub(super) enum Record {
     RobotDescription(String),
     Objects(String),
     Noise(String),
+    Faithful,
     PackagePath(String),
     Systems(String),
     Setup(String),
@@ -73,6 +74,7 @@ impl Record {
         std::iter::once(Record::Seed(beginning.seed))
             .chain(given)
             .chain(noise)
+            .chain(beginning.is_faithful.then_some(Record::Faithful))
             .chain(packages)
             .chain(systems)
             .chain(setup)
@@ -91,6 +93,7 @@ impl Record {
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
             Record::Objects(file) => ("objects", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
+            Record::Faithful => ("faithful", "yes".to_owned()),
             Record::PackagePath(folder) => ("package-path", escaped(folder)),
             Record::Systems(folder) => ("systems", escaped(folder)),
             Record::Setup(file) => ("setup", escaped(file)),
@@ -124,6 +127,7 @@ impl Record {
             "robot-description" => Record::RobotDescription(unescaped(value)),
             "objects" => Record::Objects(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),
+            "faithful" => Record::Faithful,
             "package-path" => Record::PackagePath(unescaped(value)),
             "systems" => Record::Systems(unescaped(value)),
             "setup" => Record::Setup(unescaped(value)),

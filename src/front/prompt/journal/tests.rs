@@ -75,6 +75,7 @@ fn what_is_written_is_read_again() {
         robot_description: None,
         objects: Some("/things.sexp".into()),
         noise: Some("position=0.01".to_owned()),
+        is_faithful: true,
         package_path: vec!["/packages a".into()],
         systems: vec!["/lisp a".into(), "/lisp b".into()],
         setup: vec!["/a b.plan".into()],
