@@ -27,6 +27,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "world-facts.plan",
     "trace-facts.plan",
     "episodes.plan",
+    "run-facts.plan",
     "ros.plan",
     "retrying.plan",
     "locations.plan",

@@ -17,6 +17,7 @@ pub mod pairs;
 mod plural;
 pub mod rate;
 pub mod record;
+pub mod relations;
 pub mod summary;
 mod tree;
 

@@ -2,6 +2,7 @@
 // Figures are told.
 #![allow(clippy::print_stdout)]
 
+mod ask;
 mod closed;
 mod grade;
 #[cfg(unix)]

@@ -172,6 +172,28 @@ fn an_episode_says_the_same_as_the_questions() {
         keys.iter()
             .any(|one| one["key"] == "type" && one["text"] == "DETECTING")
     );
+    // The relations say the same of the last plans and of the files.
+    for (goal, variable) in [
+        ("(fact task :task ?t :type :detecting)", "?t"),
+        ("(fact task :parent 0 :status ?s)", "?s"),
+        ("(fact failure :class ?c)", "?c"),
+        ("(fact param :key :type :text ?x)", "?x"),
+    ] {
+        let question = format!("(answers '{variable} '{goal})");
+        said(&mut session, "(pw:read-facts)");
+        let lived = said(&mut session, &question);
+        assert_ne!(lived, "NIL", "{goal}");
+        said(&mut session, &format!("(pw:read-facts {folder:?})"));
+        assert_eq!(said(&mut session, &question), lived, "{goal}");
+    }
+    assert_eq!(
+        said(
+            &mut session,
+            "(equal (answers '?t '(fact task :task ?t :kind :performed))
+                    (answers '?t '(coe:goal-task ?t)))",
+        ),
+        "T"
+    );
     let odd = said(
         &mut session,
         r#"(coe::json-string (format nil "a \"b\" \\ ~c ~c é" #\tab #\rubout))"#,

@@ -3,6 +3,7 @@
 
 use clap::{Parser, Subcommand};
 
+use super::ask::AskArguments;
 use super::check::CheckArguments;
 use super::completions::CompletionsArguments;
 use super::grade::GradeArguments;
@@ -58,6 +59,8 @@ pub(crate) enum Command {
     Picture(Box<PictureArguments>),
     /// Run a plan in many worlds that differ in a declared way: how often does it work?
     Sweep(Box<SweepOptions>),
+    /// Answer questions about many runs: which failures, where, how often
+    Ask(AskArguments),
     /// Grade what students have handed in: each in closed worlds of its own, by what happened there
     Grade(Box<GradeArguments>),
     /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output)

@@ -76,6 +76,9 @@ pub(crate) enum CommandError {
     /// A sweep cannot be run.
     #[error("{0}")]
     Sweep(String),
+    /// A question cannot be answered.
+    #[error("{0}")]
+    Ask(String),
     /// Submissions cannot be graded.
     #[error("{0}")]
     Grade(String),

@@ -8,6 +8,7 @@
 //! Only this folder and the prompt write to the terminal.
 
 mod arguments;
+mod ask;
 mod cache;
 mod check;
 mod completions;
@@ -101,6 +102,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Replay(wanted)) => replay::replay(options, &wanted),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
+        Some(Command::Ask(wanted)) => ask::ask(options, &wanted),
         Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
         Some(Command::Mcp(wanted)) => mcp::mcp(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),

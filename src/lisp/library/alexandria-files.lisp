@@ -91,7 +91,13 @@
   (with-input-from-string (s \"abc\") (alexandria:read-stream-content-into-string s)) => \"abc\""
   (check-type buffer-size (integer 1))
   (with-output-to-string (text)
-    (copy-stream stream text :buffer-size buffer-size)))
+    (loop
+      (multiple-value-bind (line is-last) (read-line stream nil nil)
+        (when line
+          (write-string line text))
+        (when is-last
+          (return))
+        (write-char #\newline text)))))
 
 (defun read-file-into-string (file &key (buffer-size 4096) (external-format :utf-8))
   "The text of a file.

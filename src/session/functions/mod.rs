@@ -21,6 +21,7 @@ mod reaching;
 mod robot_macros;
 mod robot_state;
 mod ros;
+mod run_facts;
 mod scene;
 mod serving;
 mod sight;

@@ -43,6 +43,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLAN-SYSTEM", functions::sweeps::TABLE),
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
     ("PLAN-SYSTEM", functions::lessons::TABLE),
+    ("PLAN-SYSTEM", functions::run_facts::TABLE),
     ("PLANWRIGHT", crate::record::TABLE),
     ("SWANK", crate::objects::TABLE),
     ("SWANK", functions::serving::TABLE),

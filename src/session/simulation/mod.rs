@@ -40,6 +40,7 @@ use robotics::world::noise::{Noise, NoiseLevels};
 use robotics::world::object_library::ObjectLibrary;
 use robotics::world::{Models, RobotConfiguration, World};
 use spatial::Pose;
+use sweep::relations::Relations;
 use view::picture::{LocationMap, Looks};
 
 use injection::SharedInjection;
@@ -98,6 +99,8 @@ pub struct Simulation {
     sought: Option<DetectQuery>,
     /// How many times the robot has begun to make errors.
     noises: u64,
+    /// Facts of other runs that have been read.
+    pub(crate) facts: Rc<Relations>,
     /// How many searches for locations have begun in this world.
     pub(super) searches: u64,
     /// What a sweep has put into the world, and where.
@@ -119,6 +122,7 @@ impl Simulation {
             last_account: None,
             sought: None,
             noises: 0,
+            facts: Rc::default(),
             searches: 0,
             put_for_sweep: Vec::new(),
             home: Arc::clone(&models),
@@ -175,6 +179,7 @@ impl Simulation {
             last_account: None,
             sought: None,
             noises: self.noises,
+            facts: Rc::clone(&self.facts),
             searches: self.searches,
             put_for_sweep: self.put_for_sweep.clone(),
         }

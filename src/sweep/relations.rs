@@ -1,0 +1,298 @@
+//! Facts of many runs as relations: what records of sweeps and exported episodes say, as rows of named
+//! columns that can be asked for by their values.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value as Json};
+
+/// A value in a row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// Nothing.
+    Null,
+    /// Yes or no.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
+    /// Another number.
+    Number(f64),
+    /// A text.
+    Text(Box<str>),
+}
+
+impl Cell {
+    /// Whether two values are the same: numbers by their value, texts in any case of letters, and no
+    /// value like no.
+    pub fn is(&self, other: &Cell) -> bool {
+        match (self, other) {
+            (Cell::Text(one), Cell::Text(other)) => one.eq_ignore_ascii_case(other),
+            (Cell::Int(int), Cell::Number(number)) | (Cell::Number(number), Cell::Int(int)) => {
+                *int as f64 == *number
+            }
+            (Cell::Null, Cell::Bool(false)) | (Cell::Bool(false), Cell::Null) => true,
+            _ => self == other,
+        }
+    }
+
+    fn of(json: &Json) -> Cell {
+        match json {
+            Json::Null => Cell::Null,
+            Json::Bool(is) => Cell::Bool(*is),
+            Json::Number(number) => match number.as_i64() {
+                Some(int) => Cell::Int(int),
+                None => number.as_f64().map_or(Cell::Null, Cell::Number),
+            },
+            Json::String(text) => Cell::Text(text.as_str().into()),
+            Json::Array(_) | Json::Object(_) => Cell::Text(json.to_string().into()),
+        }
+    }
+}
+
+/// Rows of the same columns.
+#[derive(Clone, Debug, Default)]
+pub struct Relation {
+    columns: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+    /// For each value of the first column that is a whole number, the rows that have it.
+    by_first: BTreeMap<i64, Vec<usize>>,
+}
+
+impl Relation {
+    /// The names of the columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// The number of the column of that name, in any case of letters.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        let mut columns = self.columns.iter();
+        columns.position(|column| column.eq_ignore_ascii_case(name))
+    }
+
+    /// The rows in which the columns have the values, in the order in which they were added.
+    pub fn rows<'a>(
+        &'a self,
+        given: &'a [(usize, Cell)],
+    ) -> Box<dyn Iterator<Item = &'a [Cell]> + 'a> {
+        let fits = |row: &&Vec<Cell>| {
+            given
+                .iter()
+                .all(|(column, value)| row.get(*column).is_some_and(|cell| cell.is(value)))
+        };
+        let first = given.iter().find_map(|(column, value)| match value {
+            Cell::Int(number) if *column == 0 => Some(*number),
+            _ => None,
+        });
+        match first {
+            Some(number) => {
+                let numbers = self.by_first.get(&number).into_iter().flatten();
+                let rows = numbers.filter_map(|number| self.rows.get(*number));
+                Box::new(rows.filter(fits).map(Vec::as_slice))
+            }
+            None => Box::new(self.rows.iter().filter(fits).map(Vec::as_slice)),
+        }
+    }
+
+    /// Adds a row; columns that it does not name are empty in it, and new ones in those before.
+    fn add(&mut self, cells: Vec<(&str, Cell)>) {
+        let mut row = vec![Cell::Null; self.columns.len()];
+        for (name, cell) in cells {
+            match self.columns.iter().position(|column| column == name) {
+                Some(at) => {
+                    if let Some(place) = row.get_mut(at) {
+                        *place = cell;
+                    }
+                }
+                None => {
+                    self.columns.push(name.to_owned());
+                    for row in &mut self.rows {
+                        row.push(Cell::Null);
+                    }
+                    row.push(cell);
+                }
+            }
+        }
+        if let Some(Cell::Int(number)) = row.first() {
+            let of_number = self.by_first.entry(*number).or_default();
+            of_number.push(self.rows.len());
+        }
+        self.rows.push(row);
+    }
+}
+
+/// Relations by name.
+#[derive(Clone, Debug, Default)]
+pub struct Relations {
+    all: BTreeMap<String, Relation>,
+}
+
+/// A line that cannot be read: its number, from 1, and what is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MalformedLine {
+    /// Its number.
+    pub line: usize,
+    /// What is wrong.
+    pub problem: String,
+}
+
+/// What a record of a sweep says by name, and the relation and the column that it becomes.
+const OF_RECORD: &[(&str, &str, &str)] = &[
+    ("expectations", "expectation", "held"),
+    ("draws", "draw", "value"),
+    ("measures", "measure", "value"),
+    ("failures", "failed", "count"),
+    ("handlers", "handled", "count"),
+];
+
+/// The columns by which rows belong to runs and tasks.
+const KEYS: &[&str] = &["run", "task"];
+
+/// What a record lists, and the relation that it becomes.
+const LISTED: &[(&str, &str)] = &[("faults", "fault"), ("bodies", "body")];
+
+impl Relations {
+    /// The relation of that name, in any case of letters.
+    pub fn get(&self, name: &str) -> Option<&Relation> {
+        self.all.get(&name.to_ascii_lowercase())
+    }
+
+    /// All relations, by name.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Relation)> {
+        let all = self.all.iter();
+        all.map(|(name, relation)| (name.as_str(), relation))
+    }
+
+    /// Adds the lines of a text, each with an object of JSON: rows of the relation, or records of a
+    /// sweep, which become rows of several. Returns how many lines there were. After an error nothing
+    /// has been added.
+    pub fn add(&mut self, relation: &str, text: &str) -> Result<usize, MalformedLine> {
+        let lines = text.lines().enumerate();
+        let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+        let objects: Vec<Map<String, Json>> = lines
+            .map(|(number, line)| {
+                serde_json::from_str(line).map_err(|error| MalformedLine {
+                    line: number + 1,
+                    problem: error.to_string(),
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        for object in &objects {
+            match object
+                .get("world")
+                .filter(|_| object.contains_key("outcome"))
+            {
+                Some(world) => self.add_record(&Cell::of(world), object),
+                None => {
+                    let cells = object.iter();
+                    let cells = cells.map(|(name, json)| (name.as_str(), Cell::of(json)));
+                    let mut cells: Vec<(&str, Cell)> = cells.collect();
+                    // What rows are found by comes first.
+                    cells.sort_by_key(|(name, _)| {
+                        KEYS.iter()
+                            .position(|key| key == name)
+                            .unwrap_or(KEYS.len())
+                    });
+                    self.relation(relation).add(cells);
+                }
+            }
+        }
+        Ok(objects.len())
+    }
+
+    fn relation(&mut self, name: &str) -> &mut Relation {
+        self.all.entry(name.to_ascii_lowercase()).or_default()
+    }
+
+    fn add_record(&mut self, world: &Cell, record: &Map<String, Json>) {
+        let mut run = vec![("run", world.clone())];
+        for (name, json) in record {
+            if name != "world" && !json.is_object() && !json.is_array() {
+                run.push((name, Cell::of(json)));
+            }
+        }
+        self.relation("run").add(run);
+        for (part, relation, column) in OF_RECORD {
+            let named = record.get(*part).and_then(Json::as_object);
+            for (name, json) in named.into_iter().flatten() {
+                self.relation(relation).add(vec![
+                    ("run", world.clone()),
+                    ("name", Cell::Text(name.as_str().into())),
+                    (column, Cell::of(json)),
+                ]);
+            }
+        }
+        for (part, relation) in LISTED {
+            let listed = record.get(*part).and_then(Json::as_array);
+            for json in listed.into_iter().flatten() {
+                self.relation(relation)
+                    .add(vec![("run", world.clone()), ("name", Cell::of(json))]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RECORDS: &str = r#"{"world":0,"outcome":"failure","class":"GRIPPER-CLOSED-COMPLETELY","bodies":["BOWL-1"],"draws":{"bottle.y":-0.9,"clutter":2},"time":5.5}
+
+{"world":3,"outcome":"success","class":null,"draws":{"bottle.y":-0.8},"expectations":{"parked":true},"time":30}
+"#;
+
+    fn texts(relations: &Relations, name: &str, given: &[(&str, Cell)]) -> Vec<Vec<Cell>> {
+        let relation = relations.get(name).unwrap();
+        let given: Vec<(usize, Cell)> = given
+            .iter()
+            .map(|(column, cell)| (relation.column(column).unwrap(), cell.clone()))
+            .collect();
+        relation.rows(&given).map(<[Cell]>::to_vec).collect()
+    }
+
+    #[test]
+    fn records_of_a_sweep_become_relations() {
+        let mut relations = Relations::default();
+        assert_eq!(relations.add("records", RECORDS), Ok(2));
+        let success = Cell::Text("SUCCESS".into());
+        let runs = texts(&relations, "RUN", &[("outcome", success)]);
+        assert_eq!(runs.len(), 1);
+        assert_eq!(runs[0][0], Cell::Int(3));
+        let draws = texts(&relations, "draw", &[("run", Cell::Number(0.0))]);
+        assert_eq!(draws.len(), 2);
+        assert_eq!(draws[0][2], Cell::Number(-0.9));
+        let bodies = texts(&relations, "body", &[("run", Cell::Int(0))]);
+        assert_eq!(bodies[0][1], Cell::Text("BOWL-1".into()));
+        let held = texts(&relations, "expectation", &[("held", Cell::Bool(true))]);
+        assert_eq!(held.len(), 1);
+    }
+
+    #[test]
+    fn rows_may_have_other_columns_than_those_before() {
+        let mut relations = Relations::default();
+        let text = "{\"task\":1,\"type\":\"going\"}\n{\"task\":2,\"ended\":2.5}\n";
+        assert_eq!(relations.add("task", text), Ok(2));
+        let task = relations.get("task").unwrap();
+        assert_eq!(task.columns(), ["task", "type", "ended"]);
+        let all: Vec<_> = task.rows(&[]).collect();
+        assert_eq!(all[0][2], Cell::Null);
+        assert_eq!(all[1][1], Cell::Null);
+    }
+
+    #[test]
+    fn a_malformed_line_adds_nothing() {
+        let mut relations = Relations::default();
+        let error = relations.add("task", "{\"task\":1}\n[1]\n").unwrap_err();
+        assert_eq!(error.line, 2);
+        assert!(relations.iter().next().is_none());
+    }
+}

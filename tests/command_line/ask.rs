@@ -1,0 +1,123 @@
+//! Questions about many runs.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Two worlds that failed, one that succeeded, one that was never judged.
+const RECORDS: &str = r#"{"world":0,"outcome":"failure","class":"GRIPPER-CLOSED-COMPLETELY","cause":"NothingGripped","bodies":["BOWL-1"],"expectations":{"parked":false},"draws":{"bottle.y":-0.9,"clutter.1":"CUP"},"faults":[],"time":5.5,"failures":{"GRIPPER-CLOSED-COMPLETELY":2},"handlers":{},"measures":{"drift":3.5}}
+{"world":1,"outcome":"failure","class":"GRIPPER-CLOSED-COMPLETELY","cause":"NothingGripped","bodies":[],"expectations":{"parked":true},"draws":{"bottle.y":-0.8},"faults":[],"time":6.25,"failures":{},"handlers":{},"measures":{"drift":3}}
+{"world":2,"outcome":"success","class":null,"cause":null,"bodies":[],"expectations":{"parked":true},"draws":{"bottle.y":-1.0},"faults":[],"time":30,"failures":{},"handlers":{},"measures":{"drift":0.01}}
+"#;
+
+/// A file that is removed with the value.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, text: &str) -> File {
+        let name = format!("planwright-ask-{}-{name}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, text).expect("a file");
+        File(path)
+    }
+
+    /// The exit status and what was printed: the answers, or the error.
+    fn ask(&self, arguments: &[&str]) -> (Option<i32>, String) {
+        let output = Command::new(env!("CARGO_BIN_EXE_planwright"))
+            .arg("ask")
+            .arg(&self.0)
+            .args(arguments)
+            .output()
+            .expect("the program runs");
+        let text = match output.status.success() {
+            true => output.stdout,
+            false => output.stderr,
+        };
+        (
+            output.status.code(),
+            String::from_utf8(text).expect("it is text"),
+        )
+    }
+
+    fn answers(&self, arguments: &[&str]) -> String {
+        let (status, text) = self.ask(arguments);
+        assert_eq!(status, Some(0), "{text}");
+        text
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        // A file that is gone already is no harm.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+#[test]
+fn records_of_a_sweep_answer_goals() {
+    let file = File::new("records.jsonl", RECORDS);
+    assert_eq!(
+        file.answers(&["(fact run :run ?run :outcome :failure :time ?time)"]),
+        "run  time\n  0   5.5\n  1  6.25\n"
+    );
+    assert_eq!(
+        file.answers(&["(fact run :class ?class :outcome ?outcome)", "--count"]),
+        "class                      outcome  count  share\n\
+         gripper-closed-completely  failure      2  66.7 %\n\
+         -                          success      1  33.3 %\n"
+    );
+    let joined = "(and (fact expectation :name \"parked\" :held t :run ?run)
+                       (fact draw :run ?run :name \"bottle.y\" :value ?y))";
+    assert_eq!(
+        file.answers(&[joined, "--show", "?y ?run", "--json"]),
+        "{\"y\":-0.8,\"run\":1}\n{\"y\":-1.0,\"run\":2}\n"
+    );
+    assert_eq!(file.answers(&["(fact body :run 0 :name bowl-1)"]), "yes\n");
+    assert_eq!(file.answers(&["(fact body :run 1)"]), "no\n");
+    assert_eq!(file.answers(&["(fact fault :name ?n)"]), "no answers\n");
+    let relations = file.answers(&[]);
+    assert!(
+        relations.contains("draw            4  :run :name :value"),
+        "{relations}"
+    );
+}
+
+#[test]
+fn what_cannot_be_asked_is_told() {
+    let file = File::new("told.jsonl", RECORDS);
+    for (goal, why) in [
+        ("(fact run :oucome ?o)", "have no :oucome: they have :run, "),
+        (
+            "(fact runs :outcome ?o)",
+            "There are no facts (runs …); there are body, draw, ",
+        ),
+        (
+            "(fact ?what :run 1)",
+            "The relation of a fact must be given",
+        ),
+        (
+            "(fact run outcome)",
+            "(fact RELATION :column VALUE …) was expected",
+        ),
+        ("(fact run :outcome ?o", "end of file"),
+        ("(fact run :outcome ?o) 5", "One goal was expected"),
+        ("(facts run)", "FACTS"),
+    ] {
+        let (status, error) = file.ask(&[goal]);
+        assert_eq!(status, Some(2), "{goal}: {error}");
+        assert!(
+            error.starts_with("error: ") && error.contains(why),
+            "{goal}: {error}"
+        );
+    }
+    let malformed = File::new("malformed.jsonl", "{\"world\":0}\n{\"world\":\n");
+    let (status, error) = malformed.ask(&["(fact run :run ?r)"]);
+    assert_eq!(status, Some(2), "{error}");
+    assert!(error.contains("malformed.jsonl, line 2: "), "{error}");
+    let nowhere = File(PathBuf::from("/nowhere/at all"));
+    let (status, error) = nowhere.ask(&["(fact run :run ?r)"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        error.contains("There is no file or folder /nowhere/at all."),
+        "{error}"
+    );
+}
