@@ -100,7 +100,6 @@ fn what_cannot_be_asked_is_told() {
         ),
         ("(fact run :outcome ?o", "end of file"),
         ("(fact run :outcome ?o) 5", "One goal was expected"),
-        ("(facts run)", "FACTS"),
     ] {
         let (status, error) = file.ask(&[goal]);
         assert_eq!(status, Some(2), "{goal}: {error}");
