@@ -82,6 +82,31 @@ fn records_of_a_sweep_answer_goals() {
 }
 
 #[test]
+fn an_episode_of_a_run_answers_goals() {
+    let folder = std::env::temp_dir().join(format!("planwright-episode-{}", std::process::id()));
+    let plan = "(pp-tut:with-simulated-robot
+                  (exe:perform (desig:an action (type detecting)
+                                          (object (desig:an object (type spoon))))))";
+    let run = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["run", "--eval", plan, "--episode"])
+        .arg(&folder)
+        .output()
+        .expect("the program runs");
+    // The plan fails, and its episode is there all the same.
+    assert_eq!(run.status.code(), Some(1));
+    let file = File(folder.clone());
+    assert_eq!(
+        file.answers(&[
+            "(and (fact task :type :detecting :status ?status :task ?task)
+                             (fact failure :task ?task :class ?class))"
+        ]),
+        "status  task  class\n\
+         failed     1  perception-object-not-found\n"
+    );
+    std::fs::remove_dir_all(&folder).expect("the folder is there");
+}
+
+#[test]
 fn what_cannot_be_asked_is_told() {
     let file = File::new("told.jsonl", RECORDS);
     for (goal, why) in [

@@ -8,6 +8,7 @@ use clap::Args;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
+use super::run::quoted;
 use session::dialogue::{Outcome, Screen, evaluate_keeping_abort};
 
 /// What to ask.
@@ -65,9 +66,4 @@ pub(crate) fn ask(options: &Options, wanted: &AskArguments) -> Result<Status, Co
     screen.flush()?;
     session.end_with_process();
     Ok(Status::Good)
-}
-
-/// A text as a string of the plan language.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

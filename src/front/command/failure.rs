@@ -76,6 +76,9 @@ pub(crate) enum CommandError {
     /// A sweep cannot be run.
     #[error("{0}")]
     Sweep(String),
+    /// What was performed cannot be written.
+    #[error("cannot write the episode into {}: {}", path.display(), report.trim_end())]
+    Episode { path: PathBuf, report: String },
     /// A question cannot be answered.
     #[error("{0}")]
     Ask(String),

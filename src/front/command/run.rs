@@ -29,6 +29,9 @@ pub(crate) struct RunArguments {
     /// Real time that all of it may take; then it is interrupted
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(super) time_limit: Option<f64>,
+    /// Write what was performed, by the last ten plans at most, into a folder as JSON Lines, for `planwright ask`
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) episode: Option<PathBuf>,
     #[command(flatten)]
     pub(super) watch: WatchArguments,
 }
@@ -40,6 +43,7 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
         files,
         eval,
         time_limit,
+        episode,
         watch,
     } = wanted;
     Outputs::reading(files.iter().chain(options.files()))
@@ -55,6 +59,9 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
         Ok(())
     };
     let (status, mut session) = run_in(options, files, eval, begin)?;
+    if let Some(folder) = episode {
+        write_episode(&mut session, folder)?;
+    }
     let recorded = session.end_recording();
     session.write_kept_run()?;
     recorded?;
@@ -62,6 +69,26 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
     watching::linger(&session, has_browser);
     session.end_with_process();
     Ok(status)
+}
+
+/// Writes what was performed into the folder.
+fn write_episode(session: &mut Session, folder: &Path) -> Result<(), CommandError> {
+    let folder = std::path::absolute(folder)?;
+    let form = format!("(pw:export-episode {})", quoted(&folder.to_string_lossy()));
+    let mut screen = Screen::new(io::sink());
+    let (_, abort) = evaluate_keeping_abort(&mut screen, session, "--episode", &form)?;
+    match abort {
+        None => Ok(()),
+        Some(abort) => Err(CommandError::Episode {
+            path: folder,
+            report: abort.report,
+        }),
+    }
+}
+
+/// A text as a string of the plan language.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
 /// Like [`run`], in a session that `begin` prepares, and that is returned.

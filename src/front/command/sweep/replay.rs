@@ -36,6 +36,7 @@ pub(super) fn replay(
             files: vec![PathBuf::from(&file.name)],
             eval: vec![set_up, "(planwright:run-sweep-world)".to_owned()],
             time_limit: wanted.time_limit,
+            episode: None,
             watch: WatchArguments::default(),
         };
         return run(&options, &wanted);
