@@ -37,6 +37,7 @@ mod things_on_things;
 mod trace;
 mod transporting;
 mod types;
+mod upright;
 mod whole_plan;
 
 use session::Session;

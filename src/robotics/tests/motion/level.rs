@@ -65,10 +65,10 @@ fn a_bowl_is_brought_to_the_body_level_and_out_again() {
         }
         // A posture that tilts it is gone to if it is asked for.
         let mut tilted = out.to_vec();
-        tilted[5] += if out[5] < -1.0 { 0.6 } else { -0.6 };
+        tilted[5] += if out[5] < -1.0 { 0.4 } else { -0.4 };
         let (end, tilt) = tilt_during(&mut kitchen, to(side, tilted));
         end.unwrap_or_else(|f| panic!("{f}"));
-        assert!(tilt > 30.0, "{tilt}");
+        assert!(tilt > 20.0, "{tilt}");
         assert_eq!(kitchen.world.tilts_since(0).count(), 1);
     }
 }
