@@ -34,8 +34,7 @@
 ; palm) into those of the tool (x forward).
 ; Joints of a posture: shoulder pan, shoulder lift, upper arm roll, elbow flex, forearm
 ; roll, wrist flex, wrist roll. The parking posture is within the hard limits, but exceeds
-; the soft limits of elbow and wrist by up to 0.03 rad. In the start posture the left hand is rolled so
-; that its fingers open beside the right arm. The maker allows an arm :payload (kg).
+; the soft limits of elbow and wrist by up to 0.03 rad. The maker allows an arm :payload (kg).
 (arm left
      :base torso_lift_link
      :wrist l_wrist_roll_link
@@ -48,7 +47,7 @@
      ((park 1.9652919379395388 -0.26499816732737785 1.3837617139225473 -2.1224566064321584
             16.99646118944817 -0.07350789589924167 0.0)
       (tucked 0.1709440184822959 1.1472294789783886 1.9124515764640622 -1.66700794841958
-              6.255471931555043 -0.07476630774212056 2.141562999858228)
+              6.255471931555043 -0.07476630774212056 -14.7079336142174)
       (carry-top 1.0252138037 -0.0696684899 1.1765832783 -1.9323726624
                  1.3824994378 -1.8416233909 2.9073736931)
       (carry-side-gripper-vertical 1.2469064067 0.0135677142 1.3837617139 -2.1057350873
