@@ -56,6 +56,9 @@ fn posture_for_carrying(
 ) -> Result<Reply> {
     let side = side(image, &args[0])?;
     let found = carrying_posture(&simulation.world, side);
+    if found.is_some() {
+        simulation.carrying[side.index()] = found;
+    }
     done(found.map_or(Value::NIL, |angles| {
         Value::list(angles.iter().map(|a| Value::Double(*a)))
     }))
@@ -68,5 +71,6 @@ fn carries_upright(
 ) -> Result<Reply> {
     let side = side(image, &args[0])?;
     let tolerance = number::to_f64(&args[1]).unwrap_or(0.0);
-    done(carries(&simulation.world, side, tolerance))
+    let found = simulation.carrying[side.index()].as_ref();
+    done(carries(&simulation.world, side, found, tolerance))
 }

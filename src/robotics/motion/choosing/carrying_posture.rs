@@ -1,9 +1,10 @@
 //! The posture in which an arm carries what is open at the top: one near the body in which that is level.
 //!
 //! The robot's description names postures. In each of them, the hand is turned about the wrist until what it
-//! holds is level, which leaves its heading free.
+//! holds is level, which leaves its heading free. Where something is in the way of these, the wrist is brought
+//! to one of some places before the shoulder.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
 use crate::motion::contact::level::LevelHands;
@@ -25,8 +26,18 @@ const HEADINGS: u32 = 24;
 const REACHES_OUT: f64 = 20.0;
 /// How many joints of a posture are kept; the others turn the hand.
 const TURNED: usize = 4;
-/// How many postures are looked for a path to.
-const PATHS: usize = 4;
+/// Places of the wrist before the shoulders (m), forward from the arm's base, to the arm's side, and above; the
+/// height that it has now is tried, too.
+const FORWARD: [f64; 3] = [0.3, 0.4, 0.5];
+const ASIDE: [f64; 3] = [0.15, 0.3, 0.45];
+const ABOVE: [f64; 2] = [0.05, 0.25];
+/// Every so many headings are tried there.
+const FEWER_HEADINGS: u32 = 3;
+/// How many postures get a short search for a path, and how many random configurations that takes.
+const SHORT_SEARCHES: usize = 12;
+const SAMPLES: usize = 150;
+/// How many postures get a long one.
+const LONG_SEARCHES: usize = 2;
 
 /// A posture in which a hand carries something.
 struct Carrying {
@@ -45,15 +56,26 @@ pub fn carrying_posture(world: &World, side: Side) -> Option<ArmPositions> {
     let contacts = ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AvoidAll, None);
     let mut checker =
         ConfigurationChecker::new(world, group.joints.clone(), &contacts).keeping(level);
-    let mut all = carrying_postures(world, side);
-    all.retain(|carrying| checker.obstacle(&carrying.positions).is_none());
-    let effort = JointPathEffort::default();
-    let mut found = all.iter().take(PATHS);
-    found
-        .find(|carrying| {
-            plan_joint_trajectory(world, &group, &carrying.positions, &mut checker, effort).is_ok()
-        })
-        .map(|carrying| carrying.positions)
+    let mut free: Vec<ArmPositions> = Vec::new();
+    for carrying in carrying_postures(world, side) {
+        if checker.obstacle(&carrying.positions).is_none() {
+            free.push(carrying.positions);
+        }
+        if free.len() == SHORT_SEARCHES {
+            break;
+        }
+    }
+    let long = JointPathEffort::default();
+    let short = JointPathEffort {
+        samples: SAMPLES,
+        ..long
+    };
+    let searches = (free.iter().map(|goal| (goal, short)))
+        .chain(free.iter().take(LONG_SEARCHES).map(|goal| (goal, long)));
+    let mut found = searches.filter(|(goal, effort)| {
+        plan_joint_trajectory(world, &group, &goal[..], &mut checker, *effort).is_ok()
+    });
+    found.next().map(|(goal, _)| *goal)
 }
 
 /// All postures for carrying, the best one first; collisions are not checked.
@@ -73,6 +95,15 @@ fn carrying_postures(world: &World, side: Side) -> Vec<Carrying> {
                 positions,
             }),
     );
+    let mut add = |positions: ArmPositions| {
+        let positions = near(arm, positions, &now);
+        let travel: f64 = positions.iter().zip(&now).map(|(a, b)| (a - b).abs()).sum();
+        let out = reach_over_floor(world, side, &positions);
+        all.push(Carrying {
+            cost: travel + REACHES_OUT * out,
+            positions,
+        });
+    };
     for (_, posture) in &arm.postures {
         let mut settled = *posture;
         if !level.settle(&mut settled) {
@@ -80,23 +111,39 @@ fn carrying_postures(world: &World, side: Side) -> Vec<Carrying> {
         }
         let hand = arm.kinematics.hand_rotation(&settled);
         for i in 0..HEADINGS {
-            let heading = std::f64::consts::TAU * f64::from(i) / f64::from(HEADINGS);
-            let turn: Matrix3<f64> =
-                Rotation3::from_axis_angle(&Vector3::z_axis(), heading).into_inner();
-            let Some(positions) = arm.kinematics.with_hand_turned(&settled, &(turn * hand)) else {
-                continue;
-            };
-            let positions = near(arm, positions, &now);
-            let travel: f64 = positions.iter().zip(&now).map(|(a, b)| (a - b).abs()).sum();
-            let out = reach_over_floor(world, side, &positions);
-            all.push(Carrying {
-                cost: travel + REACHES_OUT * out,
-                positions,
-            });
+            let turn = heading(i).to_rotation_matrix().into_inner();
+            let turned = arm.kinematics.with_hand_turned(&settled, &(turn * hand));
+            turned.into_iter().for_each(&mut add);
+        }
+    }
+    let mut settled = now;
+    let base = world.link_pose(arm.base);
+    let wrist = base.inverse() * world.link_pose(arm.wrist);
+    if level.settle(&mut settled) {
+        let hand = arm.kinematics.hand_rotation(&settled);
+        let hand = UnitQuaternion::from_matrix(&hand);
+        let outward = if side == Side::Left { 1.0 } else { -1.0 };
+        for x in FORWARD {
+            for y in ASIDE {
+                for z in ABOVE.into_iter().chain([wrist.translation.z]) {
+                    for i in (0..HEADINGS).step_by(FEWER_HEADINGS as usize) {
+                        let at = Translation3::new(x, y * outward, z);
+                        let to = Pose::from_parts(at, heading(i) * hand);
+                        let reached = arm.kinematics.nearest(&to, &now);
+                        reached.into_iter().for_each(&mut add);
+                    }
+                }
+            }
         }
     }
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     all
+}
+
+/// The turn about the vertical with that number.
+fn heading(number: u32) -> UnitQuaternion<f64> {
+    let angle = std::f64::consts::TAU * f64::from(number) / f64::from(HEADINGS);
+    UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle)
 }
 
 /// The positions with the continuous joints turned to within half a turn of where they are.
@@ -127,16 +174,21 @@ fn reach_over_floor(world: &World, side: Side, positions: &ArmPositions) -> f64 
 }
 
 /// Whether an arm that holds something open at the top upright is in a posture for carrying it, up to an angle
-/// (rad) for each joint.
-pub fn carries(world: &World, side: Side, tolerance: f64) -> bool {
+/// (rad) for each joint: the one that was found last, or one of the description's, with the hand turned.
+pub fn carries(world: &World, side: Side, found: Option<&ArmPositions>, tolerance: f64) -> bool {
     let arm = world.models().description.arm(side);
     let now = arm.positions(&world.robot_configuration().joints);
-    let is_near = |posture: &ArmPositions| {
-        let upper = now.iter().zip(posture).take(TURNED);
-        upper.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) <= tolerance
+    let is_near = |posture: &ArmPositions, joints: usize| {
+        let posture = near(arm, *posture, &now);
+        let some = now.iter().zip(&posture).take(joints);
+        some.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) <= tolerance
     };
     world.upright_in_hand(side).is_some()
-        && arm.postures.iter().any(|(_, posture)| is_near(posture))
+        && (found.is_some_and(|found| is_near(found, found.len()))
+            || arm
+                .postures
+                .iter()
+                .any(|(_, posture)| is_near(posture, TURNED)))
 }
 
 /// Whether there is a posture in which the arm can carry what it holds, whatever is around the robot.

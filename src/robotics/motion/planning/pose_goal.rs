@@ -46,6 +46,11 @@ const NO_ROOM_COST: f64 = 2.0;
 const SHUT_COST: f64 = 4.0;
 /// Distance (rad) from a joint's limit below which configurations cost more, and how much more.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
+/// Number of configurations at one height that first get a short search for a level path, how far they are
+/// apart in the order of cost, and the random configurations of each.
+const SHORT_SEARCHES: usize = 6;
+const SPREAD: usize = 3;
+const SHORT_SAMPLES: usize = 200;
 /// Number of configurations at one height that get a long search for a path.
 const LONG_SEARCHES: usize = 2;
 /// Number of final configurations at one height that are tried for a straight line.
@@ -282,7 +287,18 @@ impl PoseGoalTask<'_> {
             }
         }
         let mut result = None;
-        for configuration in free.iter().take(LONG_SEARCHES) {
+        // Whether a level path leads to a configuration depends much on which one it is.
+        let short = JointPathEffort {
+            samples: SHORT_SAMPLES,
+            ..effort
+        };
+        let short = (!checker.level().is_empty()).then_some(short);
+        let short = short.into_iter().flat_map(|short| {
+            let some = free.iter().step_by(SPREAD).take(SHORT_SEARCHES);
+            some.map(move |configuration| (configuration, short))
+        });
+        let long = free.iter().take(LONG_SEARCHES).map(|one| (one, effort));
+        for (configuration, effort) in short.chain(long) {
             match plan_joint_trajectory(
                 self.world,
                 group,

@@ -56,12 +56,13 @@ fn a_bowl_is_brought_to_the_body_level_and_out_again() {
         let arm = kitchen.world.models().description.arm(side).clone();
         let out = arm.positions(&kitchen.world.robot_configuration().joints);
         let posture = carrying_posture(&kitchen.world, side).expect("there is one");
-        assert!(!carries(&kitchen.world, side, 0.02));
+        assert!(!carries(&kitchen.world, side, Some(&posture), 0.02));
         for goal in [posture, out] {
             let (end, tilt) = tilt_during(&mut kitchen, to(side, goal.to_vec()));
             end.unwrap_or_else(|f| panic!("{f}"));
             assert!(tilt > 0.0 && tilt < 14.0, "{tilt}");
-            assert_eq!(carries(&kitchen.world, side, 0.02), goal == posture);
+            let arrived = carries(&kitchen.world, side, Some(&posture), 0.02);
+            assert_eq!(arrived, goal == posture);
         }
         // A posture that tilts it is gone to if it is asked for.
         let mut tilted = out.to_vec();
