@@ -294,7 +294,7 @@ impl MovedPart<'_> {
         solids.iter().find_map(|solid| {
             let placed = at * solid.pose;
             let bounds = solid.shape.compute_aabb(&placed);
-            let mut places = self.furniture.places_near(&bounds).into_iter();
+            let mut places = self.furniture.places_near(&bounds);
             // These are places in this list.
             let furniture = places.find_map(|place| {
                 let other = &self.furniture.all()[place];
