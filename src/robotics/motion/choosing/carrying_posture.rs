@@ -26,15 +26,15 @@ const HEADINGS: u32 = 24;
 const REACHES_OUT: f64 = 20.0;
 /// How many joints of a posture are kept; the others turn the hand.
 const TURNED: usize = 4;
-/// Places of the wrist before the shoulders (m), forward from the arm's base, to the arm's side, and above; the
-/// height that it has now is tried, too.
+/// Places of the wrist before the shoulders (m), forward from the arm's base, to the arm's side, and above: lower,
+/// a thing would stay in a drawer from which it is taken, and the robot could not go away.
 const FORWARD: [f64; 3] = [0.3, 0.4, 0.5];
 const ASIDE: [f64; 3] = [0.15, 0.3, 0.45];
 const ABOVE: [f64; 2] = [0.05, 0.25];
 /// Every so many headings are tried there.
 const FEWER_HEADINGS: u32 = 3;
-/// How many postures get a short search for a path, and how many random configurations that takes.
-const SHORT_SEARCHES: usize = 12;
+/// How many postures of the description, and how many others, get a short search for a path, and how many random configurations that takes.
+const SHORT_SEARCHES: usize = 8;
 const SAMPLES: usize = 150;
 /// How many postures get a long one.
 const LONG_SEARCHES: usize = 2;
@@ -57,13 +57,10 @@ pub fn carrying_posture(world: &World, side: Side) -> Option<ArmPositions> {
     let mut checker =
         ConfigurationChecker::new(world, group.joints.clone(), &contacts).keeping(level);
     let mut free: Vec<ArmPositions> = Vec::new();
-    for carrying in carrying_postures(world, side) {
-        if checker.obstacle(&carrying.positions).is_none() {
-            free.push(carrying.positions);
-        }
-        if free.len() == SHORT_SEARCHES {
-            break;
-        }
+    for group in carrying_postures(world, side) {
+        let positions = group.into_iter().map(|carrying| carrying.positions);
+        let mut some = positions.filter(|one| checker.obstacle(one).is_none());
+        free.extend(some.by_ref().take(SHORT_SEARCHES));
     }
     let long = JointPathEffort::default();
     let short = JointPathEffort {
@@ -78,13 +75,14 @@ pub fn carrying_posture(world: &World, side: Side) -> Option<ArmPositions> {
     found.next().map(|(goal, _)| *goal)
 }
 
-/// All postures for carrying, the best one first; collisions are not checked.
-fn carrying_postures(world: &World, side: Side) -> Vec<Carrying> {
+/// All postures for carrying, those of the description and the others, of both the best one first; collisions
+/// are not checked.
+fn carrying_postures(world: &World, side: Side) -> [Vec<Carrying>; 2] {
     let arm = world.models().description.arm(side);
     let now = arm.positions(&world.robot_configuration().joints);
     let group = PlanningGroup::new(world, false, &[side]);
     let level = LevelHands::of(world, &group.joints);
-    let mut all = Vec::new();
+    let (mut all, mut others) = (Vec::new(), Vec::new());
     // The arm is parked as usual where that keeps level what it holds.
     let parked = arm.posture(PARKED).map(|posture| near(arm, *posture, &now));
     all.extend(
@@ -95,14 +93,14 @@ fn carrying_postures(world: &World, side: Side) -> Vec<Carrying> {
                 positions,
             }),
     );
-    let mut add = |positions: ArmPositions| {
+    let carrying = |positions: ArmPositions| {
         let positions = near(arm, positions, &now);
         let travel: f64 = positions.iter().zip(&now).map(|(a, b)| (a - b).abs()).sum();
         let out = reach_over_floor(world, side, &positions);
-        all.push(Carrying {
+        Carrying {
             cost: travel + REACHES_OUT * out,
             positions,
-        });
+        }
     };
     for (_, posture) in &arm.postures {
         let mut settled = *posture;
@@ -113,31 +111,32 @@ fn carrying_postures(world: &World, side: Side) -> Vec<Carrying> {
         for i in 0..HEADINGS {
             let turn = heading(i).to_rotation_matrix().into_inner();
             let turned = arm.kinematics.with_hand_turned(&settled, &(turn * hand));
-            turned.into_iter().for_each(&mut add);
+            all.extend(turned.map(carrying));
         }
     }
     let mut settled = now;
-    let base = world.link_pose(arm.base);
-    let wrist = base.inverse() * world.link_pose(arm.wrist);
     if level.settle(&mut settled) {
         let hand = arm.kinematics.hand_rotation(&settled);
         let hand = UnitQuaternion::from_matrix(&hand);
         let outward = if side == Side::Left { 1.0 } else { -1.0 };
         for x in FORWARD {
             for y in ASIDE {
-                for z in ABOVE.into_iter().chain([wrist.translation.z]) {
+                for z in ABOVE {
                     for i in (0..HEADINGS).step_by(FEWER_HEADINGS as usize) {
                         let at = Translation3::new(x, y * outward, z);
                         let to = Pose::from_parts(at, heading(i) * hand);
                         let reached = arm.kinematics.nearest(&to, &now);
-                        reached.into_iter().for_each(&mut add);
+                        others.extend(reached.ok().map(carrying));
                     }
                 }
             }
         }
     }
-    all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    all
+    let mut groups = [all, others];
+    for group in &mut groups {
+        group.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    }
+    groups
 }
 
 /// The turn about the vertical with that number.
@@ -202,8 +201,11 @@ pub(crate) fn can_carry(world: &World, side: Side) -> bool {
     let own = |body: &BodyName| {
         matches!(body, BodyName::Robot(_)) || body.object() == Some(object.name())
     };
-    carrying_postures(world, side).iter().any(|carrying| {
-        let hits = checker.overlaps(&carrying.positions, 0.0);
-        !hits.iter().any(|hit| own(&hit.moving) && own(&hit.other))
-    })
+    carrying_postures(world, side)
+        .iter()
+        .flatten()
+        .any(|carrying| {
+            let hits = checker.overlaps(&carrying.positions, 0.0);
+            !hits.iter().any(|hit| own(&hit.moving) && own(&hit.other))
+        })
 }
