@@ -14,6 +14,7 @@ use crate::simulation::{Axes, Simulation};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::raise::Raise;
+use robotics::robot::ArmPositions;
 use robotics::world::{self, Models};
 
 /// Maximum number of forms at top level that can be undone.
@@ -32,6 +33,7 @@ struct State {
     world: world::Snapshot,
     names: IndexMap<String, Value>,
     held: IndexMap<String, Held>,
+    carrying: [Option<ArmPositions>; 2],
     axes: Option<Axes>,
     /// How many searches for locations have begun.
     searches: u64,
@@ -71,6 +73,7 @@ impl Snapshot {
             world: simulation.world.snapshot(),
             names: simulation.names.clone(),
             held: simulation.held.clone(),
+            carrying: simulation.carrying,
             axes: simulation.axes.clone(),
             searches: simulation.searches,
         }))
@@ -88,6 +91,7 @@ impl Snapshot {
         let state = &self.0;
         simulation.world.restore(&state.world);
         simulation.held.clone_from(&state.held);
+        simulation.carrying = state.carrying;
         simulation.jobs.clear();
     }
 
@@ -100,6 +104,7 @@ impl Snapshot {
         simulation.world.restore(&state.world);
         simulation.names.clone_from(&state.names);
         simulation.held.clone_from(&state.held);
+        simulation.carrying = state.carrying;
         simulation.axes.clone_from(&state.axes);
         simulation.searches = state.searches;
     }
@@ -118,6 +123,7 @@ impl Copied for Snapshot {
             world: state.world.clone(),
             names: names.collect(),
             held: state.held.clone(),
+            carrying: state.carrying,
             axes: state.axes.clone(),
             searches: state.searches,
         }))

@@ -35,6 +35,7 @@ use lisp::value::Value;
 use lisp::value::copy::Copier;
 use robotics::location::OutOfReach;
 use robotics::motion::DetectQuery;
+use robotics::robot::ArmPositions;
 use robotics::world::grasp_library::GraspLibrary;
 use robotics::world::noise::{Noise, NoiseLevels};
 use robotics::world::object_library::ObjectLibrary;
@@ -84,6 +85,8 @@ pub struct Simulation {
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
     pub(super) held: IndexMap<String, held::Held>,
+    /// The posture for carrying that was last found for each arm.
+    pub(crate) carrying: [Option<ArmPositions>; 2],
     /// Active and waiting motions.
     pub(super) jobs: Jobs,
     pub(super) axes: Option<Axes>,
@@ -114,6 +117,7 @@ impl Simulation {
             world: starting_world(&models),
             names: IndexMap::new(),
             held: IndexMap::new(),
+            carrying: [None; 2],
             jobs: Jobs::default(),
             axes: None,
             location_map: None,
@@ -171,6 +175,7 @@ impl Simulation {
             world: self.world.clone(),
             names: names.collect(),
             held: self.held.clone(),
+            carrying: self.carrying,
             jobs: Jobs::after(self.jobs.begun),
             axes: self.axes.clone(),
             location_map: self.location_map.clone(),

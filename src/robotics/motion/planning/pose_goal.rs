@@ -19,6 +19,7 @@ use super::planning_group::PlanningGroup;
 use crate::motion::contact::expected_contacts::ExpectedContacts;
 use crate::motion::contact::hand::releasing_opening;
 use crate::motion::contact::holding::held_objects;
+use crate::motion::contact::level::LevelHands;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::unreachable::{UnreachablePose, UnreachableReason};
 use crate::motion::trajectories::axis_group::AxisGroup;
@@ -45,6 +46,11 @@ const NO_ROOM_COST: f64 = 2.0;
 const SHUT_COST: f64 = 4.0;
 /// Distance (rad) from a joint's limit below which configurations cost more, and how much more.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
+/// Number of configurations at one height that first get a short search for a level path, how far they are
+/// apart in the order of cost, and the random configurations of each.
+const SHORT_SEARCHES: usize = 6;
+const SPREAD: usize = 3;
+const SHORT_SAMPLES: usize = 200;
 /// Number of configurations at one height that get a long search for a path.
 const LONG_SEARCHES: usize = 2;
 /// Number of final configurations at one height that are tried for a straight line.
@@ -114,6 +120,16 @@ impl PoseGoalTask<'_> {
             &[height],
         );
         wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
+    }
+
+    /// Tells which configurations are free. What is upright in the hands and will be stays so on the way.
+    pub(super) fn checker(
+        &self,
+        group: &PlanningGroup,
+        contacts: &ExpectedContacts,
+    ) -> ConfigurationChecker<'_> {
+        let level = LevelHands::of(self.world, &group.joints).level_with(&self.goals);
+        ConfigurationChecker::new(self.world, group.joints.clone(), contacts).keeping(level)
     }
 
     /// All configurations at the height, the best one first; collisions are not checked.
@@ -218,8 +234,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let free = match self.free_configurations(configurations, &mut checker) {
                 Ok(free) => free,
                 Err((count, hit)) => {
@@ -257,7 +272,7 @@ impl PoseGoalTask<'_> {
         let effort = JointPathEffort::default();
         let now = group.now(self.world);
         for configuration in free.iter().take(SHORT_LIST) {
-            let mut blocked = |q: &[f64]| checker.blocked(q);
+            let mut blocked = |q: &[f64]| checker.obstacle(q);
             let met = blocked_between(
                 &group.axes,
                 &now,
@@ -272,7 +287,18 @@ impl PoseGoalTask<'_> {
             }
         }
         let mut result = None;
-        for configuration in free.iter().take(LONG_SEARCHES) {
+        // Whether a level path leads to a configuration depends much on which one it is.
+        let short = JointPathEffort {
+            samples: SHORT_SAMPLES,
+            ..effort
+        };
+        let short = (!checker.level().is_empty()).then_some(short);
+        let short = short.into_iter().flat_map(|short| {
+            let some = free.iter().step_by(SPREAD).take(SHORT_SEARCHES);
+            some.map(move |configuration| (configuration, short))
+        });
+        let long = free.iter().take(LONG_SEARCHES).map(|one| (one, effort));
+        for (configuration, effort) in short.chain(long) {
             match plan_joint_trajectory(
                 self.world,
                 group,
@@ -319,8 +345,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let task = self.line_task(height, &group);
             let start = group.now(self.world);
             let ends = configurations
@@ -362,8 +387,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let mut back = self.line_task(height, &group);
             for line in &mut back.lines {
                 let start = from.map_or(line.from, |offset| offset * line.to);
@@ -377,8 +401,7 @@ impl PoseGoalTask<'_> {
                 let (CartesianEnd::Complete, Some(start)) = (met, path.points.last()) else {
                     continue;
                 };
-                let mut checker =
-                    ConfigurationChecker::new(self.world, group.joints.clone(), contacts);
+                let mut checker = self.checker(&group, contacts);
                 let effort = JointPathEffort::default();
                 if let Ok(trajectory) =
                     plan_joint_trajectory(self.world, &group, start, &mut checker, effort)
