@@ -1,10 +1,12 @@
 //! Movable objects.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use parry3d_f64::bounding_volume::Aabb;
 
+use super::content::Content;
 use super::holding::Hold;
+use super::hollow::Hollow;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
 use super::solid::Solid;
@@ -42,6 +44,9 @@ pub struct Object {
     pub number: u32,
     pub body: BodyHandle,
     pub attachment: Option<Attachment>,
+    pub(super) content: Content,
+    /// The room inside it, once somebody has asked.
+    pub(super) hollow: OnceLock<Option<Arc<Hollow>>>,
 }
 
 impl Object {

@@ -171,6 +171,8 @@ impl World {
                 number,
                 body,
                 attachment: None,
+                content: super::content::Content::default(),
+                hollow: std::sync::OnceLock::new(),
             },
         );
         Ok(report)

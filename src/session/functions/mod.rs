@@ -3,6 +3,7 @@
 mod asking;
 mod choosing;
 mod containers;
+mod contents;
 mod explaining;
 mod grasps;
 mod kitchens;
