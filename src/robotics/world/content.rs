@@ -4,9 +4,9 @@
 
 use std::sync::Arc;
 
+use super::cavity::Cavity;
 use super::error::WorldError;
 use super::hash::Hasher;
-use super::hollow::Hollow;
 use super::object::Object;
 use super::scene::World;
 use spatial::{Pose, trig};
@@ -47,11 +47,11 @@ pub fn tilt_of(at: &Pose) -> f64 {
 
 impl Object {
     /// The room inside it; `None` if it is no open vessel.
-    pub fn hollow(&self) -> Option<&Hollow> {
-        let hollow = self
-            .hollow
-            .get_or_init(|| Hollow::of(&self.solids).map(Arc::new));
-        hollow.as_deref()
+    pub fn cavity(&self) -> Option<&Cavity> {
+        let cavity = self
+            .cavity
+            .get_or_init(|| Cavity::of(&self.solids).map(Arc::new));
+        cavity.as_deref()
     }
 
     /// What is in it.
@@ -85,16 +85,16 @@ impl World {
                 // A drop in a vessel upside down falls, too, with the next that leaves it.
                 continue;
             }
-            let Some(hollow) = object.hollow() else {
+            let Some(cavity) = object.cavity() else {
                 continue;
             };
             let at = self.physics.pose(object.body);
-            let level = hollow.volume_at(tilt_of(&at));
+            let level = cavity.volume_at(tilt_of(&at));
             let excess = object.content.volume - level;
             if excess <= CLINGS {
                 continue;
             }
-            let (lip, out) = hollow.lip(&at);
+            let (lip, out) = cavity.lip(&at);
             let what = object.content.what.clone();
             let caught = self.catcher(place, &lip, &out);
             if let Some((_, source)) = self.state.objects.get_index_mut(place) {
@@ -138,18 +138,18 @@ impl World {
             if far > 1.0 || tilt_of(&at) > CATCHES {
                 continue;
             }
-            let Some(hollow) = object.hollow() else {
+            let Some(cavity) = object.cavity() else {
                 continue;
             };
-            let mouth = hollow.mouth_at(&at);
+            let mouth = cavity.mouth_at(&at);
             let fall = lip.z - mouth.z;
             if fall < 0.0 || best.is_some_and(|(_, _, rim)| rim >= mouth.z) {
                 continue;
             }
             let way = STREAM_SPEED * (2.0 * fall / GRAVITY).sqrt();
             let lands = lip.coords + out * way;
-            if (lands - mouth.coords).xy().norm() < hollow.narrowest {
-                let room = hollow.volume_at(tilt_of(&at)) - object.content.volume;
+            if (lands - mouth.coords).xy().norm() < cavity.narrowest {
+                let room = cavity.volume_at(tilt_of(&at)) - object.content.volume;
                 best = Some((place, room.max(0.0), mouth.z));
             }
         }

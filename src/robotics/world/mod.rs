@@ -9,6 +9,7 @@
 pub(crate) mod allowed_pairs;
 pub mod body_name;
 mod carrying;
+pub mod cavity;
 pub mod collision;
 mod collision_search;
 pub mod contacts;
@@ -22,7 +23,7 @@ pub mod handle_hold;
 pub mod hash;
 mod headroom;
 pub mod holding;
-pub mod hollow;
+
 pub mod kitchen_description;
 mod kitchen_description_file;
 mod kitchen_motion;
@@ -59,6 +60,7 @@ mod touching;
 
 pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;
+pub use cavity::Cavity;
 pub use collision::{CollisionChecker, CollisionHit};
 pub use contacts::ContactForce;
 pub use content::Content;
@@ -68,7 +70,7 @@ pub(crate) use explored_floor::{ExploredGrid, ExploredGrids};
 pub use extent::Extent;
 pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;
-pub use hollow::Hollow;
+
 pub use kitchen_description::KitchenDescription;
 pub use map_area::MapArea;
 pub use models::Models;

@@ -4,9 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use parry3d_f64::bounding_volume::Aabb;
 
+use super::cavity::Cavity;
 use super::content::Content;
 use super::holding::Hold;
-use super::hollow::Hollow;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
 use super::solid::Solid;
@@ -46,7 +46,7 @@ pub struct Object {
     pub attachment: Option<Attachment>,
     pub(super) content: Content,
     /// The room inside it, once somebody has asked.
-    pub(super) hollow: OnceLock<Option<Arc<Hollow>>>,
+    pub(super) cavity: OnceLock<Option<Arc<Cavity>>>,
 }
 
 impl Object {

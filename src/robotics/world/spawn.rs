@@ -172,7 +172,7 @@ impl World {
                 body,
                 attachment: None,
                 content: super::content::Content::default(),
-                hollow: std::sync::OnceLock::new(),
+                cavity: std::sync::OnceLock::new(),
             },
         );
         Ok(report)

@@ -10,7 +10,7 @@ use lisp::print;
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::world::{Hollow, Object};
+use robotics::world::{Cavity, Object};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -57,11 +57,11 @@ pub(super) static TABLE: &[Builtin] = &[
 /// Builtins of package `CRAM-BULLET-REASONING`.
 pub(super) static SHAPE_TABLE: &[Builtin] = &[
     control(
-        "%HOLLOW",
+        "%CAVITY",
         "name",
         "Where the mouth of a vessel is in its own frame, and how wide: x, y, z of its middle, its radius, and the z of its foot (m), as a list; NIL if it is not open at its top.",
         &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%hollow 'bottle-1)) => NIL",
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%cavity 'bottle-1)) => NIL",
         ],
         host!(hollow_of),
     ),
@@ -94,13 +94,13 @@ fn set_content(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
     };
     let vessel = object(simulation, image, &args[0])?;
     let name = vessel.name().to_owned();
-    let Some(hollow) = vessel.hollow() else {
+    let Some(cavity) = vessel.cavity() else {
         return Err(Raise::simple(format!(
             "{} is closed: nothing can be filled into it.",
             name.to_uppercase()
         )));
     };
-    let most = hollow.capacity();
+    let most = cavity.capacity();
     if amount > most {
         return Err(Raise::simple(format!(
             "{} does not hold {} ml: it is full with {most:.0} ml.",
@@ -125,8 +125,8 @@ fn content_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
 }
 
 fn capacity_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let hollow = object(simulation, image, &args[0])?.hollow();
-    done(hollow.map_or(Value::NIL, |hollow| Value::Double(hollow.capacity())))
+    let cavity = object(simulation, image, &args[0])?.cavity();
+    done(cavity.map_or(Value::NIL, |cavity| Value::Double(cavity.capacity())))
 }
 
 fn spilled_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -135,10 +135,10 @@ fn spilled_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
 }
 
 fn hollow_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let hollow = object(simulation, image, &args[0])?.hollow();
-    done(hollow.map_or(Value::NIL, |hollow| {
-        let [x, y] = hollow.axis;
-        Value::list([x, y, hollow.rim, hollow.mouth, hollow.foot].map(Value::Double))
+    let cavity = object(simulation, image, &args[0])?.cavity();
+    done(cavity.map_or(Value::NIL, |cavity| {
+        let [x, y] = cavity.axis;
+        Value::list([x, y, cavity.rim, cavity.mouth, cavity.foot].map(Value::Double))
     }))
 }
 
@@ -147,7 +147,7 @@ fn level(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
     let Some(tilt) = tilt else {
         return Err(Raise::type_error(&args[1], lisp::value::known::REAL));
     };
-    let hollow = object(simulation, image, &args[0])?.hollow();
-    let level = hollow.map_or(0.0, |hollow: &Hollow| hollow.volume_at(tilt.abs()));
+    let cavity = object(simulation, image, &args[0])?.cavity();
+    let level = cavity.map_or(0.0, |cavity: &Cavity| cavity.volume_at(tilt.abs()));
     done(Value::Double(level))
 }

@@ -1,8 +1,8 @@
 //! The inner shape of vessels: what they hold, upright and tilted.
 //!
-//! A hollow is a stack of slices about a vertical axis, each as wide as its walls leave on average. It is
+//! A cavity is a stack of slices about a vertical axis, each as wide as its walls leave on average. It is
 //! found from the solids alone: rays from the axis meet the walls, and the floor is where the axis enters
-//! a solid. What has no wall all around, no floor, or is covered at its top has no hollow.
+//! a solid. What has no wall all around, no floor, or is covered at its top has no cavity.
 
 use parry3d_f64::query::Ray;
 
@@ -16,12 +16,12 @@ const SLICES: usize = 64;
 const RAYS: usize = 32;
 /// A wall farther from the axis than this (m) is none.
 const FARTHEST: f64 = 1.0;
-/// The lowest hollow (m) that counts.
+/// The lowest cavity (m) that counts.
 const LOWEST: f64 = 0.004;
 
 /// The room inside a vessel, in the vessel's frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hollow {
+pub struct Cavity {
     /// Where its axis is (m, x and y).
     pub axis: [f64; 2],
     /// Height (m) of the rim.
@@ -38,8 +38,8 @@ pub struct Hollow {
     radii: Vec<f64>,
 }
 
-impl Hollow {
-    /// The hollow of solids; `None` if there is none that is open at the top.
+impl Cavity {
+    /// The cavity of solids; `None` if there is none that is open at the top.
     pub fn of(solids: &[Solid]) -> Option<Self> {
         let bounds = bounds_of(solids)?;
         let (low, high) = (bounds.mins.z, bounds.maxs.z);
@@ -56,7 +56,7 @@ impl Hollow {
             if is_solid(solids, shift, height) {
                 break;
             }
-            // A hole in a wall ends the hollow, as the floor does; without a floor there is none.
+            // A hole in a wall ends the cavity, as the floor does; without a floor there is none.
             let walls = walls(solids, shift, height)?;
             narrowest.get_or_insert_with(|| walls.iter().copied().fold(f64::INFINITY, f64::min));
             let mean = walls.iter().map(|r| r * r).sum::<f64>() / RAYS as f64;
@@ -189,15 +189,15 @@ mod tests {
     use super::*;
     use spatial::PlacedShape;
 
-    fn built_in(name: &str) -> Option<Hollow> {
+    fn built_in(name: &str) -> Option<Cavity> {
         let models = crate::world::Models::pr2_in_kitchen().expect("it is built in");
         let kind = models.objects.get(name).expect("the type is known");
-        Hollow::of(&Solid::all(&kind.shapes))
+        Cavity::of(&Solid::all(&kind.shapes))
     }
 
     #[test]
     fn vessels_hold_what_their_walls_enclose() {
-        let capacity = |name| built_in(name).map(|hollow| hollow.capacity().round());
+        let capacity = |name| built_in(name).map(|cavity| cavity.capacity().round());
         for (name, least, most) in [
             ("cup", 220.0, 290.0),
             ("mug", 300.0, 380.0),
@@ -239,17 +239,17 @@ mod tests {
                 color: None,
             }
         }));
-        let hollow = Hollow::of(&Solid::all(&shapes)).expect("it is a vessel");
+        let cavity = Cavity::of(&Solid::all(&shapes)).expect("it is a vessel");
         let full = std::f64::consts::PI * 0.03 * 0.03 * 0.1 * 1e6;
-        assert!((hollow.capacity() - full).abs() < 0.03 * full);
+        assert!((cavity.capacity() - full).abs() < 0.03 * full);
         // At 45 degrees, pi r2 (h - r) remain.
         let tilted = std::f64::consts::PI * 0.03 * 0.03 * 0.07 * 1e6;
-        let kept = hollow.volume_at(std::f64::consts::FRAC_PI_4);
+        let kept = cavity.volume_at(std::f64::consts::FRAC_PI_4);
         assert!((kept - tilted).abs() < 0.03 * tilted, "{kept} {tilted}");
-        assert_eq!(hollow.volume_at(std::f64::consts::FRAC_PI_2), 0.0);
+        assert_eq!(cavity.volume_at(std::f64::consts::FRAC_PI_2), 0.0);
         let mut last = f64::INFINITY;
         for degree in 0..180 {
-            let now = hollow.volume_at(f64::from(degree).to_radians());
+            let now = cavity.volume_at(f64::from(degree).to_radians());
             assert!(now <= last + 1e-9, "at {degree} degrees");
             last = now;
         }
