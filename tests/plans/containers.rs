@@ -576,3 +576,46 @@ fn how_often_containers_are_opened_and_closed() {
     println!("{good} of {all}");
     assert!(good * 100 >= all * 98, "{good} of {all}");
 }
+
+/// A bottle that stands too high in an open drawer would meet the one above, or the frame, when that is closed.
+#[test]
+fn a_drawer_is_offered_only_for_what_it_can_be_closed_over() {
+    let mut cook = cook();
+    cook.done(
+        "(defun places (?type ?name count)
+           (let* ((?for (an object (type ?type)))
+                  (?in (an object (urdf-name ?name) (part-of kitchen)))
+                  (place (a location (in ?in) (for ?for))))
+             (loop repeat count
+                   while place
+                   collect (desig:reference place)
+                   do (setf place (desig:next-solution place)))))",
+    );
+    let open = |cook: &mut Cook, joint: &str| {
+        cook.done(&format!(
+            "(btr-utils:kill-all-objects)
+             (move-kitchen-joint :joint-name \"{joint}\" :joint-angle 0.48)"
+        ));
+    };
+    for (name, joint) in [
+        ("sink_area_left_upper_drawer_main", UPPER),
+        (
+            "oven_area_area_middle_upper_drawer_main",
+            "oven_area_area_middle_upper_drawer_main_joint",
+        ),
+    ] {
+        open(&mut cook, joint);
+        let report = cook.fails("DESIGNATOR-ERROR", &format!("(places :bottle :{name} 1)"));
+        assert!(report.contains("when that is closed"), "{report}");
+    }
+    open(&mut cook, MIDDLE);
+    cook.done("(defparameter *found* (places :bottle :sink_area_left_middle_drawer_main 12))");
+    assert_eq!(cook.done("(length *found*)"), "12\n");
+    for number in 0..12 {
+        open(&mut cook, MIDDLE);
+        cook.done(&format!(
+            "(btr-utils:spawn-object 'thing :bottle :pose (nth {number} *found*))
+             (move-kitchen-joint :joint-name \"{MIDDLE}\" :joint-angle 0)"
+        ));
+    }
+}

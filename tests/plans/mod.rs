@@ -12,6 +12,7 @@ mod every_type;
 mod exercises;
 mod generated_kitchens;
 mod grasping;
+mod kinds_of_worlds;
 mod location_measurements;
 mod location_solutions;
 mod locations;
@@ -36,6 +37,7 @@ mod things_on_things;
 mod trace;
 mod transporting;
 mod types;
+mod upright;
 mod whole_plan;
 
 use session::Session;

@@ -3,6 +3,7 @@
 use super::constraint::inset;
 use super::costmap::{Costmap, Factor};
 use super::draw::Draw;
+use super::furniture::container_of;
 use super::offered::Offered;
 use super::place_query::{PlaceQuery, Position, What};
 use super::stream::Scene;
@@ -10,7 +11,9 @@ use super::support::Support;
 use super::tally::Tally;
 use crate::motion::interruption;
 use crate::robot::LinkId;
-use crate::world::{BodyName, Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError};
+use crate::world::{
+    BodyName, Closing, Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError,
+};
 use spatial::Pose;
 use spatial::pose::distance_between;
 
@@ -239,7 +242,7 @@ impl PlaceSearch {
         offered: &Offered,
         tally: &mut Tally,
     ) -> Option<Pose> {
-        let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
+        let room = self.room(query, scene.world);
         loop {
             interruption::look();
             let Some(cell) = self.order.get(self.next) else {
@@ -289,7 +292,7 @@ impl PlaceSearch {
     fn try_at(
         &self,
         query: &PlaceQuery,
-        room: &StandingRoom<'_>,
+        room: &Room<'_>,
         pose: &Pose,
         first: usize,
     ) -> Result<Pose, NoRoom> {
@@ -308,23 +311,44 @@ impl PlaceSearch {
     fn lower(
         &self,
         query: &PlaceQuery,
-        room: &StandingRoom<'_>,
+        Room { standing, closing }: &Room<'_>,
         pose: &Pose,
         [start, below]: [f64; 2],
     ) -> Result<Pose, NoRoom> {
         let t = pose.translation;
         let mut pose = *pose;
         match &self.load {
-            None => pose.translation.z = room.point([t.x, t.y], start, below, self.ground)?,
-            Some(load) => pose = room.stand(load, &pose, start, below, self.ground)?,
+            None => pose.translation.z = standing.point([t.x, t.y], start, below, self.ground)?,
+            Some(load) => pose = standing.stand(load, &pose, start, below, self.ground)?,
         }
         if let Position::Above(height) = query.position {
             pose.translation.z += height;
             if let Some(load) = &self.load {
-                room.check_free(load, &pose)?;
+                standing.check_free(load, &pose)?;
             }
         }
-        Ok(pose)
+        let load = self.load.as_ref();
+        let mut stops = closing
+            .iter()
+            .filter_map(|closing| closing.stopped_by(load?, &pose));
+        match stops.next() {
+            Some(body) => Err(NoRoom::Closing(body)),
+            None => Ok(pose),
+        }
+    }
+
+    /// Where the thing could stand, and how what it is put into would be closed.
+    fn room<'w>(&self, query: &PlaceQuery, world: &'w World) -> Room<'w> {
+        let models = world.models();
+        let closing = match (&query.support, query.position) {
+            (Support::Furniture(link), Position::In(_)) => container_of(models, *link)
+                .and_then(|container| world.closing(container.joint, *link)),
+            _ => None,
+        };
+        Room {
+            standing: StandingRoom::new(world, self.limits(), self.load.as_ref()),
+            closing,
+        }
     }
 
     /// Whether what the place is for stands at the pose already, on such ground: it may reach beyond
@@ -376,7 +400,7 @@ impl PlaceSearch {
         if is_there {
             return Ok(());
         }
-        let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
+        let room = self.room(query, scene.world);
         let depth = self.load.as_ref().map_or(0.0, |load| load.depth(pose));
         let off = |[start, _]: &[f64; 2]| (start - SLACK + depth - t.z).abs();
         let board = self.starts.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -391,6 +415,13 @@ impl PlaceSearch {
         }
         Ok(())
     }
+}
+
+/// Where a thing could stand.
+struct Room<'w> {
+    standing: StandingRoom<'w>,
+    /// How what it is put into would be closed, if that is open.
+    closing: Option<Closing<'w>>,
 }
 
 impl PlaceQuery {
@@ -432,5 +463,6 @@ fn cause_text(cause: &NoRoom) -> String {
         NoRoom::On(body) => format!("on {body}"),
         NoRoom::Edge => "across an edge or not level".to_owned(),
         NoRoom::Touches(body) => format!("touching {body}"),
+        NoRoom::Closing(body) => format!("meeting {body} when that is closed"),
     }
 }

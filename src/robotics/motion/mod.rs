@@ -12,6 +12,7 @@ pub(crate) mod jobs;
 pub(crate) mod planning;
 pub(crate) mod trajectories;
 
+pub use choosing::carrying_posture::{carries, carrying_posture};
 pub use choosing::grasp_chooser::{
     Candidates, GraspChoice, GraspChooser, GraspQuestion, about_z, needed,
 };

@@ -6,8 +6,12 @@
 //! arm's tip link in the frame of the arm's base link; nothing here knows of tools,
 //! collisions or other arms.
 
-use super::arm_chain::{ARM_JOINTS, ArmChain, ArmChainError, ArmPositions};
-use super::elbow_curve::{ElbowCurve, Stretch};
+use nalgebra::Matrix3;
+
+use super::arm_chain::{
+    ARM_JOINTS, ArmChain, ArmChainError, ArmPositions, ELBOW, FLEX, FOREARM, LIFT, PAN, ROLL, WRIST,
+};
+use super::elbow_curve::{ElbowCurve, Stretch, wrist_angles};
 use super::unreachable::Unreachable;
 use super::{JointId, KinematicTree, Limits, LinkId};
 use spatial::{Pose, trig};
@@ -35,6 +39,23 @@ fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
         (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),
         (a, b) => a.or(b),
     }
+}
+
+/// The orientation of the forearm before it is rolled, in the frame of the arm's base.
+fn forearm_rotation(positions: &ArmPositions) -> Matrix3<f64> {
+    let (sin, cos) = trig::sin_cos(positions[PAN]);
+    let pan = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    pan * about_y(positions[LIFT]) * about_x(positions[ROLL]) * about_y(positions[ELBOW])
+}
+
+fn about_x(angle: f64) -> Matrix3<f64> {
+    let (sin, cos) = trig::sin_cos(angle);
+    Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
+}
+
+fn about_y(angle: f64) -> Matrix3<f64> {
+    let (sin, cos) = trig::sin_cos(angle);
+    Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos)
 }
 
 /// Inverse kinematics of one arm.
@@ -120,6 +141,28 @@ impl ArmKinematics {
             Some(best) => Ok(self.refine(&curve, best, seed).positions),
             None => Err(Unreachable::explain(&self.chain, &curve)),
         }
+    }
+
+    /// The orientation of the wrist's last link in the frame of the arm's base.
+    pub(crate) fn hand_rotation(&self, positions: &ArmPositions) -> Matrix3<f64> {
+        forearm_rotation(positions)
+            * about_x(positions[FOREARM])
+            * about_y(positions[FLEX])
+            * about_x(positions[WRIST])
+    }
+
+    /// The positions with the last three joints turned so that the hand has an orientation in the frame of
+    /// the arm's base. The wrist stays where it is. `None` if that is beyond the limits.
+    pub(crate) fn with_hand_turned(
+        &self,
+        positions: &ArmPositions,
+        hand: &Matrix3<f64>,
+    ) -> Option<ArmPositions> {
+        let [forearm, flex, wrist] = wrist_angles(&forearm_rotation(positions), hand);
+        let mut turned = *positions;
+        (turned[FOREARM], turned[FLEX], turned[WRIST]) = (forearm, flex, wrist);
+        let turned = self.within_limits(turned)?;
+        Some(self.toward_seed(turned, positions))
     }
 
     fn candidate(

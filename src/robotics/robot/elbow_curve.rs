@@ -51,6 +51,18 @@ struct ArmPoint {
     forearm: Matrix3<f64>,
 }
 
+/// The angles (rad) of forearm roll, wrist flex and wrist roll that turn a hand into an orientation, given the
+/// axes of the forearm before it is rolled, both in the frame of the arm's base.
+pub(super) fn wrist_angles(forearm: &Matrix3<f64>, hand: &Matrix3<f64>) -> [f64; 3] {
+    let inward = forearm.tr_mul(&hand.column(0));
+    let first = hand.tr_mul(&forearm.column(0));
+    [
+        trig::atan2(-inward.y, inward.z),
+        -trig::atan2(libm::hypot(inward.y, inward.z), inward.x),
+        trig::atan2(-first.y, -first.z),
+    ]
+}
+
 /// The curve for one pose of the wrist.
 pub(super) struct ElbowCurve<'a> {
     chain: &'a ArmChain,
@@ -254,12 +266,7 @@ impl<'a> ElbowCurve<'a> {
     }
 
     fn with_wrist(&self, point: &ArmPoint) -> ArmPositions {
-        let hand = &self.rotation;
-        let inward = point.forearm.tr_mul(&hand.column(0));
-        let first = hand.tr_mul(&point.forearm.column(0));
-        let flex = -trig::atan2(libm::hypot(inward.y, inward.z), inward.x);
-        let forearm = trig::atan2(-inward.y, inward.z);
-        let wrist = trig::atan2(-first.y, -first.z);
+        let [forearm, flex, wrist] = wrist_angles(&point.forearm, &self.rotation);
         let ArmPoint {
             pan,
             lift,

@@ -39,9 +39,16 @@ pub struct Hold {
     slipping: u32,
     /// For how many steps the object has touched nothing but the robot.
     free: u32,
+    /// Whether it is open at the top and upright.
+    upright: bool,
 }
 
 impl Hold {
+    /// Whether the object is open at the top and has stayed upright since the fingers have held it upright.
+    pub(super) fn is_upright(&self) -> bool {
+        self.upright
+    }
+
     /// Whether the object has left what it stood on.
     pub fn is_lifted(&self) -> bool {
         self.free >= LIFTED_STEPS
@@ -62,6 +69,9 @@ impl Hold {
         hasher.number(self.strength);
         hasher.integer(u64::from(self.slipping));
         hasher.integer(u64::from(self.free));
+        if self.upright {
+            hasher.integer(1);
+        }
     }
 }
 
@@ -87,6 +97,8 @@ impl World {
         let gripper = &self.models.description.arm(side).gripper;
         let (palm, fingers) = (gripper.palm, self.state.robot.joints.get(gripper.joint));
         self.attach(name, palm)?;
+        let object = self.object(name)?;
+        let upright = object.is_upright_at(&self.physics.pose(object.body));
         if let Some(object) = self.state.objects.get_mut(name)
             && let Some(attachment) = &mut object.attachment
         {
@@ -98,6 +110,7 @@ impl World {
                 strength: 2.0 * object.friction * effort,
                 slipping: 0,
                 free: 0,
+                upright,
             });
             self.physics
                 .collide(object.body, Robot::WithoutHand(side.index()));
@@ -177,6 +190,7 @@ impl World {
     pub(super) fn watch_holds(&mut self) {
         let mut slips = Vec::new();
         let mut changed = Vec::new();
+        let mut tilts = Vec::new();
         for object in self.state.objects.values() {
             let Some((attachment, mut hold)) = object
                 .attachment
@@ -206,6 +220,10 @@ impl World {
                     step: self.state.steps,
                 });
             }
+            if let Some(tilt) = self.newly_tilted(object, &hold) {
+                hold.upright = false;
+                tilts.push(tilt);
+            }
             changed.push((object.name.clone(), hold));
         }
         for (name, hold) in changed {
@@ -213,6 +231,10 @@ impl World {
             if let Some(attachment) = object.and_then(|o| o.attachment.as_mut()) {
                 attachment.hold = Some(hold);
             }
+        }
+        for tilt in tilts {
+            self.state.tilts.retain(|(_, old)| old.side != tilt.side);
+            self.state.tilts.push((self.state.steps, tilt));
         }
         for slip in slips {
             // The object has just been found.

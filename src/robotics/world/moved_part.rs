@@ -274,6 +274,57 @@ impl MovedPart<'_> {
         hits
     }
 
+    /// What a thing that stands at a pose now and rides along would run into.
+    pub(super) fn meets_as_rider(
+        &self,
+        solids: &[Solid],
+        key: Option<PartKey>,
+        pose: &Pose,
+    ) -> Option<BodyName> {
+        let child = self.world.models.kitchen.joint(self.part.joint).child;
+        let way = self.pose(child) * self.world.furniture_pose(child).inverse();
+        let at = to_parry(&(way * pose));
+        let objects = self.world.state.objects.values();
+        let others: Vec<ObjectAt<'_>> = objects
+            .filter(|object| Some(object.key()) != key && object.attachment.is_none())
+            .map(|object| self.object_at(object))
+            .filter(|(_, rides)| !rides)
+            .map(|(object, _)| object)
+            .collect();
+        solids.iter().find_map(|solid| {
+            let placed = at * solid.pose;
+            let bounds = solid.shape.compute_aabb(&placed);
+            let mut places = self.furniture.places_near(&bounds).into_iter();
+            // These are places in this list.
+            let furniture = places.find_map(|place| {
+                let other = &self.furniture.all()[place];
+                let is_other = !is_of(&self.part.links, other.key);
+                let meets = is_other
+                    && separation(&placed, solid, &other.placed.pose, &other.solid, 0.0).is_some();
+                meets.then_some(other.key)
+            });
+            let met = furniture.or_else(|| {
+                let mut others = others.iter();
+                others
+                    .find(|other| touches(other, &placed, solid, 0.0).is_some())
+                    .map(|other| other.key)
+            });
+            self.world.body_name(met?)
+        })
+    }
+
+    /// What of the part would run into a thing that stands at a pose and stays there.
+    pub(super) fn meets(&self, solids: &[Solid], pose: &Pose) -> Option<BodyName> {
+        let at = to_parry(pose);
+        self.own_obstacles().find_map(|own| {
+            let meets = solids.iter().any(|solid| {
+                let placed = at * solid.pose;
+                separation(&placed, solid, &own.placed.pose, &own.solid, 0.0).is_some()
+            });
+            meets.then(|| self.world.body_name(own.key)).flatten()
+        })
+    }
+
     fn own_obstacles(&self) -> impl Iterator<Item = &Obstacle> {
         let all = self.furniture.all().iter();
         all.filter(|obstacle| is_of(&self.part.links, obstacle.key))

@@ -40,6 +40,8 @@ pub struct Object {
     /// The point (m, its frame) at which its weight acts.
     pub(crate) balance: [f64; 3],
     pub(crate) edition: u32,
+    /// Whether it holds others as it stands.
+    pub(crate) is_hollow: bool,
     pub bounds: Aabb,
     pub number: u32,
     pub body: BodyHandle,
@@ -84,6 +86,12 @@ impl Object {
     /// What is shown of it, in its own frame, unless its type or its shapes say that.
     pub fn looks(&self) -> Option<&[PlacedShape]> {
         self.looks.as_deref()
+    }
+
+    /// Whether it has a hollow that is open at its top, as vessels, plates and trays have: what is in it or on
+    /// it falls out if it is tilted.
+    pub fn is_hollow(&self) -> bool {
+        self.is_hollow
     }
 
     /// Which definition of its type it was made by; 0 for one that is built in.

@@ -32,6 +32,7 @@ use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
+use super::tilt::Tilt;
 use crate::robot::{JointPositions, LinkId};
 use closest_name::closest_name;
 use spatial::Pose;
@@ -66,6 +67,8 @@ pub(super) struct State {
     pub(super) steps: u64,
     /// The last object that has slipped out of each hand.
     pub(super) slips: Vec<Slip>,
+    /// What was upright in a hand and has been tilted, with the step: the last one for each hand.
+    pub(super) tilts: Vec<(u64, Tilt)>,
     /// How hands hold handles.
     pub(super) handles: Vec<HandleHold>,
     /// The last handle that has slipped out of each hand.
@@ -136,6 +139,7 @@ impl World {
                 next_number: 0,
                 steps: 0,
                 slips: Vec::new(),
+                tilts: Vec::new(),
                 handles: Vec::new(),
                 handle_slips: Vec::new(),
                 noise: None,

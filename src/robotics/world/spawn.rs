@@ -13,6 +13,7 @@ use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
 
 use super::body_name::BodyName;
 use super::error::WorldError;
+use super::hollow::is_hollow;
 use super::object::Object;
 use super::object_library::ObjectType;
 use super::part_key::PartKey;
@@ -163,6 +164,7 @@ impl World {
                 mass,
                 friction,
                 shapes: Arc::from(kind.shapes.as_slice()),
+                is_hollow: is_hollow(&solids),
                 solids: Arc::from(solids),
                 looks: kind.looks.as_deref().map(Arc::from),
                 balance: kind.balance,

@@ -53,6 +53,16 @@ impl Load {
         }
     }
 
+    /// Its solids, in its own frame.
+    pub(super) fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+
+    /// Its key if it is in the world.
+    pub(super) fn key(&self) -> Option<PartKey> {
+        self.key
+    }
+
     /// How far (m) it extends along x, y and z if it is turned like the pose.
     pub fn size(&self, turned: &Pose) -> [f64; 3] {
         let size = self.bounds(&to_parry(turned)).extents();
@@ -117,6 +127,8 @@ pub enum NoRoom {
     Edge,
     /// Something is where it would be.
     Touches(BodyName),
+    /// What it is put into could not be closed: one would meet that.
+    Closing(BodyName),
 }
 
 /// What it may stand on.

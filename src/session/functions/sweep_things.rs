@@ -201,6 +201,7 @@ fn why_no_room(reason: &NoRoom) -> String {
         NoRoom::On(body) => format!("{body} is below it"),
         NoRoom::Edge => "it would stick out beyond the edge".to_owned(),
         NoRoom::Touches(body) => format!("{body} is there"),
+        NoRoom::Closing(body) => format!("it would meet {body} when that is closed"),
     }
 }
 

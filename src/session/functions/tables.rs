@@ -10,6 +10,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-PICK-PLACE-TUTORIAL", functions::tutorial::TABLE),
     ("CRAM-PICK-PLACE-TUTORIAL", functions::reaching::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::carrying::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::choosing::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::scene::TABLE),
     (

@@ -287,6 +287,7 @@ impl SimulationHost {
         let base = simulation.base().translation;
         simulation.tally.base_at([base.x, base.y]);
         simulation.tell_of_slips(image, step);
+        simulation.tell_of_tilts(image, step);
         self.audience.observe(simulation);
         self.audience.film(simulation);
         self.audience.show(simulation, Cause::Step);

@@ -6,6 +6,7 @@ use lisp::image::Image;
 use robotics::motion::{HeldGrip, MotionFailure};
 use robotics::robot::Side;
 use robotics::world::WorldError;
+use robotics::world::tilt::UPRIGHT as MOST_TILT;
 use spatial::Pose;
 
 /// How an object is held.
@@ -32,6 +33,20 @@ impl Simulation {
                 "(PICK-PLACE HOLD)",
                 &failure.to_string(),
             );
+        }
+    }
+
+    /// Logs what was upright in a hand and has been tilted in the step.
+    pub(crate) fn tell_of_tilts(&self, image: &mut Image, step: u64) {
+        for tilt in self.world.tilts_since(step) {
+            let text = format!(
+                "{} in the {} hand is open at the top and was tilted by more than {:.0} degrees: what is in \
+                 it or on it falls out.",
+                tilt.object,
+                tilt.side,
+                MOST_TILT.to_degrees()
+            );
+            self.log(image, LogLevel::Warn, "(PICK-PLACE HOLD)", &text);
         }
     }
 

@@ -6,6 +6,7 @@ pub(crate) mod grip_torque;
 pub(crate) mod guard;
 pub(crate) mod hand;
 pub(crate) mod holding;
+pub(crate) mod level;
 mod payload;
 pub(crate) mod pushing;
 pub(crate) mod touching;

@@ -38,6 +38,8 @@ impl MotionFailure {
             | Self::ArmGoalInCollision { .. }
             | Self::ArmStartInCollision { .. }
             | Self::ArmPathNotFound { .. }
+            | Self::NoLevelPath { .. }
+            | Self::NotCarriedUpright { .. }
             | Self::ArmBlocked { .. }
             | Self::HandGoalMissed { .. }
             | Self::HeldObjectStuck(_)

@@ -24,7 +24,7 @@ use super::wording::{
 };
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
-use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial};
+use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial, Tilt};
 use spatial::Shortest;
 
 /// Why a motion did not reach its goal.
@@ -235,6 +235,28 @@ pub enum MotionFailure {
         /// Number of random configurations tried.
         samples: usize,
     },
+    /// No path for the arms was found on which what a hand holds stays upright.
+    #[error(
+        "no path for the arms was found in {samples} attempts on which {} stays upright in the {} hand: \
+         straight there it would tilt by {:.0} degrees, and it is open at the top",
+        .tilt.object, .tilt.side, .tilt.angle.to_degrees()
+    )]
+    NoLevelPath {
+        /// How much it would tilt at first on the straight path.
+        tilt: Box<Tilt>,
+        /// Number of random configurations tried.
+        samples: usize,
+    },
+    /// There is no posture for carrying in which what a hand holds is upright.
+    #[error(
+        "held like that by the {side} hand, {object}, which is open at the top, cannot be carried upright"
+    )]
+    NotCarriedUpright {
+        /// The hand.
+        side: Side,
+        /// What it holds.
+        object: String,
+    },
     /// The arms were stopped.
     #[error("the arms were stopped: {}", touch(.hit))]
     ArmBlocked {
@@ -398,7 +420,8 @@ impl MotionFailure {
             | Self::DriveStartOccupied { .. }
             | Self::ArmGoalInCollision { .. }
             | Self::ArmStartInCollision { .. }
-            | Self::ArmPathNotFound { .. } => true,
+            | Self::ArmPathNotFound { .. }
+            | Self::NoLevelPath { .. } => true,
             Self::PoseUnreachable(pose) => {
                 matches!(pose.reason, UnreachableReason::Collisions { .. })
             }

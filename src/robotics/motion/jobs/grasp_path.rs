@@ -3,6 +3,7 @@
 
 use super::joint_motion::JointGoal;
 use super::move_tcp::{HandGoal, PoseGoal, TcpPath};
+use crate::motion::choosing::carrying_posture::can_carry;
 use crate::motion::choosing::grasp_reach::Station;
 use crate::motion::contact::expected_contacts::CollisionMode;
 use crate::motion::contact::hand::gripper_of;
@@ -60,7 +61,13 @@ pub fn plan_grasp(
             world.teleport_robot(&opened);
         }
     }
-    Ok(())
+    match can_carry(&world, side) {
+        true => Ok(()),
+        false => Err(MotionFailure::NotCarriedUpright {
+            side,
+            object: object.to_owned(),
+        }),
+    }
 }
 
 /// Moves the hand in the copy of the world, replanning as the motion would.

@@ -3,6 +3,7 @@
 use super::job::{Job, check_finite};
 use super::joint_motion::{JointGoal, JointMotion};
 use crate::motion::contact::expected_contacts::ExpectedContacts;
+use crate::motion::contact::level::LevelHands;
 use crate::motion::failure::joint_limit::violation;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
@@ -91,7 +92,10 @@ impl JointGoal for ArmGoal {
         let goal = self.goal(world, &group)?;
         let none = AllowedPairs::none();
         let contacts = ExpectedContacts::default();
-        let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &contacts);
+        // What is to be tilted may be; else it stays upright on the way.
+        let level = LevelHands::of(world, &group.joints).level_at(&goal);
+        let mut checker =
+            ConfigurationChecker::new(world, group.joints.clone(), &contacts).keeping(level);
         checker.accept_goal(&goal);
         let trajectory = plan_joint_trajectory(
             world,

@@ -124,7 +124,7 @@ impl CartesianTask<'_> {
         next: &[f64],
         checker: &mut ConfigurationChecker<'_>,
     ) -> bool {
-        let mut blocked = |q: &[f64]| checker.blocked(q);
+        let mut blocked = |q: &[f64]| checker.obstacle(q);
         blocked(next).is_some()
             || blocked_between(&self.group.axes, before, next, RESOLUTION, &mut blocked).is_some()
     }

@@ -2,11 +2,12 @@
 
 use crate::motion::contact::expected_contacts::ExpectedContacts;
 use crate::motion::contact::guard::GUARD_DEPTH;
+use crate::motion::contact::level::LevelHands;
 use crate::motion::contact::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, RobotConfiguration,
-    World,
+    Tilt, World,
 };
 
 /// Clearance (m) of planned configurations from everything.
@@ -23,6 +24,17 @@ pub(crate) struct ConfigurationChecker<'w> {
     touching: TouchingPairs,
     /// The pairs that decide whether a configuration is free.
     pairs: Pairs,
+    /// The hands that stay level on the way.
+    level: LevelHands<'w>,
+}
+
+/// What rules out a configuration on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PathObstacle {
+    /// Two bodies touch.
+    Touch(CollisionHit),
+    /// What is open at the top is tilted.
+    Tilt(Tilt),
 }
 
 impl<'w> ConfigurationChecker<'w> {
@@ -72,6 +84,27 @@ impl<'w> ConfigurationChecker<'w> {
             joints,
             touching,
             pairs,
+            level: LevelHands::default(),
+        }
+    }
+
+    /// The hands stay level on the way.
+    #[must_use]
+    pub(crate) fn keeping(mut self, level: LevelHands<'w>) -> Self {
+        self.level = level;
+        self
+    }
+
+    /// The hands that stay level on the way.
+    pub(super) fn level(&self) -> &LevelHands<'w> {
+        &self.level
+    }
+
+    /// What rules out the joint positions on the way, if anything does.
+    pub(crate) fn obstacle(&mut self, positions: &[f64]) -> Option<PathObstacle> {
+        match self.level.tilted(positions) {
+            Some(tilt) => Some(PathObstacle::Tilt(tilt)),
+            None => self.blocked(positions).map(PathObstacle::Touch),
         }
     }
 

@@ -83,6 +83,9 @@ impl Default for JointPathEffort {
 /// Longest new branch of a tree, as a bound (m) on the motion of any part of the robot.
 const BRANCH: f64 = 0.5;
 
+/// The share of its length by which a branch whose end was settled comes nearer to its goal at least.
+const PROGRESS: f64 = 0.1;
+
 /// Random configurations are drawn from around the straight path, at first within this share of the
 /// ranges of the axes: most obstacles are passed by a small detour.
 const NARROWEST: f64 = 0.4;
@@ -105,7 +108,12 @@ const CHAINS: usize = 3;
 
 type Point = Vec<f64>;
 
-/// A path from `start` to `goal`, both included, on which `blocked` returns nothing.
+/// Changes a configuration into one near it that keeps what the path is to keep; returns whether there is one.
+pub(crate) type Settle<'a> = dyn Fn(&mut [f64]) -> bool + 'a;
+
+/// A path from `start` to `goal`, both included, on which `blocked` returns nothing. If few configurations
+/// keep what it is to keep, `settle` leads others to them (Berenson, Srinivasa and Kuffner: Task Space
+/// Regions, 2011).
 pub(crate) fn find_joint_path<P>(
     axes: &[PathAxis],
     start: &[f64],
@@ -113,6 +121,7 @@ pub(crate) fn find_joint_path<P>(
     effort: JointPathEffort,
     rng: &mut Pcg64,
     blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
+    settle: Option<&Settle<'_>>,
 ) -> Result<Vec<Point>, JointPathFailure<P>> {
     if let Some(p) = blocked(goal) {
         return Err(JointPathFailure::Goal(p));
@@ -124,6 +133,7 @@ pub(crate) fn find_joint_path<P>(
         axes,
         effort,
         blocked,
+        settle,
         checks: 0,
     };
     let Some(blocker) = search.edge(start, goal) else {
@@ -167,6 +177,7 @@ pub(crate) fn blocked_between<P>(
         axes,
         effort,
         blocked,
+        settle: None,
         checks: 0,
     }
     .edge(from, to)
@@ -176,6 +187,7 @@ struct Search<'a, P> {
     axes: &'a [PathAxis],
     effort: JointPathEffort,
     blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
+    settle: Option<&'a Settle<'a>>,
     /// Number of configurations checked.
     checks: usize,
 }
@@ -289,13 +301,16 @@ impl<P> Search<'_, P> {
                 _ => (NARROWEST + round as f64 / WIDENING).min(1.0),
             };
             let along = unit(rng);
-            let sample: Point = (self.axes.iter().zip(start).zip(goal))
+            let mut sample: Point = (self.axes.iter().zip(start).zip(goal))
                 .map(|((axis, from), to)| {
                     let stays = chain.is_some_and(|c| axis.chain != c) && from == to;
                     let random = axis.about(from + (to - from) * along, width, unit(rng));
                     if stays { *from } else { random }
                 })
                 .collect();
+            if self.settle.is_some_and(|settle| !settle(&mut sample)) {
+                continue;
+            }
             let [from_start, from_goal] = &mut trees;
             let (growing, other) = if side == 0 {
                 (from_start, from_goal)
@@ -340,11 +355,16 @@ impl<P> Search<'_, P> {
         let (parent, distance) = nearest;
         let from = &tree.0[parent].0;
         let reaches = distance <= BRANCH;
-        let to = if reaches {
+        let mut to = if reaches {
             target.to_vec()
         } else {
             between(from, target, BRANCH / distance)
         };
+        if let Some(settle) = self.settle.filter(|_| !reaches)
+            && (!settle(&mut to) || self.distance(&to, target) > distance - BRANCH * PROGRESS)
+        {
+            return Growth::Trapped;
+        }
         self.checks += 1;
         if (self.blocked)(&to).is_some() || self.edge(from, &to).is_some() {
             return Growth::Trapped;
@@ -479,6 +499,7 @@ mod tests {
             JointPathEffort::default(),
             &mut rng,
             blocked,
+            None,
         )
     }
 
@@ -541,7 +562,7 @@ mod tests {
         let found = (0..20).filter(|seed| {
             let mut rng = Pcg64::seed_from_u64(*seed);
             let (start, goal) = ([-1.0, 0.0], [1.0, 0.0]);
-            find_joint_path(&PLANE, &start, &goal, effort, &mut rng, &mut wall).is_ok()
+            find_joint_path(&PLANE, &start, &goal, effort, &mut rng, &mut wall, None).is_ok()
         });
         let found = found.count();
         // Without samples from anywhere, none.
@@ -566,6 +587,7 @@ mod tests {
                 axes: &PLANE,
                 effort: JointPathEffort::default(),
                 blocked: &mut wall,
+                settle: None,
                 checks: 0,
             };
             let before = search.along(path.iter());

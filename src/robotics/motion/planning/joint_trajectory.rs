@@ -3,14 +3,14 @@
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
 
-use super::configuration_checker::ConfigurationChecker;
-use super::joint_path::{JointPathEffort, JointPathFailure, find_joint_path};
+use super::configuration_checker::{ConfigurationChecker, PathObstacle};
+use super::joint_path::{JointPathEffort, JointPathFailure, Settle, find_joint_path};
 use super::planning_group::PlanningGroup;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::trajectories::axis_group::AxisGroup;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
-use crate::world::{CollisionHit, World};
+use crate::world::World;
 
 /// A path of the axes from their current positions to the goal, as a trajectory.
 pub(crate) fn plan_joint_trajectory(
@@ -22,7 +22,10 @@ pub(crate) fn plan_joint_trajectory(
 ) -> Result<Trajectory, MotionFailure> {
     // One generator per plan, seeded by simulated time: a plan depends only on the world.
     let mut rng = Pcg64::seed_from_u64(world.steps());
-    let mut blocked = |q: &[f64]| checker.blocked(q);
+    let level = checker.level().clone();
+    let settle = |q: &mut [f64]| level.settle(q);
+    let constraint: Option<&Settle<'_>> = (!level.is_empty()).then_some(&settle);
+    let mut blocked = |q: &[f64]| checker.obstacle(q);
     let path = find_joint_path(
         &group.axes,
         &group.now(world),
@@ -30,6 +33,7 @@ pub(crate) fn plan_joint_trajectory(
         effort,
         &mut rng,
         &mut blocked,
+        constraint,
     )
     .map_err(path_failure)?;
     let limits = speeds::limits_of(&world.models().description, &group.joints);
@@ -42,15 +46,31 @@ pub(super) fn smooth(
     limits: &[AxisGroup],
     checker: &mut ConfigurationChecker<'_>,
 ) -> Trajectory {
-    Trajectory::rounded(path, limits, &mut |q| checker.blocked(q).is_none())
+    Trajectory::rounded(path, limits, &mut |q| checker.obstacle(q).is_none())
 }
 
-fn path_failure(failure: JointPathFailure<CollisionHit>) -> MotionFailure {
+fn path_failure(failure: JointPathFailure<PathObstacle>) -> MotionFailure {
+    use JointPathFailure::{Goal, NotFound, Start};
+    use PathObstacle::{Tilt, Touch};
     match failure {
-        JointPathFailure::Start(hit) => MotionFailure::ArmStartInCollision { hit: hit.into() },
-        JointPathFailure::Goal(hit) => MotionFailure::ArmGoalInCollision { hit: hit.into() },
-        JointPathFailure::NotFound { blocker, samples } => MotionFailure::ArmPathNotFound {
-            hit: blocker.into(),
+        Start(Touch(hit)) => MotionFailure::ArmStartInCollision { hit: hit.into() },
+        Goal(Touch(hit)) => MotionFailure::ArmGoalInCollision { hit: hit.into() },
+        NotFound {
+            blocker: Touch(hit),
+            samples,
+        } => MotionFailure::ArmPathNotFound {
+            hit: hit.into(),
+            samples,
+        },
+        Start(Tilt(tilt)) | Goal(Tilt(tilt)) => MotionFailure::NoLevelPath {
+            tilt: tilt.into(),
+            samples: 0,
+        },
+        NotFound {
+            blocker: Tilt(tilt),
+            samples,
+        } => MotionFailure::NoLevelPath {
+            tilt: tilt.into(),
             samples,
         },
     }

@@ -19,6 +19,7 @@ use super::planning_group::PlanningGroup;
 use crate::motion::contact::expected_contacts::ExpectedContacts;
 use crate::motion::contact::hand::releasing_opening;
 use crate::motion::contact::holding::held_objects;
+use crate::motion::contact::level::LevelHands;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::unreachable::{UnreachablePose, UnreachableReason};
 use crate::motion::trajectories::axis_group::AxisGroup;
@@ -114,6 +115,16 @@ impl PoseGoalTask<'_> {
             &[height],
         );
         wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
+    }
+
+    /// Tells which configurations are free. What is upright in the hands and will be stays so on the way.
+    pub(super) fn checker(
+        &self,
+        group: &PlanningGroup,
+        contacts: &ExpectedContacts,
+    ) -> ConfigurationChecker<'_> {
+        let level = LevelHands::of(self.world, &group.joints).level_with(&self.goals);
+        ConfigurationChecker::new(self.world, group.joints.clone(), contacts).keeping(level)
     }
 
     /// All configurations at the height, the best one first; collisions are not checked.
@@ -218,8 +229,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let free = match self.free_configurations(configurations, &mut checker) {
                 Ok(free) => free,
                 Err((count, hit)) => {
@@ -257,7 +267,7 @@ impl PoseGoalTask<'_> {
         let effort = JointPathEffort::default();
         let now = group.now(self.world);
         for configuration in free.iter().take(SHORT_LIST) {
-            let mut blocked = |q: &[f64]| checker.blocked(q);
+            let mut blocked = |q: &[f64]| checker.obstacle(q);
             let met = blocked_between(
                 &group.axes,
                 &now,
@@ -319,8 +329,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let task = self.line_task(height, &group);
             let start = group.now(self.world);
             let ends = configurations
@@ -362,8 +371,7 @@ impl PoseGoalTask<'_> {
             if configurations.is_empty() {
                 continue;
             }
-            let mut checker =
-                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut checker = self.checker(&group, &self.contacts);
             let mut back = self.line_task(height, &group);
             for line in &mut back.lines {
                 let start = from.map_or(line.from, |offset| offset * line.to);
@@ -377,8 +385,7 @@ impl PoseGoalTask<'_> {
                 let (CartesianEnd::Complete, Some(start)) = (met, path.points.last()) else {
                     continue;
                 };
-                let mut checker =
-                    ConfigurationChecker::new(self.world, group.joints.clone(), contacts);
+                let mut checker = self.checker(&group, contacts);
                 let effort = JointPathEffort::default();
                 if let Ok(trajectory) =
                     plan_joint_trajectory(self.world, &group, start, &mut checker, effort)

@@ -121,8 +121,7 @@ impl PutPlan<'_> {
         if configurations.is_empty() {
             return None;
         }
-        let mut checker =
-            ConfigurationChecker::new(self.task.world, group.joints.clone(), &self.task.contacts);
+        let mut checker = self.task.checker(&group, &self.task.contacts);
         let start = group.now(self.task.world);
         let ends = configurations.iter().map(|p| Some(p.positions.as_slice()));
         let mut task = self.task.line_task(height, &group);

@@ -5,6 +5,7 @@ mod drive;
 pub(crate) mod fixture;
 mod gripper;
 mod handles;
+mod level;
 mod look;
 mod not_finite;
 mod pick_and_place;

@@ -74,6 +74,26 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(5000))]
 
     #[test]
+    fn a_hand_is_turned_about_the_wrist(
+        arm in 0usize..2,
+        shares in shares(),
+        other in shares(),
+    ) {
+        let kinematics = &PR2.arms[arm].1;
+        let (now, then) = (PR2.positions(arm, &shares), PR2.positions(arm, &other));
+        let hand = kinematics.hand_rotation(&then);
+        let wanted = PR2.wrist(arm, &then).rotation.to_rotation_matrix();
+        prop_assert!((hand - wanted.matrix()).norm() < 1e-9);
+        if let Some(turned) = kinematics.with_hand_turned(&now, &hand) {
+            let (before, after) = (PR2.wrist(arm, &now), PR2.wrist(arm, &turned));
+            prop_assert!(distance_between(&before, &after) < 1e-9);
+            prop_assert!((kinematics.hand_rotation(&turned) - hand).norm() < 1e-9);
+        }
+        let unturned = kinematics.with_hand_turned(&now, &kinematics.hand_rotation(&now));
+        prop_assert!(unturned.is_some());
+    }
+
+    #[test]
     fn every_reachable_pose_is_reached(arm in 0..2_usize, shares in shares()) {
         let wrist = PR2.wrist(arm, &PR2.positions(arm, &shares));
         let solution = PR2.arms[arm].1.nearest(&wrist, &[0.0; 7]);
