@@ -598,7 +598,10 @@ fn a_drawer_is_offered_only_for_what_it_can_be_closed_over() {
         ));
     };
     for (name, joint) in [
-        ("sink_area_left_upper_drawer_main", UPPER),
+        (
+            "sink_area_left_upper_drawer_main",
+            "sink_area_left_upper_drawer_main_joint",
+        ),
         (
             "oven_area_area_middle_upper_drawer_main",
             "oven_area_area_middle_upper_drawer_main_joint",

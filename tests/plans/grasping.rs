@@ -232,16 +232,3 @@ fn a_torso_that_brings_the_hand_down_on_a_bottle_stops_there() {
     assert!(cook.distance("BOTTLE-1", &stands) < 0.001);
     assert!(cook.turned_up("BOTTLE-1", &stands) < 0.5);
 }
-
-/// The first motion that many try.
-#[test]
-fn the_fingers_open_in_the_posture_in_which_the_robot_starts() {
-    for arm in ["left", "right"] {
-        let mut cook = Cook::new();
-        let said = cook.done(&format!(
-            "(with-simulated-robot (perform (a motion (type opening-gripper) (gripper {arm}))))"
-        ));
-        assert!(!said.contains("stopped"), "{said}");
-        cook.assert_no_overlap();
-    }
-}

@@ -138,3 +138,28 @@ fn a_drawer_is_not_moved_through_what_stands_in_it_nor_a_door_through_the_robot(
     assert!(report.contains("iai_fridge_door_handle"), "{report}");
     cook.assert_no_overlap();
 }
+
+/// It sticks out over two sides of the box, and its weight acts over it.
+#[test]
+fn a_bowl_finds_a_place_on_a_standing_cereal_box() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(btr-utils:spawn-object 'box-1 :cereal-box :pose '((-0.85 1.5 1.01) (0 0 0 1)))
+         (defparameter *place*
+           (desig:reference (a location (on (an object (type cereal-box) (name box-1)))
+                                        (for (an object (type bowl))))))
+         (btr-utils:spawn-object 'bowl-1 :bowl :pose *place*)",
+    );
+    let stood = cook.pose("BOWL-1");
+    cook.done("(with-simulated-robot (cpl:sleep 2))");
+    assert_eq!(cook.done("(pp-plans::support-of 'bowl-1)"), "\"BOX-1\"\n");
+    assert!(cook.distance("BOWL-1", &stood) < 0.002 && cook.lean("BOWL-1") < 1.0);
+    // Half of it would be beside the box.
+    let report = cook.fails(
+        "DESIGNATOR-ERROR",
+        "(btr-utils:spawn-object 'pen :visualization-box :pose '((-1.4 -0.85 0.78) (0 0 0 1)))
+         (desig:reference (a location (on (an object (type visualization-box) (name pen)))
+                                      (for (an object (type pot)))))",
+    );
+    assert!(report.contains("across an edge"), "{report}");
+}

@@ -59,15 +59,18 @@ fn a_posture_that_is_asked_for_may_tilt_a_bowl_and_says_so() {
     let said = cook.done(
         "(with-simulated-robot
            (park-arms)
-           (let ((?angles (pp-plans::carrying-posture :left)))
-             (incf (sixth ?angles) (if (< (sixth ?angles) -1) 0.6 -0.6))
-             (perform (an action (type positioning-arm) (left-configuration ?angles)))))",
+           (loop for turn in '(0.4 -0.4 0.3 -0.3)
+                 for ?angles = (copy-list (pp-plans::carrying-posture :left))
+                 while ?angles
+                 do (incf (sixth ?angles) turn)
+                    (cpl:with-failure-handling ((cpl:plan-failure () (return)))
+                      (perform (an action (type positioning-arm) (left-configuration ?angles))))))",
     );
     assert!(
         said.contains("WARN") && said.contains("LEFT-ONE in the left hand is open at the top"),
         "{said}"
     );
-    assert!(cook.lean("LEFT-ONE") > 20.0);
+    assert!(cook.lean("LEFT-ONE") > 15.0);
     // What has been in it is gone.
     assert_eq!(cook.done("(pp-plans::upright-in-hand :left)"), "NIL\n");
 }
@@ -77,12 +80,8 @@ fn a_bottle_is_parked_as_before() {
     let mut cook = holding("bottle", &["right"]);
     let said = cook.done("(with-simulated-robot (park-arms))");
     assert!(!said.contains("open at the top"), "{said}");
-    assert_eq!(
-        cook.done("(coe:holds '(cpoe:arms-positioned-at :carry :carry))")
-            .trim()
-            == "NIL",
-        false
-    );
+    let parked = cook.done("(coe:holds '(cpoe:arms-positioned-at :carry :carry))");
+    assert_ne!(parked, "NIL\n");
 }
 
 /// Nothing of the built-in description names it.
@@ -99,6 +98,7 @@ fn a_type_of_users_with_a_hollow_is_carried_upright() {
            (let* ((?jar (perform (an action (type fetching) (object (an object (type jar)))))))
              (park-arms)))",
     );
-    assert!(cook.pose("JAR-1").translation.z > 0.8);
+    let held = cook.done("(mapcar #'pp-plans::upright-in-hand '(:left :right))");
+    assert!(held.contains("JAR-1"), "{held}");
     assert!(cook.lean("JAR-1") < 15.0, "{}", cook.lean("JAR-1"));
 }

@@ -11,6 +11,7 @@ use super::support::Support;
 use super::tally::Tally;
 use crate::motion::interruption;
 use crate::robot::LinkId;
+use crate::world::standing_room::STEADY;
 use crate::world::{
     BodyName, Closing, Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError,
 };
@@ -183,10 +184,16 @@ impl PlaceSearch {
 
     /// How far (m) from the edges the thing has to be.
     fn margin(&self) -> f64 {
-        self.load.as_ref().map_or(0.0, |load| {
+        let margin = self.load.as_ref().map_or(0.0, |load| {
             let [x, y, _] = load.size(&Pose::identity());
             x.max(y) / 2.0
-        })
+        });
+        let [x, y, _] = self.extent.size();
+        match self.ground {
+            // On a thing that is too small for it, it may stick out.
+            Ground::Object(_) if 2.0 * margin > x.min(y) => STEADY.min(x.min(y) / 2.0),
+            _ => margin,
+        }
     }
 
     fn map_at(&self, query: &PlaceQuery, world: &World, level: usize) -> Result<Costmap, String> {

@@ -56,7 +56,7 @@ pub mod snapshot;
 pub mod solid;
 pub mod spawn;
 mod standing;
-mod standing_room;
+pub(crate) mod standing_room;
 pub mod tilt;
 mod touching;
 

@@ -73,6 +73,8 @@ const WELD_DAMPING: f64 = 1.0;
 
 /// Angular damping (1/s) that stands in for rolling friction, which the engine lacks.
 const ANGULAR_DAMPING: f64 = 1.0;
+/// The same for a ball, which nothing else stops: fruit comes to rest on a slope of some tenths of a degree.
+const BALL_DAMPING: f64 = 10.0;
 
 const FURNITURE: Group = Group::GROUP_1;
 const OBJECT: Group = Group::GROUP_2;
@@ -224,7 +226,17 @@ impl Physics {
             BodyKind::MovingFurniture | BodyKind::Robot => {
                 RigidBodyBuilder::kinematic_position_based()
             }
-            BodyKind::Object { .. } => RigidBodyBuilder::dynamic().angular_damping(ANGULAR_DAMPING),
+            BodyKind::Object { .. } => {
+                let is_ball = parts
+                    .iter()
+                    .all(|(solid, ..)| solid.shape.as_ball().is_some());
+                let damping = if is_ball {
+                    BALL_DAMPING
+                } else {
+                    ANGULAR_DAMPING
+                };
+                RigidBodyBuilder::dynamic().angular_damping(damping)
+            }
         };
         let handle = self.edit().bodies.insert(builder.pose(to_parry(pose)));
         let volume: f64 = parts.iter().map(|(solid, ..)| solid.volume).sum();

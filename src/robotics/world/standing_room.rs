@@ -28,6 +28,11 @@ const GAP: f64 = 0.003;
 const INSIDE_STEP: f64 = 0.01;
 /// How far (m) above the foot its rays begin.
 const ABOVE: f64 = 0.01;
+/// What stands on another thing may stick out beyond its edges if what carries it reaches at least this far (m)
+/// beyond where its weight acts, on all sides.
+pub(crate) const STEADY: f64 = 0.012;
+/// Shares of the way from there to the edge of the foot at which it is looked for what carries it.
+const INWARD: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 
 /// Something to be put down.
 pub struct Load {
@@ -87,6 +92,52 @@ impl Load {
             all.merge(&solid.shape.compute_aabb(&(at * solid.pose)));
         }
         all
+    }
+
+    /// The point (m) at which its weight acts, at the pose.
+    fn balance(&self, at: &ParryPose) -> Vector {
+        let volume: f64 = self.solids.iter().map(|solid| solid.volume).sum();
+        let moments = self.solids.iter().map(|solid| {
+            let middle = solid.shape.mass_properties(1.0).local_com;
+            (at * solid.pose).transform_point(middle) * (solid.volume / volume)
+        });
+        moments.fold(Vector::new(0.0, 0.0, 0.0), |sum, moment| sum + moment)
+    }
+
+    /// Whether something of it is at most so little above a point (m) at the height of its foot.
+    fn reaches_down_to(&self, at: &ParryPose, point: &Vector) -> bool {
+        let below = Vector::new(point.x, point.y, point.z - ABOVE);
+        let ray = Ray::new(below, Vector::Z);
+        self.solids.iter().any(|solid| {
+            let pose = at * solid.pose;
+            let met = solid.shape.cast_ray(&pose, &ray, ABOVE + FOOT, true);
+            met.is_some()
+        })
+    }
+
+    /// Whether it stands although parts of its foot stick out: what carries the others surrounds the point at
+    /// which its weight acts.
+    fn is_steady(
+        &self,
+        at: &ParryPose,
+        foot: &[Vector],
+        is_carried: impl Fn(&Vector) -> bool,
+    ) -> bool {
+        let balance = self.balance(at);
+        let carried: Vec<Vector> = foot
+            .iter()
+            .flat_map(|point| {
+                let middle = Vector::new(balance.x, balance.y, point.z);
+                INWARD.map(|share| middle + (*point - middle) * share)
+            })
+            .filter(|point| is_carried(point) && self.reaches_down_to(at, point))
+            .collect();
+        (0..DIRECTIONS).all(|i| {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS);
+            let (y, x) = trig::sin_cos(angle);
+            let reach = |point: &Vector| (point.x - balance.x) * x + (point.y - balance.y) * y;
+            carried.iter().any(|point| reach(point) >= STEADY)
+        })
     }
 
     /// The lowest points (m) of the thing at the pose, and those almost as low around them.
@@ -258,7 +309,9 @@ impl<'w> StandingRoom<'w> {
             let found = self.ground(from, ABOVE + LEVEL);
             found.is_some_and(|(top, _)| (top - bottom).abs() <= LEVEL)
         };
-        if !foot.iter().all(is_carried) {
+        let stands = foot.iter().all(is_carried)
+            || matches!(ground, Ground::Object(_)) && load.is_steady(&place, &foot, is_carried);
+        if !stands {
             return Err(NoRoom::Edge);
         }
         self.check_free(load, &pose)?;

@@ -8,8 +8,8 @@ use crate::robot::{ARM_JOINTS, ArmKinematics, ArmPositions, JointId, Side};
 use crate::world::{Tilt, World};
 use spatial::{Pose, trig};
 
-/// Greatest tilt (rad, 10 degrees) on paths that are planned: what is held may sag in the hand.
-const PLANNED: f64 = 0.1745;
+/// Greatest tilt (rad, 13 degrees) on paths that are planned: what is held may sag in the hand.
+const PLANNED: f64 = 0.2269;
 /// How much farther (rad) than at its start a motion may tilt what is tilted more than that.
 const MORE: f64 = 0.0175;
 

@@ -83,6 +83,10 @@ impl Default for JointPathEffort {
 /// Longest new branch of a tree, as a bound (m) on the motion of any part of the robot.
 const BRANCH: f64 = 0.5;
 
+/// The same where few configurations keep what the path is to keep: straight edges between two that do soon
+/// leave them.
+const SETTLED_BRANCH: f64 = 0.25;
+
 /// The share of its length by which a branch whose end was settled comes nearer to its goal at least.
 const PROGRESS: f64 = 0.1;
 
@@ -353,15 +357,19 @@ impl<P> Search<'_, P> {
             }
         }
         let (parent, distance) = nearest;
+        let branch = match self.settle {
+            None => BRANCH,
+            Some(_) => SETTLED_BRANCH,
+        };
         let from = &tree.0[parent].0;
-        let reaches = distance <= BRANCH;
+        let reaches = distance <= branch;
         let mut to = if reaches {
             target.to_vec()
         } else {
-            between(from, target, BRANCH / distance)
+            between(from, target, branch / distance)
         };
         if let Some(settle) = self.settle.filter(|_| !reaches)
-            && (!settle(&mut to) || self.distance(&to, target) > distance - BRANCH * PROGRESS)
+            && (!settle(&mut to) || self.distance(&to, target) > distance - branch * PROGRESS)
         {
             return Growth::Trapped;
         }

@@ -2,6 +2,7 @@
 
 use crate::world::physics::{BodyKind, Physics, Surface};
 use crate::world::solid::Solid;
+use spatial::pose::from_xyz_rpy;
 use spatial::{PlacedShape, Pose, Shape};
 
 fn cuboid(size: [f64; 3]) -> Solid {
@@ -43,4 +44,41 @@ fn a_cube_that_falls_into_a_drawer_stays_there() {
         let end = dropped(height, BodyKind::MovingFurniture);
         assert!(end > 0.0, "from {height} m to {end} m");
     }
+}
+
+/// How far (m) a ball rolls within 4 s down a slope (rad), and whether it still moves then.
+fn rolled(slope: f64) -> (f64, bool) {
+    let mut physics = Physics::new();
+    let tilted = from_xyz_rpy([0.0, 0.0, 1.0], [0.0, slope, 0.0]);
+    let part = (cuboid([4.0, 4.0, 0.02]), 1, Surface::Plain);
+    physics.add_body(BodyKind::Static, &tilted, &[part]);
+    let kind = BodyKind::Object {
+        mass: 0.2,
+        friction: 0.6,
+    };
+    let ball = PlacedShape {
+        shape: Shape::Sphere { radius: 0.0425 },
+        pose: Pose::identity(),
+        color: None,
+    };
+    let part = (
+        Solid::new(&ball).expect("a ball with a volume"),
+        2,
+        Surface::Plain,
+    );
+    let begin = tilted * Pose::translation(0.0, 0.0, 0.0526);
+    let ball = physics.add_body(kind, &begin, &[part]);
+    for _ in 0..960 {
+        physics.step();
+    }
+    let way = physics.pose(ball).translation.vector - begin.translation.vector;
+    (way.norm(), physics.is_awake(ball))
+}
+
+#[test]
+fn a_ball_rests_where_it_is_nearly_level_and_rolls_down_a_slope() {
+    let (way, is_awake) = rolled(0.0035);
+    assert!(way < 0.03 && !is_awake, "{way}");
+    let (way, is_awake) = rolled(0.09);
+    assert!(way > 0.2 && is_awake, "{way}");
 }
