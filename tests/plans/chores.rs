@@ -202,11 +202,6 @@ fn pouring_is_refused_before_the_first_motion() {
         "BOTTLE-1 is closed: nothing can be poured from it.",
     );
     refused(
-        "WRONG-TOOL",
-        into_bottle,
-        "BOTTLE-1 is no open vessel: nothing can be poured into it.",
-    );
-    refused(
         "CONTAINER-EMPTY",
         &pouring("(amount 10)"),
         "CUP-1 is empty: nothing can be poured from it.",
@@ -219,6 +214,11 @@ fn pouring_is_refused_before_the_first_motion() {
         assert!(report.contains(wanted), "{form}: {report}");
         assert_eq!(cook.session.simulation().world().steps(), before, "{form}");
     };
+    refused(
+        "WRONG-TOOL",
+        into_bottle,
+        "BOTTLE-1 is no open vessel: nothing can be poured into it.",
+    );
     refused(
         "CONTAINER-EMPTY",
         &pouring("(amount 200)"),
