@@ -168,7 +168,7 @@ fn half_of_what_is_in_a_cup_is_poured_into_a_bowl() {
     let spilled = number(&mut cook, "(spilled-from 'cup-1)");
     assert!((cup + bowl + spilled - 180.0).abs() < 1e-6);
     assert!(spilled < 2.0, "{spilled} ml were spilled");
-    assert!(cook.lean("cup-1") < 5.0);
+    assert!(cook.lean("CUP-1") < 5.0);
     assert_eq!(cook.done("(first (content-of 'bowl-1))"), ":WATER\n");
 }
 
