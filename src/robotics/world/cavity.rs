@@ -136,7 +136,8 @@ fn segment(radius: f64, edge: f64) -> f64 {
         return 0.0;
     }
     let half = trig::acos(edge / radius);
-    radius * radius * half - edge * (radius * radius - edge * edge).sqrt()
+    // Rounding may leave less than nothing of a sliver.
+    (radius * radius * half - edge * (radius * radius - edge * edge).sqrt()).max(0.0)
 }
 
 /// The distances (m) of the walls from a vertical axis at a height; `None` if the axis is inside a solid,
@@ -246,7 +247,8 @@ mod tests {
         let tilted = std::f64::consts::PI * 0.03 * 0.03 * 0.07 * 1e6;
         let kept = cavity.volume_at(std::f64::consts::FRAC_PI_4);
         assert!((kept - tilted).abs() < 0.03 * tilted, "{kept} {tilted}");
-        assert_eq!(cavity.volume_at(std::f64::consts::FRAC_PI_2), 0.0);
+        let left = cavity.volume_at(std::f64::consts::FRAC_PI_2);
+        assert!((0.0..1e-6).contains(&left), "{left}");
         let mut last = f64::INFINITY;
         for degree in 0..180 {
             let now = cavity.volume_at(f64::from(degree).to_radians());
