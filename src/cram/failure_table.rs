@@ -115,6 +115,41 @@ const COMMON: &[Failure] = &[
         &[],
     ),
     failure(
+        "POURING-SPILLED",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[
+            // In ml.
+            slot("SPILLED", "SPILLED", "POURING-FAILURE-SPILLED"),
+            slot("POURED", "POURED", "POURING-FAILURE-POURED"),
+        ],
+    ),
+    failure(
+        "CONTAINER-EMPTY",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[slot("OBJECT", "OBJECT", "CONTAINER-EMPTY-OBJECT")],
+    ),
+    failure(
+        "CONTAINER-FULL",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[slot("OBJECT", "OBJECT", "CONTAINER-FULL-OBJECT")],
+    ),
+    failure(
+        "TOOL-MISSING",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[slot("OBJECT", "OBJECT", "TOOL-MISSING-OBJECT")],
+    ),
+    failure(
+        "WRONG-TOOL",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[slot("OBJECT", "OBJECT", "WRONG-TOOL-OBJECT")],
+    ),
+    failure(
+        "HANDOVER-FAILED",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        // The arm that holds the object, or NIL.
+        &[slot("HOLDER", "HOLDER", "HANDOVER-FAILED-HOLDER")],
+    ),
+    failure(
         "GRIPPER-LOW-LEVEL-FAILURE",
         &["MANIPULATION-LOW-LEVEL-FAILURE"],
         &[slot("ACTION", "OBJECT", "GRIPPER-FAILURE-ACTION")],

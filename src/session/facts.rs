@@ -139,12 +139,20 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         let joint = &models.robot.joint(joint).name;
         Value::list([keyword(image, side.name()), Value::string(joint.as_str())])
     });
+    let joints = Side::BOTH.map(|side| {
+        let joints = description.arm(side).joints();
+        let names = joints.iter().map(|j| &models.robot.joint(*j).name);
+        let names = names.map(|name| Value::string(name.as_str()));
+        let arm = std::iter::once(keyword(image, side.name()));
+        Value::list(arm.chain(names).collect::<Vec<_>>())
+    });
     let entries = [
         ("name", keyword(image, &description.name)),
         ("torso-joint", Value::string(joint.as_str())),
         ("camera-frame", Value::string(camera.as_str())),
         ("wrists", Value::list(wrists)),
         ("arm-links", Value::list(links)),
+        ("arm-joints", Value::list(joints)),
         ("grippers", Value::list(grippers)),
     ];
     property_list(image, entries)

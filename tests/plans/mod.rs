@@ -1,6 +1,7 @@
 //! Plans: the plan language, designators, whole plans.
 
 mod braking;
+mod chores;
 mod clutter;
 mod cluttered_tables;
 mod containers;

@@ -48,6 +48,7 @@ pub use planning::base_checker::BaseChecker;
 pub(crate) use planning::base_path::MIN_MARGIN;
 pub use planning::drive_plan::plan_drive;
 pub use planning::interruption;
+pub use planning::straight_way::{WayBegin, WayStart, straight_way};
 pub use trajectories::axis_group::AxisGroup;
 pub use trajectories::planned_trajectory::{PlannedTrajectory, TrajectoryAxes};
 pub use trajectories::trajectory::Trajectory;

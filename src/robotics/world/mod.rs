@@ -9,10 +9,12 @@
 pub(crate) mod allowed_pairs;
 pub mod body_name;
 mod carrying;
+pub mod cavity;
 mod closing;
 pub mod collision;
 mod collision_search;
 pub mod contacts;
+pub mod content;
 pub mod error;
 mod explored_floor;
 mod extent;
@@ -60,15 +62,18 @@ mod touching;
 
 pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;
+pub use cavity::Cavity;
 pub use closing::Closing;
 pub use collision::{CollisionChecker, CollisionHit};
 pub use contacts::ContactForce;
+pub use content::Content;
 pub use error::WorldError;
 pub use explored_floor::Known;
 pub(crate) use explored_floor::{ExploredGrid, ExploredGrids};
 pub use extent::Extent;
 pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;
+
 pub use kitchen_description::KitchenDescription;
 pub use map_area::MapArea;
 pub use models::Models;

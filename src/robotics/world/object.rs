@@ -1,9 +1,11 @@
 //! Movable objects.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use parry3d_f64::bounding_volume::Aabb;
 
+use super::cavity::Cavity;
+use super::content::Content;
 use super::holding::Hold;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
@@ -44,6 +46,9 @@ pub struct Object {
     pub number: u32,
     pub body: BodyHandle,
     pub attachment: Option<Attachment>,
+    pub(super) content: Content,
+    /// The room inside it, once somebody has asked.
+    pub(super) cavity: OnceLock<Option<Arc<Cavity>>>,
 }
 
 impl Object {

@@ -17,6 +17,7 @@ use parry3d_f64::bounding_volume::Aabb;
 
 use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
+use super::content::Content;
 use super::error::WorldError;
 use super::explored_floor::ExploredFloor;
 use super::handle_hold::{HandleHold, HandleSlip};
@@ -196,6 +197,7 @@ impl World {
         }
         self.physics.step();
         self.watch_holds();
+        self.pour();
         self.state.steps += 1;
     }
 
@@ -358,6 +360,10 @@ impl World {
             hasher.text(&object.name);
             hasher.text(&object.type_name);
             hasher.integer(object.key().code());
+            // Hashes of worlds without contents stay as they were.
+            if object.content != Content::default() {
+                object.content.hash_into(&mut hasher);
+            }
             if let Some(attachment) = &object.attachment {
                 hasher.integer(u64::from(index(attachment.link)));
                 hasher.pose(&attachment.at);

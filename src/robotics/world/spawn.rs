@@ -173,6 +173,8 @@ impl World {
                 number,
                 body,
                 attachment: None,
+                content: super::content::Content::default(),
+                cavity: std::sync::OnceLock::new(),
             },
         );
         Ok(report)

@@ -4,6 +4,7 @@ mod asking;
 mod carrying;
 mod choosing;
 mod containers;
+mod contents;
 mod explaining;
 mod grasps;
 mod kitchens;

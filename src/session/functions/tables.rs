@@ -27,6 +27,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-LOCATION-COSTMAP", functions::locations::TABLE),
     ("PLANWRIGHT", functions::locations::FURNITURE_TABLE),
     ("PLANWRIGHT", functions::containers::TABLE),
+    ("PLANWRIGHT", functions::contents::TABLE),
+    ("CRAM-BULLET-REASONING", functions::contents::SHAPE_TABLE),
     (
         "CRAM-BULLET-REASONING",
         functions::locations::VISUALIZATION_TABLE,

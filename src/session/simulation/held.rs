@@ -42,6 +42,11 @@ impl Simulation {
     /// Logs what was upright in a hand and has been tilted in the step.
     pub(crate) fn tell_of_tilts(&self, image: &mut Image, step: u64) {
         for tilt in self.world.tilts_since(step) {
+            // What is known to be in a vessel is counted, and may be meant to leave it.
+            let content = self.world.object(&tilt.object).map(|held| held.content());
+            if content.is_ok_and(|content| !content.what.is_empty()) {
+                continue;
+            }
             let text = format!(
                 "{} in the {} hand is open at the top and was tilted by more than {:.0} degrees: what is in \
                  it or on it falls out.",

@@ -2,6 +2,7 @@
 
 mod carrying;
 mod collisions;
+mod contents;
 mod falling;
 pub(crate) mod fixture;
 mod kitchen_surfaces;
