@@ -89,7 +89,7 @@ type Setup = fn(&mut Laid) -> Option<String>;
 const KINDS: [(&str, Setup); 9] = [
     ("vessels", |laid| {
         let kind = laid.one_of(&VESSELS);
-        laid.from_surface_to_surface(kind, "")
+        laid.between_surfaces(kind, "")
     }),
     ("on things", |laid| {
         let kind = laid.one_of(&["cup", "mug", "bottle", "apple", "bowl", "spoon", "cube"]);
@@ -99,7 +99,7 @@ const KINDS: [(&str, Setup); 9] = [
         laid.put(carrier, at, from.height + 0.15, "carrier", "");
         let top = laid.top_of("CARRIER") + 0.12;
         laid.put(kind, at, top, "thing", "");
-        laid.to_another(kind, from)
+        laid.onto_another(kind, from)
     }),
     ("crowds", |laid| {
         let from = &SURFACES[0];
@@ -111,13 +111,13 @@ const KINDS: [(&str, Setup); 9] = [
             let at = laid.place_on(from, 0.08);
             laid.put(kind, at, from.height + 0.12, &format!("other-{number}"), "");
         }
-        laid.to_another(kind, from)
+        laid.onto_another(kind, from)
     }),
     ("edges", |laid| {
         let (kind, from) = (laid.one_of(&THINGS), laid.surface());
         let at = laid.place_at_edge(from);
         laid.put(kind, at, from.height + 0.12, "thing", "");
-        laid.to_another(kind, from)
+        laid.onto_another(kind, from)
     }),
     ("lying", |laid| {
         let kind = laid.one_of(&[
@@ -145,7 +145,7 @@ const KINDS: [(&str, Setup); 9] = [
             "thing",
             "",
         );
-        laid.to_another(kind, from)
+        laid.onto_another(kind, from)
     }),
     ("heavy", |laid| {
         let kind = laid.one_of(&[
@@ -158,7 +158,7 @@ const KINDS: [(&str, Setup); 9] = [
             "cube",
         ]);
         let mass = laid.between(0.6, 2.6);
-        laid.from_surface_to_surface(kind, &format!(":mass {mass:.2}"))
+        laid.between_surfaces(kind, &format!(":mass {mass:.2}"))
     }),
     ("shelves", |laid| {
         let kind = laid.one_of(&["milk", "breakfast-cereal", "cup", "bowl", "bottle"]);
@@ -196,7 +196,7 @@ const KINDS: [(&str, Setup); 9] = [
         let [x, y] = laid.place_on(to, -0.03);
         let origin = laid.cook.pose("THING").translation.z - from.height;
         let above = [0.0, 0.0, 0.01, 0.1][laid.below(4)];
-        let (s, c) = laid.between(0.0, 3.14).sin_cos();
+        let (s, c) = spatial::trig::sin_cos(laid.between(0.0, std::f64::consts::PI));
         let z = to.height + origin + above;
         laid.target = Some([x, y, z]);
         Some(format!(
@@ -280,15 +280,15 @@ impl Laid {
         self.cook.pose(name).translation.z + height / 2.0
     }
 
-    fn from_surface_to_surface(&mut self, kind: &str, more: &str) -> Option<String> {
+    fn between_surfaces(&mut self, kind: &str, more: &str) -> Option<String> {
         let from = self.surface();
         let at = self.place_on(from, 0.15);
         self.put(kind, at, from.height + 0.12, "thing", more);
-        self.to_another(kind, from)
+        self.onto_another(kind, from)
     }
 
     /// The form that brings the thing from a surface to another one, if it is there.
-    fn to_another(&mut self, kind: &str, from: &Surface) -> Option<String> {
+    fn onto_another(&mut self, kind: &str, from: &Surface) -> Option<String> {
         let others: Vec<_> = SURFACES.iter().filter(|to| to.name != from.name).collect();
         let to = others[self.below(others.len())].name;
         let world = self.cook.session.simulation().world();
@@ -528,10 +528,10 @@ fn how_each_kind_of_world_ends() {
 fn what_is_open_at_the_top_is_carried_upright() {
     let vessels = |kind: &'static str| -> Setup {
         match kind {
-            "bowl" => |laid| laid.from_surface_to_surface("bowl", ""),
-            "mug" => |laid| laid.from_surface_to_surface("mug", ""),
-            "plate" => |laid| laid.from_surface_to_surface("plate", ""),
-            _ => |laid| laid.from_surface_to_surface("pot", ""),
+            "bowl" => |laid| laid.between_surfaces("bowl", ""),
+            "mug" => |laid| laid.between_surfaces("mug", ""),
+            "plate" => |laid| laid.between_surfaces("plate", ""),
+            _ => |laid| laid.between_surfaces("pot", ""),
         }
     };
     for kind in ["bowl", "mug", "plate", "pot"] {
