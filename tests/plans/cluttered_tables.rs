@@ -272,16 +272,6 @@ fn a_finger_does_not_press_a_thing_into_the_table() {
     }
 }
 
-#[test]
-fn a_finger_that_pushes_another_thing_ends_the_grasp() {
-    assert_eq!(
-        judged(124)
-            .as_deref()
-            .map(|end| end.contains("r_gripper_r_finger_tip_link pushed")),
-        Ok(true)
-    );
-}
-
 /// Half an hour: `cargo test --lib -- --ignored --nocapture cluttered_tables`; `TABLES=FROM..TO` in
 /// the environment chooses others than the first 300.
 #[test]
