@@ -2,7 +2,6 @@
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit, host};
-use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::motions::side;
@@ -11,18 +10,16 @@ use cram::Reply;
 use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
-use lisp::typed::keywords;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use nalgebra::Point3;
-use robotics::motion::interruption::interruptible;
-use robotics::motion::{CollisionMode, WayBegin, can_reach, can_stand, pan_and_tilt, straight_way};
+use robotics::motion::{CollisionMode, can_reach, pan_and_tilt};
 use robotics::perception::{Camera, Sight};
 use robotics::robot::{JointId, KinematicTree};
 use robotics::world::{BodyName, WorldError};
-use spatial::{Shape, pose};
+use spatial::Shape;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -106,15 +103,6 @@ pub(super) static TABLE: &[Builtin] = &[
             "(progn (pp-tut:init-projection) (btr::%hand-reaches '((5 0 1) (0 0 0 1)) :left)) => NIL",
         ],
         host!(hand_reaches),
-    ),
-    control(
-        "%STRAIGHT-WAY",
-        "arm ways &key base-pose begin object",
-        "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given.",
-        &[
-            "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
-        ],
-        host!(straight_hand_way),
     ),
     control(
         "%POINT-HEAD",
@@ -453,67 +441,6 @@ fn hand_reaches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     };
     let reaches = can_reach(&simulation.world, side, &tool, mode, object.as_deref());
     done(Value::bool(reaches))
-}
-
-fn straight_hand_way(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let keys = ["BASE-POSE", "BEGIN", "OBJECT"].map(|name| image.keyword(name));
-    let [base, begin, object] = keywords::parse(image, &args[2..], keys)?;
-    let begin = begin.and_then(|begin| name_text(image, &begin));
-    let begin = match begin.as_deref() {
-        Some("HERE") => WayBegin::Here,
-        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
-        _ => WayBegin::AtAnyHeight,
-    };
-    let object = object.filter(Value::is_true);
-    let object = object.map(|name| simulation.object_named(image, &name));
-    let object = object.transpose()?;
-    let mut elsewhere = None;
-    if let Some(base) = base.filter(Value::is_true) {
-        let base = simulation.pose_as_given(image, &base)?;
-        let t = base.translation;
-        let place = [t.x, t.y, pose::yaw(&base)];
-        if !can_stand(&simulation.world, &place) {
-            return done(Value::NIL);
-        }
-        let mut world = simulation.world.clone();
-        let mut robot = world.robot_configuration().clone();
-        robot.base = pose::from_xy_yaw(t.x, t.y, place[2]);
-        world.teleport_robot(&robot);
-        elsewhere = Some(world);
-    }
-    let mut ways = Vec::new();
-    for way in args[1].iter_list() {
-        let poses = way.iter_list();
-        let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
-        ways.push(poses.collect::<Result<Vec<_>>>()?);
-    }
-    let world = elsewhere.as_ref().unwrap_or(&simulation.world);
-    let in_base = world.robot_configuration().base.inverse();
-    let found = interruptible(interruption(image), || {
-        ways.iter().enumerate().find_map(|(number, way)| {
-            let way: Vec<_> = way.iter().map(|pose| in_base * pose).collect();
-            Some((
-                number,
-                straight_way(world, side, &way, begin, object.as_deref())?,
-            ))
-        })
-    });
-    done(match found.flatten() {
-        None => Value::NIL,
-        Some((number, start)) => {
-            let arm = start.arm.into_iter().map(Value::Double);
-            Value::list([
-                Value::from(number),
-                Value::Double(start.torso),
-                Value::list(arm.collect::<Vec<_>>()),
-            ])
-        }
-    })
 }
 
 fn point_head(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

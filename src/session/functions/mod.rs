@@ -28,6 +28,7 @@ mod scene;
 mod serving;
 mod sight;
 mod snapshots;
+mod straight_ways;
 mod sweep_things;
 mod sweeps;
 mod tables;

@@ -59,7 +59,7 @@ pub(crate) fn side_keyword(image: &mut Image, side: Side) -> Value {
 }
 
 /// The list of finite numbers.
-fn numbers(value: &Value) -> Result<Vec<f64>> {
+pub(crate) fn numbers(value: &Value) -> Result<Vec<f64>> {
     value.iter_list().map(|v| real(&v)).collect()
 }
 

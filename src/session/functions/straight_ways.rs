@@ -1,0 +1,132 @@
+//! Straight ways of a hand, found before anything moves: here, from another place to stand, or as if the other arm
+//! were in another posture.
+
+use crate::host::call::{done, host};
+use crate::interruption::interruption;
+use crate::simulation::Simulation;
+use crate::simulation::motions::{numbers, side};
+use crate::simulation::names::name_text;
+use cram::Reply;
+use lisp::builtin::{Builtin, control};
+use lisp::image::Image;
+use lisp::print;
+use lisp::typed::keywords;
+use lisp::value::Value;
+use lisp::value::number;
+use lisp::value::raise::Raise;
+use robotics::motion::interruption::interruptible;
+use robotics::motion::{WayBegin, can_stand, straight_way};
+use robotics::robot::{ArmPositions, Side};
+use robotics::world::World;
+use spatial::{Pose, pose};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-BULLET-REASONING`.
+pub(super) static TABLE: &[Builtin] = &[control(
+    "%STRAIGHT-WAY",
+    "arm ways &key base-pose posture begin object",
+    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given.",
+    &[
+        "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
+    ],
+    host!(straight_hand_way),
+)];
+
+fn straight_hand_way(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    let keys = ["BASE-POSE", "POSTURE", "BEGIN", "OBJECT"].map(|name| image.keyword(name));
+    let [base, posture, begin, object] = keywords::parse(image, &args[2..], keys)?;
+    let begin = begin.and_then(|begin| name_text(image, &begin));
+    let begin = match begin.as_deref() {
+        Some("HERE") => WayBegin::Here,
+        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
+        _ => WayBegin::AtAnyHeight,
+    };
+    let object = object.filter(Value::is_true);
+    let object = object.map(|name| simulation.object_named(image, &name));
+    let object = object.transpose()?;
+    let base = base.filter(Value::is_true);
+    let base = base.map(|base| simulation.pose_as_given(image, &base));
+    let base = base.transpose()?;
+    let posture = posture.filter(Value::is_true);
+    let posture = posture.map(|posture| posture_of(image, &posture));
+    let posture = posture.transpose()?;
+    if let Some(base) = &base {
+        let place = [base.translation.x, base.translation.y, pose::yaw(base)];
+        if !can_stand(&simulation.world, &place) {
+            return done(Value::NIL);
+        }
+    }
+    let imagined = (base.is_some() || posture.is_some())
+        .then(|| imagined(&simulation.world, base.as_ref(), posture.as_ref()));
+    let mut ways = Vec::new();
+    for way in args[1].iter_list() {
+        let poses = way.iter_list();
+        let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
+        ways.push(poses.collect::<Result<Vec<_>>>()?);
+    }
+    let world = imagined.as_ref().unwrap_or(&simulation.world);
+    // There, the robot would take itself to be where it went to.
+    let in_base = base.unwrap_or_else(|| simulation.believed_base()).inverse();
+    let found = interruptible(interruption(image), || {
+        ways.iter().enumerate().find_map(|(number, way)| {
+            let way: Vec<_> = way.iter().map(|pose| in_base * pose).collect();
+            Some((
+                number,
+                straight_way(world, side, &way, begin, object.as_deref())?,
+            ))
+        })
+    });
+    done(match found.flatten() {
+        None => Value::NIL,
+        Some((number, start)) => {
+            let arm = start.arm.into_iter().map(Value::Double);
+            Value::list([
+                Value::from(number),
+                Value::Double(start.torso),
+                Value::list(arm.collect::<Vec<_>>()),
+            ])
+        }
+    })
+}
+
+/// An arm, the height (m) of the torso, and the positions (rad) of the arm's joints.
+type Posture = (Side, f64, ArmPositions);
+
+fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
+    let parts: Vec<Value> = value.iter_list().collect();
+    let [arm, torso, joints] = parts.as_slice() else {
+        return Err(Raise::simple(format!(
+            "{} is no posture: a list of an arm, a height and positions was expected.",
+            print::to_string(image, value, true)
+        )));
+    };
+    let torso = number::to_f64(torso).filter(|torso| torso.is_finite());
+    let torso = torso.ok_or_else(|| Raise::simple("The height of the torso is a number."))?;
+    let positions = ArmPositions::try_from(numbers(joints)?);
+    let positions = positions.map_err(|_| Raise::simple("An arm has seven joints."))?;
+    Ok((side(image, arm)?, torso, positions))
+}
+
+/// The world with the robot at another place, or with the torso and an arm in another posture.
+fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> World {
+    let mut imagined = world.clone();
+    let mut robot = world.robot_configuration().clone();
+    if let Some(base) = base {
+        let t = base.translation;
+        robot.base = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
+    }
+    if let Some((side, torso, positions)) = posture {
+        let description = &world.models().description;
+        robot.joints.set(description.torso.joint, *torso);
+        let arm = description.arm(*side);
+        arm.set_positions(&mut robot.joints, positions);
+    }
+    imagined.teleport_robot(&robot);
+    imagined
+}
