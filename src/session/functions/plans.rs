@@ -12,6 +12,7 @@ use crate::simulation::imagined::Imagined;
 use crate::simulation::motions::side;
 use crate::simulation::names::{suggestion, type_keyword, type_text, type_text_of};
 use cram::Reply;
+use cram::pose::value::pose_stamped;
 use cram::pose::value::{as_placement, frame_of};
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
@@ -107,6 +108,13 @@ pub(super) static TABLE: &[Builtin] = &[
         "Where an object was when a hand took it, in the frame of the robot's base; NIL if no hand holds it.",
         &[],
         host!(taken_from),
+    ),
+    control(
+        "HELD-POSE",
+        "name arm",
+        "Where the robot takes an object to be, in the map, that a hand holds.",
+        &[],
+        host!(held_pose),
     ),
     control(
         "PERCEIVED-POSE",
@@ -452,6 +460,15 @@ fn taken_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     done(held.map_or(Value::NIL, |held| {
         simulation.in_base(&(simulation.believed_base().inverse() * held.taken_from))
     }))
+}
+
+fn held_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let pose = simulation
+        .held_pose(&name, side)
+        .map_err(Raise::reporting)?;
+    done(pose_stamped("map", &pose))
 }
 
 fn perceived_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

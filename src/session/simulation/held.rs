@@ -93,6 +93,17 @@ impl Simulation {
         Some(object_in_base.inverse() * tool)
     }
 
+    /// Where the robot takes an object to be, in the map, that a hand holds.
+    pub(crate) fn held_pose(&self, object: &str, side: Side) -> Result<Pose, WorldError> {
+        let believed = self.held.get(object).and_then(|held| held.tool_in_object);
+        let Some(tool_in_object) = believed else {
+            return Ok(self.world.to_belief(&self.world.object_pose(object)?));
+        };
+        let arm = self.models.description.arm(side);
+        let tool = arm.tool_for_wrist(&self.world.link_pose(arm.wrist));
+        Ok(self.world.to_belief(&tool) * tool_in_object.inverse())
+    }
+
     /// Corrects how the robot takes a hand to hold an object, if it sees a held one.
     pub(super) fn see_grip(&mut self, object: &str, in_base: &Pose) {
         let Some(side) = self.held.get(object).map(|held| held.side) else {
