@@ -42,6 +42,20 @@ fn closed(name: &str, forms: &[&str]) -> (Option<i32>, String, String) {
 }
 
 #[test]
+fn a_closed_session_hands_over() {
+    let plan = "(in-package :pp-tut)
+        (with-simulated-robot
+          (let ((?bottle (an object (type bottle))))
+            (perform (an action (type searching) (object ?bottle)))
+            (perform (an action (type fetching) (object ?bottle) (arm right)))
+            (perform (an action (type handing-over) (object ?bottle) (to left)))))
+        (pp-plans::objects-in-hand :left)";
+    let (status, out, err) = closed("hands-over", &[plan]);
+    assert_eq!(status, Some(0), "{err}");
+    assert!(out.trim_end().ends_with("(BOTTLE-1)"), "{out}");
+}
+
+#[test]
 fn a_closed_session_refuses_files_ports_and_edits() {
     for form in [
         "(open \"made.txt\" :direction :output)",

@@ -172,6 +172,14 @@ fn half_of_what_is_in_a_cup_is_poured_into_a_bowl() {
     assert_eq!(cook.done("(first (content-of 'bowl-1))"), ":WATER\n");
 }
 
+/// A form that fails with a class and a report that says that, before anything has moved.
+fn refused(cook: &mut Cook, class: &str, form: &str, wanted: &str) {
+    let before = cook.session.simulation().world().steps();
+    let report = cook.fails(class, form);
+    assert!(report.contains(wanted), "{form}: {report}");
+    assert_eq!(cook.session.simulation().world().steps(), before, "{form}");
+}
+
 #[test]
 fn pouring_is_refused_before_the_first_motion() {
     let mut cook = at_island();
@@ -185,52 +193,47 @@ fn pouring_is_refused_before_the_first_motion() {
         (perform (an action (type pouring) (object ?cup) (on-object ?b))))";
     let of_nothing = "(let ((?bowl *bowl*))
         (perform (an action (type pouring) (on-object ?bowl))))";
-    let mut refused = |class: &str, form: &str, wanted: &str| {
-        let before = cook.session.simulation().world().steps();
-        let report = cook.fails(class, form);
-        assert!(report.contains(wanted), "{form}: {report}");
-        assert_eq!(cook.session.simulation().world().steps(), before, "{form}");
-    };
     refused(
+        &mut cook,
         "TOOL-MISSING",
         of_nothing,
         "There is nothing to pour from: both hands are empty.",
     );
     refused(
+        &mut cook,
         "WRONG-TOOL",
         bottle,
         "BOTTLE-1 is closed: nothing can be poured from it.",
     );
     refused(
+        &mut cook,
         "CONTAINER-EMPTY",
         &pouring("(amount 10)"),
         "CUP-1 is empty: nothing can be poured from it.",
     );
     cook.done(TAKE_CUP);
     cook.done("(set-content 'cup-1 :water 150) (set-content 'bowl-1 :water 700)");
-    let mut refused = |class: &str, form: &str, wanted: &str| {
-        let before = cook.session.simulation().world().steps();
-        let report = cook.fails(class, form);
-        assert!(report.contains(wanted), "{form}: {report}");
-        assert_eq!(cook.session.simulation().world().steps(), before, "{form}");
-    };
     refused(
+        &mut cook,
         "WRONG-TOOL",
         into_bottle,
         "BOTTLE-1 is no open vessel: nothing can be poured into it.",
     );
     refused(
+        &mut cook,
         "CONTAINER-EMPTY",
         &pouring("(amount 200)"),
         "There are only 150 ml in CUP-1",
     );
     refused(
+        &mut cook,
         "CONTAINER-FULL",
         &pouring("(amount 1)"),
         "BOWL-1 would overflow: 150 ml",
     );
     refused("ERROR", &pouring("(amount -3)"), "An amount is above 0");
     refused(
+        &mut cook,
         "ERROR",
         &pouring("(amount 1) (tilt-angle 1)"),
         "give one of them",

@@ -7,35 +7,7 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
-
-/// A surface: the name of its link, the corners of its top, and its height (m).
-struct Surface {
-    name: &'static str,
-    low: [f64; 2],
-    high: [f64; 2],
-    height: f64,
-}
-
-const SURFACES: [Surface; 3] = [
-    Surface {
-        name: "table-area-main",
-        low: [-2.2, -1.45],
-        high: [-0.6, -0.65],
-        height: 0.72,
-    },
-    Surface {
-        name: "kitchen-island-surface",
-        low: [-1.467, 0.494],
-        high: [-0.667, 2.944],
-        height: 0.861,
-    },
-    Surface {
-        name: "sink-area-surface",
-        low: [1.248, -0.285],
-        high: [1.822, 1.315],
-        height: 0.854,
-    },
-];
+use super::surfaces::{SURFACES, Surface};
 
 /// How far (m) from the edge of a surface an object stands at least.
 const FROM_EDGE: f64 = 0.05;

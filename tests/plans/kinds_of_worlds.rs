@@ -11,37 +11,9 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
+use super::surfaces::{SURFACES, Surface};
 use robotics::world::World;
 use robotics::world::tilt::tilt_at;
-
-/// A surface: the name of its link, the corners of its top, and its height (m).
-struct Surface {
-    name: &'static str,
-    low: [f64; 2],
-    high: [f64; 2],
-    height: f64,
-}
-
-const SURFACES: [Surface; 3] = [
-    Surface {
-        name: "table-area-main",
-        low: [-2.2, -1.45],
-        high: [-0.6, -0.65],
-        height: 0.72,
-    },
-    Surface {
-        name: "kitchen-island-surface",
-        low: [-1.467, 0.494],
-        high: [-0.667, 2.944],
-        height: 0.861,
-    },
-    Surface {
-        name: "sink-area-surface",
-        low: [1.248, -0.285],
-        high: [1.822, 1.315],
-        height: 0.854,
-    },
-];
 
 /// How far (m) something may be moved, and lean (degrees), without a word.
 const UNTOUCHED: f64 = 0.01;

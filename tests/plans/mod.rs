@@ -33,6 +33,7 @@ mod searching;
 mod session_copies;
 mod spawning;
 mod speeds;
+mod surfaces;
 mod sweeps;
 mod systems;
 mod things_on_things;

@@ -1,7 +1,8 @@
 //! Whether a thing holds others as it stands: a vessel, a plate, a tray.
 //!
 //! It does if it has a hollow that is open at the top: places on which something lies free to the sky, with
-//! walls around them on all sides. Only the shapes tell, so this holds for types of users, too.
+//! walls around them on all sides. Only the shapes tell, so this holds for types of users, too. The room that
+//! [`super::cavity`] measures is about one axis; a hollow may be anywhere, as in a tray with compartments.
 
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::Ray;
