@@ -231,7 +231,12 @@ fn pouring_is_refused_before_the_first_motion() {
         &pouring("(amount 1)"),
         "BOWL-1 would overflow: 150 ml",
     );
-    refused("ERROR", &pouring("(amount -3)"), "An amount is above 0");
+    refused(
+        &mut cook,
+        "ERROR",
+        &pouring("(amount -3)"),
+        "An amount is above 0",
+    );
     refused(
         &mut cook,
         "ERROR",
