@@ -69,9 +69,10 @@ async function liveView(browser) {
   const moved = async () => far(before, await get(tab, BASE)) > 0.2;
   for (let i = 0; i < 200 && !await moved(); i++) await sleep(0.2);
   check(await moved(), 'the robot drives');
-  await tab.picture(join(pictures, 'live.png'));
+  // A picture may take longer than the whole plan on a slow machine.
   await tab.press('#play');
   await until(tab, 'page.pace.paused', 5);
+  await tab.picture(join(pictures, 'live.png'));
   const stopped = await get(tab, 'past.span[1]');
 
   // The mouse.
@@ -114,10 +115,13 @@ async function liveView(browser) {
   check(true, 'simulated time goes on after the pause');
   await tab.press('#speeds button:nth-child(3)');
 
-  // The object in the hand.
-  await until(tab, 'page.shown.held.length > 0', 40);
+  // The object in the hand. The page pauses as soon as it is held, or it may be put down before the
+  // card is read.
+  await until(tab, 'page.shown.held.length > 0 && (document.querySelector("#play").click(), true)', 40);
   await tab.until('/held by\\s+r_gripper/.test(document.querySelector("#card").innerText)', 10);
   check(true, 'the page names the hand that holds the bottle');
+  await until(tab, 'page.pace.paused', 5);
+  await tab.press('#play');
 
   // The past, while the session goes on.
   const place = await tab.value(`(() => { const b = document.querySelector('#slider').getBoundingClientRect(); return [b.x, b.y + b.height / 2, b.width]; })()`);
