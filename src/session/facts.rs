@@ -27,7 +27,7 @@ pub(super) fn install(image: &mut Image, models: &Models) {
     let frames = frames(models);
     for (name, frame) in frames {
         let sym = symbol(image, "CRAM-TF", name);
-        image.define_special(sym, Value::string(frame));
+        image.define_special(sym, frame.map_or(Value::NIL, Value::string));
     }
     let robot = robot(image, models);
     let sym = symbol(image, PACKAGE, "*ROBOT*");
@@ -69,7 +69,7 @@ pub(crate) fn follow(image: &mut Image, models: &Models) {
 /// Makes known what names there are, so that programs can be checked before they run.
 fn name_things(image: &mut Image, models: &Models) {
     let vocabulary = Vocabulary::of(image);
-    vocabulary.add(Domain::Arm, Side::BOTH.map(Side::name));
+    vocabulary.add(Domain::Arm, models.description.sides().map(Side::name));
     vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
     vocabulary.add(Domain::ObjectType, models.objects.names());
     vocabulary.add(
@@ -101,15 +101,19 @@ fn name_furniture(image: &mut Image, models: &Models) {
 }
 
 /// CRAM's variables that hold names of the robot's frames.
-fn frames(models: &Models) -> [(&'static str, String); 5] {
+fn frames(models: &Models) -> [(&'static str, Option<String>); 5] {
     let description = &models.description;
     let link = |link| models.robot.link(link).name.clone();
-    let tool = |side| link(description.arm(side).tool);
+    let tool = |wanted| {
+        let mut sides = description.sides();
+        let side = sides.find(|side| *side == wanted)?;
+        Some(link(description.arm(side).tool))
+    };
     let odometry = description.base.odometry.as_deref().unwrap_or(MAP);
     [
-        ("*ODOM-FRAME*", odometry.to_owned()),
-        ("*ROBOT-BASE-FRAME*", link(description.base.frame)),
-        ("*ROBOT-TORSO-FRAME*", link(description.torso.link)),
+        ("*ODOM-FRAME*", Some(odometry.to_owned())),
+        ("*ROBOT-BASE-FRAME*", Some(link(description.base.frame))),
+        ("*ROBOT-TORSO-FRAME*", Some(link(description.torso.link))),
         ("*ROBOT-LEFT-TOOL-FRAME*", tool(Side::Left)),
         ("*ROBOT-RIGHT-TOOL-FRAME*", tool(Side::Right)),
     ]
@@ -120,13 +124,18 @@ fn robot(image: &mut Image, models: &Models) -> Value {
     let description = &models.description;
     let joint = &models.robot.joint(description.torso.joint).name;
     let camera = &models.robot.link(description.camera().frame).name;
-    let wrists = Side::BOTH.map(|side| {
+    let sides: Vec<Side> = description.sides().collect();
+    let mut of_arms = |of_arm: &dyn Fn(&mut Image, Side) -> Value| {
+        let all = sides.iter().map(|side| of_arm(image, *side));
+        Value::list(all.collect::<Vec<_>>())
+    };
+    let wrists = of_arms(&|image, side| {
         let wrist = &models.robot.link(description.arm(side).wrist).name;
         Value::list([keyword(image, side.name()), Value::string(wrist.as_str())])
     });
-    let links = Side::BOTH.map(|side| {
+    let links = of_arms(&|image, side| {
         let robot = &models.robot;
-        let first = robot.joint(description.arm(side).joints()[0]).child;
+        let first = description.arm(side).shoulder(robot);
         let links = robot
             .links()
             .filter(|(link, _)| robot.carries(first, *link));
@@ -134,12 +143,12 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         let arm = std::iter::once(keyword(image, side.name()));
         Value::list(arm.chain(links).collect::<Vec<_>>())
     });
-    let grippers = Side::BOTH.map(|side| {
+    let grippers = of_arms(&|image, side| {
         let joint = description.arm(side).gripper.joint;
         let joint = &models.robot.joint(joint).name;
         Value::list([keyword(image, side.name()), Value::string(joint.as_str())])
     });
-    let joints = Side::BOTH.map(|side| {
+    let joints = of_arms(&|image, side| {
         let joints = description.arm(side).joints();
         let names = joints.iter().map(|j| &models.robot.joint(*j).name);
         let names = names.map(|name| Value::string(name.as_str()));
@@ -150,10 +159,10 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         ("name", keyword(image, &description.name)),
         ("torso-joint", Value::string(joint.as_str())),
         ("camera-frame", Value::string(camera.as_str())),
-        ("wrists", Value::list(wrists)),
-        ("arm-links", Value::list(links)),
-        ("arm-joints", Value::list(joints)),
-        ("grippers", Value::list(grippers)),
+        ("wrists", wrists),
+        ("arm-links", links),
+        ("arm-joints", joints),
+        ("grippers", grippers),
     ];
     property_list(image, entries)
 }

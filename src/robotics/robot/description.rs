@@ -118,14 +118,21 @@ impl Arm {
         posture.map(|(_, positions)| positions)
     }
 
+    /// The link that the first of its joints moves.
+    pub fn shoulder(&self, tree: &KinematicTree) -> LinkId {
+        // An arm has at least one joint.
+        let first = self.joints().first();
+        first.map_or(self.wrist, |joint| tree.joint(*joint).child)
+    }
+
     /// The joints from the shoulder to the wrist.
-    pub fn joints(&self) -> &[JointId; 7] {
+    pub fn joints(&self) -> &[JointId] {
         self.kinematics.joints()
     }
 
     /// Positions of the arm's joints.
     pub fn positions(&self, q: &JointPositions) -> ArmPositions {
-        self.joints().map(|joint| q.get(joint))
+        self.joints().iter().map(|joint| q.get(*joint)).collect()
     }
 
     /// Sets the arm's joints to the positions.
@@ -213,8 +220,8 @@ pub struct RobotDescription {
     pub neck: Neck,
     /// The cameras, the one in use first; never empty.
     pub(crate) cameras: Vec<Camera>,
-    /// The left and the right arm.
-    pub arms: [Arm; 2],
+    /// The arms, the left one first; never empty.
+    pub arms: Vec<Arm>,
     /// Links within one group are never checked against each other.
     pub touching: Vec<Vec<LinkId>>,
     /// Links that roll on the floor; never checked against it or the robot.
@@ -228,9 +235,24 @@ pub struct RobotDescription {
 }
 
 impl RobotDescription {
-    /// The arm of that side.
+    /// The arm of that side. A side without an arm is refused where plans name it; here, it stands
+    /// for the only arm.
     pub fn arm(&self, side: Side) -> &Arm {
-        &self.arms[side.index()]
+        let own = self.arms.iter().find(|arm| arm.side == side);
+        // The reader refuses a file without arms.
+        own.unwrap_or(&self.arms[0])
+    }
+
+    /// The sides that have an arm, left first.
+    pub fn sides(&self) -> impl Iterator<Item = Side> + Clone + '_ {
+        self.arms.iter().map(|arm| arm.side)
+    }
+
+    /// The sides that have an arm, right first: the right arm is preferred.
+    pub fn preferred_sides(&self) -> Vec<Side> {
+        let mut sides: Vec<Side> = self.sides().collect();
+        sides.reverse();
+        sides
     }
 
     /// The camera in use.

@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
             torso: self.torso()?,
             neck: self.neck()?,
             cameras,
-            arms: [self.arm(Side::Left, &base)?, self.arm(Side::Right, &base)?],
+            arms: self.arms(&base)?,
             base,
             touching: self.groups("touching")?,
             wheels: self.groups("wheels")?.concat(),
@@ -150,8 +150,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The record with that head for one side.
-    fn sided(&self, head: &'static str, side: Side) -> Result<&Record<'a>, DataError> {
+    /// The record with that head for one side, if there is one.
+    fn sided(&self, head: &'static str, side: Side) -> Result<Option<&Record<'a>>, DataError> {
         let mut found = None;
         for record in self.all(head) {
             let thing = record.thing("side, left or right")?;
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
                 return Err(thing.error(DataProblem::Repeated(format!("({head} {side} …)"))));
             }
         }
-        found.ok_or_else(|| self.missing(&format!("{head} {side}")))
+        Ok(found)
     }
 
     fn link(&self, node: Node<'_>) -> Result<LinkId, DataError> {
@@ -273,8 +273,20 @@ impl<'a> Reader<'a> {
         Ok(camera)
     }
 
-    fn arm(&self, side: Side, base: &Base) -> Result<Arm, DataError> {
-        let record = self.sided("arm", side)?;
+    fn arms(&self, base: &Base) -> Result<Vec<Arm>, DataError> {
+        let mut arms = Vec::new();
+        for side in Side::BOTH {
+            if let Some(record) = self.sided("arm", side)? {
+                arms.push(self.arm(record, side, base)?);
+            }
+        }
+        match arms.is_empty() {
+            true => Err(self.missing("arm")),
+            false => Ok(arms),
+        }
+    }
+
+    fn arm(&self, record: &Record<'_>, side: Side, base: &Base) -> Result<Arm, DataError> {
         let arm_base = record.required("base")?;
         let wrist = record.required("wrist")?;
         let (base_link, wrist_link) = (self.link(arm_base)?, self.link(wrist)?);
@@ -311,7 +323,7 @@ impl<'a> Reader<'a> {
     fn postures(
         &self,
         node: Node<'_>,
-        joints: &[JointId; 7],
+        joints: &[JointId],
     ) -> Result<Vec<(String, ArmPositions)>, DataError> {
         let mut postures = Vec::new();
         for posture in node.list()? {
@@ -319,8 +331,11 @@ impl<'a> Reader<'a> {
             let name = posture.head()?;
             let numbers = items.iter().skip(1).map(Node::number);
             let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
-            let positions = ArmPositions::try_from(numbers.as_slice())
-                .map_err(|_| posture.expected("a name and seven joint positions"))?;
+            let positions = ArmPositions::try_from(numbers.as_slice()).ok();
+            let Some(positions) = positions.filter(|all| all.len() == joints.len()) else {
+                let wanted = format!("a name and {} joint positions", joints.len());
+                return Err(posture.expected(&wanted));
+            };
             for (i, (joint, position)) in joints.iter().zip(positions).enumerate() {
                 let joint = self.tree.joint(*joint);
                 if let Some(limits) = joint.limits.filter(|l| !l.contains(position)) {
@@ -338,6 +353,7 @@ impl<'a> Reader<'a> {
 
     fn gripper(&self, side: Side) -> Result<Gripper, DataError> {
         let record = self.sided("gripper", side)?;
+        let record = record.ok_or_else(|| self.missing(&format!("gripper {side}")))?;
         let (joint, limits) = self.limited_joint(record.required("joint")?)?;
         let tip = self.joint(record.required("tip-joint")?)?;
         let tip = self.tree.joint(tip).origin.translation.vector;

@@ -5,7 +5,9 @@
 //! time, physics or the plan language; poses are those of [`spatial`].
 
 pub(crate) mod arm_chain;
-pub(crate) mod arm_kinematics;
+pub mod arm_kinematics;
+mod arm_positions;
+pub mod closed_form;
 pub mod description;
 mod description_file;
 mod elbow_curve;
@@ -26,9 +28,8 @@ mod urdf_shapes;
 mod urdf_text;
 mod xml_elements;
 
-pub(crate) use arm_chain::ARM_JOINTS;
-pub use arm_chain::ArmPositions;
 pub use arm_kinematics::ArmKinematics;
+pub use arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 pub use description::RobotDescription;
 pub(crate) use description_file::aliases;
 pub use fit::MissingNames;

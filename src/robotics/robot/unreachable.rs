@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::Limits;
-use super::arm_chain::{ARM_JOINTS, ArmChain, ArmPositions, LIFT};
+use super::{ArmPositions, Limits};
+use super::arm_chain::{ARM_JOINTS, ArmChain, LIFT};
 use super::elbow_curve::ElbowCurve;
 
 /// A joint that would have to exceed its limits.

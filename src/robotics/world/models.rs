@@ -105,8 +105,8 @@ impl Models {
         }
         let hand_of = |link| {
             let palm = |side: &Side| description.arm(*side).gripper.palm;
-            Side::BOTH
-                .into_iter()
+            description
+                .sides()
                 .find(|side| robot.carries(palm(side), link))
         };
         let hand_of = robot.links().map(|(link, _)| hand_of(link)).collect();
@@ -123,11 +123,8 @@ impl Models {
         });
         let hands = hands.collect();
         let is_of_arm = |link| {
-            let shoulder = |arm: &Arm| robot.joint(arm.joints()[0]).child;
-            description
-                .arms
-                .iter()
-                .any(|arm| robot.carries(shoulder(arm), link))
+            let mut arms = description.arms.iter();
+            arms.any(|arm| robot.carries(arm.shoulder(&robot), link))
         };
         let footing = |link| {
             if description.wheels.contains(&link) {

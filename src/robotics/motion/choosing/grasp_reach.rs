@@ -11,7 +11,7 @@ use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
 use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
 use crate::robot::torso_search::TorsoSearch;
-use crate::robot::{ARM_JOINTS, JointId, Side};
+use crate::robot::{ArmPositions, JointId, Side};
 use crate::world::{BodyName, CollisionHit, RobotConfiguration, World};
 use spatial::Pose;
 
@@ -214,7 +214,7 @@ impl<'w> GraspReachFrom<'w> {
         hand.torso.in_arm_base(&arm.wrist_for_tool(tool), height)
     }
 
-    fn postures(&self, side: Side, tool: &Pose, height: f64) -> Vec<[f64; ARM_JOINTS]> {
+    fn postures(&self, side: Side, tool: &Pose, height: f64) -> Vec<ArmPositions> {
         let arm = self.reach.world.models().description.arm(side);
         let wrist = self.wrist(side, tool, height);
         let all = arm.kinematics.solutions(&wrist, CONFIGURATION_STEP);
@@ -327,7 +327,7 @@ impl<'w> GraspReachFrom<'w> {
             &hand.careful
         };
         let joints: Vec<JointId> = std::iter::once(description.torso.joint)
-            .chain(*arm.joints())
+            .chain(arm.joints().iter().copied())
             .collect();
         let mut robot = self.robot.clone();
         let fingers = arm.gripper.position_for_opening(open.opening);

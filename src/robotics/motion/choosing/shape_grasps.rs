@@ -99,7 +99,7 @@ impl ShapeGrasps {
         let mut grasps = Vec::new();
         let mut grip = None;
         let mut refusal = None;
-        for side in Side::BOTH {
+        for side in models.description.sides() {
             match Search::new(models, side, kind).and_then(|search| search.run(wanted)) {
                 Ok((found, own)) => {
                     grip = grip.or(Some(own));

@@ -49,8 +49,7 @@ pub(crate) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
 /// The links of an arm, from the shoulder on, and of its hand.
 pub(crate) fn arm_names(world: &World, side: Side) -> Vec<BodyName> {
     let models = world.models();
-    let [first, ..] = models.description.arm(side).joints();
-    let shoulder = models.robot.joint(*first).child;
+    let shoulder = models.description.arm(side).shoulder(&models.robot);
     let links = models.robot.links().map(|(link, _)| link);
     let moving = links.filter(|link| models.robot.carries(shoulder, *link));
     moving.map(|link| models.robot_body(link)).collect()

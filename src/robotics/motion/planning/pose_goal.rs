@@ -8,7 +8,7 @@
 use nalgebra::Translation3;
 
 use super::cartesian_path::{
-    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
+    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_arm_base,
 };
 use super::configuration::with_joints;
 use super::configuration_checker::ConfigurationChecker;
@@ -119,7 +119,7 @@ impl PoseGoalTask<'_> {
             &[self.body().torso.joint],
             &[height],
         );
-        wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
+        wrist_in_arm_base(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 
     /// Tells which configurations are free. What is upright in the hands and will be stays so on the way.
@@ -139,7 +139,9 @@ impl PoseGoalTask<'_> {
         group: &PlanningGroup,
     ) -> Vec<GoalConfiguration> {
         let now = group.now(self.world);
-        let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
+        let arms = self.goals.iter();
+        let joints = arms.map(|(side, _)| self.body().arm(*side).joints().len());
+        let lead = now.len() - joints.sum::<usize>();
         let torso = if lead > 0 { vec![height] } else { Vec::new() };
         let mut all = vec![GoalConfiguration {
             cost: 0.0,
@@ -464,9 +466,10 @@ impl PoseGoalTask<'_> {
             let kinematics = &self.body().arm(*side).kinematics;
             let mut range: Option<[f64; 2]> = None;
             let mut nearest: Option<(robot::Unreachable, f64)> = None;
+            let zero = kinematics.joints().iter().map(|_| 0.0).collect();
             for height in self.heights(REASON_STEP) {
                 let wrist = self.wrist(*side, tcp, height);
-                match kinematics.nearest(&wrist, &[0.0; robot::ARM_JOINTS]) {
+                match kinematics.nearest(&wrist, &zero) {
                     Ok(_) => {
                         let [least, most] = range.unwrap_or([height; 2]);
                         range = Some([least.min(height), most.max(height)]);

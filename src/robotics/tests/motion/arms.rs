@@ -6,13 +6,13 @@ use crate::motion::{
     CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp,
     PoseGoal, Put, TcpPath, UnreachableReason,
 };
-use crate::robot::Side;
+use crate::robot::{ArmPositions, Side};
 use spatial::Pose;
 use spatial::pose::{angle_between, distance_between, from_xyz_rpy};
 
 const ARRIVED: Result<MotionOutcome, MotionFailure> = Ok(MotionOutcome::Arrived);
 
-fn positions(kitchen: &Kitchen, side: Side) -> [f64; 7] {
+fn positions(kitchen: &Kitchen, side: Side) -> ArmPositions {
     let arm = kitchen.world.models().description.arm(side);
     arm.positions(&kitchen.world.robot_configuration().joints)
 }
