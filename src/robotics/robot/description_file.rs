@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::description::{Arm, Base, Camera, Gripper, Neck, RobotDescription, Speed, Torso};
+use super::description::{Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso};
+use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
     LinkId, Side,
@@ -18,6 +19,7 @@ const RECORDS: &[(&str, &[&str])] = &[
         &[
             "frame",
             "body",
+            "drive",
             "drive-velocity",
             "drive-acceleration",
             "turn-velocity",
@@ -60,6 +62,7 @@ const RECORDS: &[(&str, &[&str])] = &[
         &[
             "palm",
             "joint",
+            "joints",
             "tip-joint",
             "pad-face",
             "pad-size",
@@ -89,12 +92,19 @@ impl RobotDescription {
         for node in file.nodes() {
             records.push(node.record("record", RECORDS)?);
         }
-        let reader = Reader {
+        let mut reader = Reader {
             tree,
             file: &file,
             records,
         };
-        reader.description()
+        // Fingers that move together are measured so.
+        let mut joined = tree.clone();
+        let followers = reader.joined()?;
+        for &(follower, leader) in &followers {
+            joined.join(follower, leader);
+        }
+        reader.tree = &joined;
+        reader.description(followers)
     }
 }
 
@@ -106,7 +116,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn description(&self) -> Result<RobotDescription, DataError> {
+    fn description(&self, joined: Vec<(JointId, JointId)>) -> Result<RobotDescription, DataError> {
         let robot = self.single("robot")?;
         let cameras: Vec<Camera> = self
             .all("camera")
@@ -126,6 +136,7 @@ impl<'a> Reader<'a> {
             touching: self.groups("touching")?,
             wheels: self.groups("wheels")?.concat(),
             idle_joints: self.idle_joints()?,
+            joined,
             aliases: aliases(self.tree, self.all("alias"))?,
             speeds: self.speeds()?,
         })
@@ -209,6 +220,7 @@ impl<'a> Reader<'a> {
         let base = Base {
             frame: self.link(frame)?,
             body: self.link(record.required("body")?)?,
+            kind: record.optional("drive").map_or(Ok(DriveKind::Omnidirectional), drive_kind)?,
             drive: speed(record, "drive-velocity", "drive-acceleration")?,
             turn: speed(record, "turn-velocity", "turn-acceleration")?,
             odometry: record
@@ -351,25 +363,65 @@ impl<'a> Reader<'a> {
         Ok(postures)
     }
 
+    /// The joint that moves the fingers of a gripper, and those that move as it does.
+    fn finger_joints<'r>(
+        &self,
+        record: &Record<'r>,
+    ) -> Result<(Node<'r>, Vec<Node<'r>>), DataError> {
+        let Some(joints) = record.optional("joints") else {
+            return Ok((record.required("joint")?, Vec::new()));
+        };
+        match joints.list()?.as_slice() {
+            [] => Err(joints.expected("the joints of the fingers")),
+            [first, others @ ..] => Ok((*first, others.to_vec())),
+        }
+    }
+
+    /// The joints of fingers that move as another one does, each with that one.
+    fn joined(&self) -> Result<Vec<(JointId, JointId)>, DataError> {
+        let mut joined = Vec::new();
+        for record in self.all("gripper") {
+            let (leader, followers) = self.finger_joints(record)?;
+            let leader = self.limited_joint(leader)?.0;
+            for follower in followers {
+                joined.push((self.limited_joint(follower)?.0, leader));
+            }
+        }
+        Ok(joined)
+    }
+
     fn gripper(&self, side: Side) -> Result<Gripper, DataError> {
         let record = self.sided("gripper", side)?;
         let record = record.ok_or_else(|| self.missing(&format!("gripper {side}")))?;
-        let (joint, limits) = self.limited_joint(record.required("joint")?)?;
-        let tip = self.joint(record.required("tip-joint")?)?;
-        let tip = self.tree.joint(tip).origin.translation.vector;
-        let finger = self.tree.joint(joint).origin.translation.vector;
+        let (joint, limits) = self.limited_joint(self.finger_joints(record)?.0)?;
+        let palm = self.link(record.required("palm")?)?;
+        let fingers = [
+            self.links(&record.required("left-finger")?.list()?)?,
+            self.links(&record.required("right-finger")?.list()?)?,
+        ];
+        let jaws = match record.optional("tip-joint") {
+            Some(tip) => {
+                let tip = self.tree.joint(self.joint(tip)?).origin.translation.vector;
+                let finger = self.tree.joint(joint).origin.translation.vector;
+                Jaws::Turning {
+                    tip: [tip.x, tip.y.abs()],
+                    pad: finger.y.abs() - record.required("pad-face")?.number()?,
+                }
+            }
+            None => {
+                let measured = JawGap::measure(self.tree, palm, joint, limits, &fingers);
+                let wrong = |error: JawGapError| DataProblem::Invalid(error.to_string());
+                Jaws::Measured(measured.map_err(|error| record.node().error(wrong(error)))?)
+            }
+        };
         Ok(Gripper {
-            palm: self.link(record.required("palm")?)?,
+            palm,
             joint,
             limits,
-            fingers: [
-                self.links(&record.required("left-finger")?.list()?)?,
-                self.links(&record.required("right-finger")?.list()?)?,
-            ],
-            joint_per_metre: record.required("joint-per-metre")?.positive()?,
+            fingers,
+            joint_per_metre: optional_positive(record, "joint-per-metre")?,
             effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
-            tip: [tip.x, tip.y.abs()],
-            pad: finger.y.abs() - record.required("pad-face")?.number()?,
+            jaws,
             pad_size: record.optional("pad-size").map(pad_size).transpose()?,
         })
     }
@@ -400,6 +452,13 @@ impl<'a> Reader<'a> {
         }
         Ok(speeds)
     }
+}
+
+fn drive_kind(node: Node<'_>) -> Result<DriveKind, DataError> {
+    let name = node.symbol()?;
+    let mut kinds = DriveKind::NAMED.iter();
+    let kind = kinds.find(|(known, _)| *known == name).map(|(_, kind)| *kind);
+    kind.ok_or_else(|| node.expected("omnidirectional or differential"))
 }
 
 /// The aliases that records `(alias NAME LINK-OR-JOINT)` give to links and joints of a tree.

@@ -88,6 +88,9 @@ impl Models {
         kitchen_description: KitchenDescription,
         objects: ObjectLibrary,
     ) -> Self {
+        for (follower, leader) in &description.joined {
+            robot.join(*follower, *leader);
+        }
         robot.set_aliases(description.aliases.clone());
         kitchen.set_aliases(kitchen_description.aliases.clone());
         let idle = &description.idle_joints;

@@ -122,7 +122,7 @@ fn hand_opening(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         .joints
         .get(gripper.joint);
     let [now, most] =
-        [now, gripper.limits.upper].map(|q| Value::Double(q / gripper.joint_per_metre));
+        [now, gripper.limits.upper].map(|q| Value::Double(gripper.opening_at(q)));
     done(Value::values(vec![now, most]))
 }
 

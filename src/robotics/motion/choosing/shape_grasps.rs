@@ -180,10 +180,8 @@ impl<'a> Search<'a> {
             self.from(direction, &mut found);
         }
         let opening = |gap: f64| {
-            self.gripper
-                .position_for_gap(gap)
-                .min(self.gripper.limits.upper)
-                / self.gripper.joint_per_metre
+            let position = self.gripper.position_for_gap(gap);
+            (self.gripper).opening_at(position.min(self.gripper.limits.upper))
         };
         let mut chosen: Vec<(String, Found)> = Vec::new();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));

@@ -141,7 +141,7 @@ fn is_between(world: &World, side: Side, handle: LinkId) -> bool {
 /// How far (m) a hand opens to let go of what it holds.
 pub fn releasing_opening(world: &World, side: Side) -> f64 {
     let gripper = &world.models().description.arm(side).gripper;
-    let now = world.robot_configuration().joints.get(gripper.joint) / gripper.joint_per_metre;
-    let most = gripper.limits.upper / gripper.joint_per_metre;
+    let now = gripper.opening_at(world.robot_configuration().joints.get(gripper.joint));
+    let most = gripper.opening_at(gripper.limits.upper);
     (now + RELEASE).min(most)
 }

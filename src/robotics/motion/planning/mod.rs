@@ -7,6 +7,7 @@ pub(crate) mod base_path;
 pub(crate) mod cartesian_path;
 pub(crate) mod configuration;
 pub(crate) mod configuration_checker;
+mod drive_legs;
 pub(crate) mod drive_plan;
 pub(crate) mod handle_way;
 pub mod interruption;
