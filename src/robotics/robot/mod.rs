@@ -6,12 +6,16 @@
 
 pub(crate) mod arm_chain;
 pub(crate) mod arm_kinematics;
+pub mod arm_positions;
+mod chain_length;
 pub mod description;
 mod description_file;
 mod elbow_curve;
 pub mod fit;
 pub mod ids;
+pub mod joint_chain;
 mod joint_positions;
+pub mod numeric_kinematics;
 mod polynomial;
 mod side;
 pub mod torso_search;
@@ -33,7 +37,9 @@ pub use description::RobotDescription;
 pub(crate) use description_file::aliases;
 pub use fit::MissingNames;
 pub use ids::{JointId, LinkId};
+pub use joint_chain::JointChainError;
 pub use joint_positions::JointPositions;
+pub use numeric_kinematics::{Miss, NumericKinematics};
 pub use side::Side;
 pub use tree::{Alias, AliasedPart, Joint, JointKind, KinematicTree, Limits, Link};
 pub use unreachable::{LimitViolation, Unreachable};
