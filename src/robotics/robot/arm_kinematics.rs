@@ -6,11 +6,13 @@
 //! kinematic tree. A pose of the wrist is the pose of the arm's tip link in the frame of the arm's
 //! base link; nothing here knows of tools, collisions or other arms.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::arm_chain::ArmChainError;
 use super::closed_form::ClosedForm;
-use super::{ArmPositions, JointId, KinematicTree, Limits, LinkId, Unreachable};
+use super::{
+    ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId, NumericKinematics,
+    Unreachable,
+};
 use spatial::{Pose, trig};
 
 /// Inverse kinematics of one arm.
@@ -22,14 +24,21 @@ pub struct ArmKinematics {
 #[derive(Clone, Debug, PartialEq)]
 enum Solver {
     ClosedForm(ClosedForm),
+    Numeric(NumericKinematics),
 }
 
 impl ArmKinematics {
     /// The arm from link `base` (the torso) to link `tip` (the wrist).
-    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, ArmChainError> {
-        Ok(Self {
-            solver: Solver::ClosedForm(ClosedForm::new(tree, base, tip)?),
-        })
+    ///
+    /// # Errors
+    ///
+    /// If there is no chain of one to eight joints between the two.
+    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, JointChainError> {
+        let solver = match ClosedForm::new(tree, base, tip) {
+            Ok(solver) => Solver::ClosedForm(solver),
+            Err(_) => Solver::Numeric(NumericKinematics::new(tree, base, tip)?),
+        };
+        Ok(Self { solver })
     }
 
     /// Whether they are calculated: then all solutions are found, and a pose without any is proved
@@ -42,6 +51,7 @@ impl ArmKinematics {
     pub fn joints(&self) -> &[JointId] {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.joints(),
+            Solver::Numeric(solver) => solver.joints(),
         }
     }
 
@@ -49,6 +59,7 @@ impl ArmKinematics {
     pub fn limits(&self) -> &[Option<Limits>] {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.limits(),
+            Solver::Numeric(solver) => solver.limits(),
         }
     }
 
@@ -57,6 +68,7 @@ impl ArmKinematics {
     pub fn solutions(&self, wrist: &Pose, step: f64) -> Vec<ArmPositions> {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.solutions(wrist, step),
+            Solver::Numeric(solver) => solver.solutions(wrist, step),
         }
     }
 
@@ -64,6 +76,7 @@ impl ArmKinematics {
     pub fn reaches(&self, wrist: &Pose) -> bool {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.reaches(wrist),
+            Solver::Numeric(solver) => solver.reaches(wrist),
         }
     }
 
@@ -72,6 +85,7 @@ impl ArmKinematics {
     pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.nearest(wrist, seed),
+            Solver::Numeric(solver) => solver.nearest(wrist, seed).map_err(Unreachable::Searched),
         }
     }
 
@@ -79,6 +93,7 @@ impl ArmKinematics {
     pub(crate) fn hand_rotation(&self, positions: &ArmPositions) -> Matrix3<f64> {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.hand_rotation(positions),
+            Solver::Numeric(solver) => rotation_of(&solver.forward(positions)),
         }
     }
 
@@ -91,8 +106,18 @@ impl ArmKinematics {
     ) -> Option<ArmPositions> {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.with_hand_turned(positions, hand),
+            Solver::Numeric(solver) => {
+                let mut wrist = solver.forward(positions);
+                let hand = Rotation3::from_matrix_unchecked(*hand);
+                wrist.rotation = UnitQuaternion::from_rotation_matrix(&hand);
+                solver.nearest(&wrist, positions).ok()
+            }
         }
     }
+}
+
+fn rotation_of(pose: &Pose) -> Matrix3<f64> {
+    pose.rotation.to_rotation_matrix().into_inner()
 }
 
 /// The positions with the joints that have no limits turned to within half a turn of the seed.

@@ -193,6 +193,7 @@ proptest! {
                 let place = wrist.translation.vector - nalgebra::Vector3::new(0.0, side, 0.0);
                 prop_assert!(place.norm() + missing > 0.0 && missing < place.norm() + 0.821);
             }
+            Err(Unreachable::Searched(miss)) => prop_assert!(false, "{miss}"),
             Ok(_) => {}
         }
     }

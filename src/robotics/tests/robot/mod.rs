@@ -1,10 +1,12 @@
 //! The description of the robot and its kinematics.
 
+mod chains;
 mod description;
 mod forward_kinematics;
 mod garbled_files;
 mod inverse_kinematics;
 mod kitchen;
 mod lenient_urdf;
+mod numeric_kinematics;
 mod reach;
 mod urdf;

@@ -1,0 +1,565 @@
+//! Inverse kinematics of any chain of up to eight joints: damped least squares from many starts.
+//!
+//! For arms without a closed form. What is found is a solution; what is not found may still exist, unless
+//! the goal is farther away than the chain is long. Everything is determined by goal and seed: the starts
+//! are drawn once, when the chain is read.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+use serde::Serialize;
+
+use super::arm_positions::{ArmPositions, MOST_ARM_JOINTS};
+use super::chain_length::ChainLength;
+use super::joint_chain::{ChainPositions, Columns, JointChain, JointChainError};
+use super::{JointId, KinematicTree, Limits, LinkId};
+use spatial::{Pose, trig};
+
+/// Greatest distance (m) and angle (rad) of a solution from the goal.
+const DISTANCE: f64 = 1e-6;
+const ANGLE: f64 = 1e-5;
+/// Starts of a search, the seed among them.
+const TRIES: usize = 100;
+/// Starts after which a goal is taken as out of reach where only that is asked.
+const QUICK_TRIES: usize = 40;
+/// Random postures of which those are starts whose tips are nearest to the goal.
+const POSTURES: usize = 400;
+/// A squared error that no step makes smaller.
+const EXACT: f64 = 1e-20;
+/// Steps from a start.
+const STEPS: usize = 60;
+/// Steps without progress after which a start is given up; progress is 2 % of the squared error.
+const SLOW_STEPS: usize = 6;
+const PROGRESS: f64 = 0.98;
+/// Greatest move (rad or m) of a joint in a step.
+const STRIDE: f64 = 0.8;
+/// Damping: at the goal, for each unit of squared error, and the squared error that counts at most.
+const DAMPING: [f64; 3] = [1e-8, 0.05, 0.2];
+/// A position that is this near to a limit is at the limit.
+const AT_LIMIT: f64 = 1e-12;
+/// A solution whose joints are all this near (rad or m) to the seed needs no comparison.
+const NEAR: f64 = 1.0;
+/// Solutions that are compared, unless the first one is near, and starts that are tried for that.
+const COMPARED: usize = 2;
+/// Steps along the solutions towards the seed.
+const PULLS: usize = 4;
+/// Least difference (rad or m) of a joint between two solutions that count as two.
+const APART: f64 = 0.1;
+/// Solutions of a goal that are listed at most.
+const MOST_SOLUTIONS: usize = 60;
+
+/// Why no posture is known that brings the tip of a chain to a goal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum Miss {
+    /// Proved: the goal is farther away than the chain is long.
+    TooFar {
+        /// How much farther (m).
+        beyond: f64,
+    },
+    /// Not proved: none was found.
+    NotFound {
+        /// Number of starts.
+        tries: usize,
+        /// Distance (m) of the nearest tip from the goal.
+        distance: f64,
+        /// Angle (rad) between the nearest tip and the goal.
+        angle: f64,
+    },
+    /// The goal has a number that is not finite.
+    NotFinite,
+}
+
+impl Miss {
+    /// A measure of how bad it is: what is too far is worse than what was not found.
+    pub fn badness(&self) -> f64 {
+        match self {
+            Self::NotFinite => f64::INFINITY,
+            Self::TooFar { beyond } => 10.0 + beyond,
+            Self::NotFound {
+                distance, angle, ..
+            } => distance + angle,
+        }
+    }
+}
+
+impl fmt::Display for Miss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFar { beyond } => {
+                write!(f, "too far: ")?;
+                write_length(f, *beyond)?;
+                write!(f, " beyond the arm's length")
+            }
+            Self::NotFound {
+                tries,
+                distance,
+                angle,
+            } => {
+                write!(f, "no posture found in {tries} tries (nearest: ")?;
+                write_length(f, *distance)?;
+                let angle = angle.to_degrees();
+                let digits = usize::from(angle < 0.95);
+                write!(f, ", {angle:.digits$}°)")
+            }
+            Self::NotFinite => f.write_str("the goal has a number that is not finite"),
+        }
+    }
+}
+
+impl std::error::Error for Miss {}
+
+/// A length (m) in the unit that suits it.
+fn write_length(f: &mut fmt::Formatter<'_>, length: f64) -> fmt::Result {
+    let millimetres = length * 1000.0;
+    match millimetres {
+        100.0.. => write!(f, "{length:.2} m"),
+        0.95.. => write!(f, "{millimetres:.0} mm"),
+        _ => write!(f, "{millimetres:.1} mm"),
+    }
+}
+
+/// Where a start has led.
+#[derive(Clone, Copy)]
+struct Descent {
+    positions: ChainPositions,
+    /// Distance (m) and angle (rad) from the goal.
+    distance: f64,
+    angle: f64,
+    /// Sum of their squares.
+    error: f64,
+}
+
+impl Descent {
+    fn is_solution(&self) -> bool {
+        self.distance < DISTANCE && self.angle < ANGLE
+    }
+}
+
+/// Inverse kinematics of one chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumericKinematics {
+    chain: JointChain,
+    length: ChainLength,
+    /// Least and greatest position of each joint; infinite for continuous ones.
+    bounds: [[f64; 2]; MOST_ARM_JOINTS],
+    /// The middle of the limits, or 0.
+    middle: ChainPositions,
+    /// Random postures, with the tip of each.
+    postures: Vec<(ChainPositions, Pose)>,
+}
+
+impl NumericKinematics {
+    /// The chain from link `base` to link `tip`.
+    ///
+    /// # Errors
+    ///
+    /// If `tip` does not hang on `base`, if there are no moving joints or more than
+    /// [`MOST_ARM_JOINTS`] between the two, or if one of them follows a joint elsewhere.
+    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, JointChainError> {
+        let chain = JointChain::read(tree, base, tip)?;
+        let mut bounds = [[0.0; 2]; MOST_ARM_JOINTS];
+        for (bound, limits) in bounds.iter_mut().zip(&chain.limits) {
+            *bound = match limits {
+                Some(limits) => [limits.lower, limits.upper],
+                None => [f64::NEG_INFINITY, f64::INFINITY],
+            };
+        }
+        let mut shares = Shares::new();
+        let drawn = |bound: [f64; 2], share: f64| match bound.map(f64::is_finite) {
+            [true, true] => bound[0] + share * (bound[1] - bound[0]),
+            _ => PI * (2.0 * share - 1.0),
+        };
+        let postures = (0..POSTURES).map(|_| {
+            let posture = bounds.map(|bound| drawn(bound, shares.next()));
+            (posture, chain.forward(&posture))
+        });
+        Ok(Self {
+            middle: bounds.map(|bound| drawn(bound, 0.5)),
+            postures: postures.collect(),
+            length: ChainLength::of(&chain),
+            bounds,
+            chain,
+        })
+    }
+
+    /// The joints from the base to the tip that move on their own.
+    pub fn joints(&self) -> &[JointId] {
+        &self.chain.joints
+    }
+
+    /// The limits (rad or m) that solutions respect; `None` for continuous joints.
+    pub fn limits(&self) -> &[Option<Limits>] {
+        &self.chain.limits
+    }
+
+    /// Pose of the tip in the frame of the base. Joints without a position are at 0.
+    pub fn forward(&self, positions: &[f64]) -> Pose {
+        self.chain.forward(positions)
+    }
+
+    /// A solution near `seed`: joints that turn without limits are within half a turn of the seed.
+    ///
+    /// The search starts at the seed, then elsewhere; of several solutions the nearer one counts, moved
+    /// towards the seed as far as the hand lets it.
+    ///
+    /// # Errors
+    ///
+    /// If no solution is found.
+    pub fn nearest(&self, goal: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Miss> {
+        self.check(goal)?;
+        let seed = self.start_at(seed);
+        let mut best: Option<(f64, ChainPositions)> = None;
+        let mut closest: Option<Descent> = None;
+        let mut compared = 0;
+        for start in self.starts(goal, seed).take(TRIES) {
+            let found = self.descend(goal, &start);
+            if found.is_solution() {
+                let positions = self.turned_to(&found.positions, &seed);
+                let away = self.greatest_move(&positions, &seed);
+                if best.is_none_or(|(least, _)| away < least) {
+                    best = Some((away, positions));
+                }
+                if away < NEAR {
+                    break;
+                }
+            } else if closest.is_none_or(|closest| found.error < closest.error) {
+                closest = Some(found);
+            }
+            compared += usize::from(best.is_some());
+            if compared == COMPARED {
+                break;
+            }
+        }
+        match (best, closest) {
+            (Some((away, found)), _) => Ok(self.cut(&self.towards(goal, &found, away, &seed))),
+            (None, closest) => Err(Miss::NotFound {
+                tries: TRIES,
+                distance: closest.map_or(f64::INFINITY, |c| c.distance),
+                angle: closest.map_or(PI, |c| c.angle),
+            }),
+        }
+    }
+
+    /// Different solutions, with continuous joints within -π..π: any two differ by `step` (rad or m), or
+    /// at least 0.1, in some joint. Bounded in number; some may be missing.
+    pub fn solutions(&self, goal: &Pose, step: f64) -> Vec<ArmPositions> {
+        let apart = step.max(APART);
+        let mut found: Vec<ChainPositions> = Vec::new();
+        if self.check(goal).is_err() {
+            return Vec::new();
+        }
+        for (tries, start) in self.starts(goal, self.middle).take(TRIES).enumerate() {
+            if tries == QUICK_TRIES && found.is_empty() || found.len() == MOST_SOLUTIONS {
+                break;
+            }
+            let end = self.descend(goal, &start);
+            let turned = self.turned_to(&end.positions, &[0.0; MOST_ARM_JOINTS]);
+            let is_known = |known: &ChainPositions| self.greatest_move(known, &turned) < apart;
+            if end.is_solution() && !found.iter().any(is_known) {
+                found.push(turned);
+            }
+        }
+        found.iter().map(|positions| self.cut(positions)).collect()
+    }
+
+    /// Whether a solution is found, without much trying; no solution is proof only of
+    /// [`Miss::TooFar`].
+    pub fn reaches(&self, goal: &Pose) -> bool {
+        let mut starts = self.starts(goal, self.middle).take(QUICK_TRIES);
+        self.check(goal).is_ok() && starts.any(|start| self.descend(goal, &start).is_solution())
+    }
+
+    /// What can be said of a goal without a search.
+    fn check(&self, goal: &Pose) -> Result<(), Miss> {
+        let numbers = goal.translation.vector.iter();
+        if !numbers.chain(&goal.rotation.coords).all(|n| n.is_finite()) {
+            return Err(Miss::NotFinite);
+        }
+        match self.length.excess(goal) {
+            beyond if beyond > DISTANCE => Err(Miss::TooFar { beyond }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The first start: the seed within the limits; the middle where it says nothing.
+    fn start_at(&self, seed: &[f64]) -> ChainPositions {
+        let mut start = self.middle;
+        for ((position, seed), [lower, upper]) in start.iter_mut().zip(seed).zip(&self.bounds) {
+            if seed.is_finite() {
+                *position = seed.max(*lower).min(*upper);
+            }
+        }
+        start
+    }
+
+    /// Where searches start: there, then at random postures, those first whose tips are nearest to the
+    /// goal.
+    fn starts(&self, goal: &Pose, first: ChainPositions) -> impl Iterator<Item = ChainPositions> {
+        let goal = *goal;
+        // Sorted only if the first start does not lead to the goal.
+        let sorted = std::iter::once_with(move || {
+            let away = |tip: &Pose| {
+                let way = goal.translation.vector - tip.translation.vector;
+                let half_turn = goal.rotation.coords.dot(&tip.rotation.coords);
+                way.norm_squared() + 4.0 * (1.0 - half_turn * half_turn)
+            };
+            let postures = self.postures.iter();
+            let mut sorted: Vec<_> = postures.map(|(at, tip)| (away(tip), at)).collect();
+            let _ = sorted.select_nth_unstable_by(TRIES, |a, b| a.0.total_cmp(&b.0));
+            sorted.truncate(TRIES);
+            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sorted
+        });
+        let random = sorted.flatten().map(|(_, start)| *start);
+        std::iter::once(first).chain(random)
+    }
+
+    /// The positions of the joints that there are.
+    fn cut(&self, positions: &ChainPositions) -> ArmPositions {
+        let count = self.chain.joints.len();
+        positions.iter().copied().take(count).collect()
+    }
+
+    /// Goes from the start to where the tip is nearest to the goal.
+    fn descend(&self, goal: &Pose, start: &ChainPositions) -> Descent {
+        let mut at = *start;
+        let mut best = Descent {
+            positions: at,
+            distance: f64::INFINITY,
+            angle: f64::INFINITY,
+            error: f64::INFINITY,
+        };
+        let mut slow = 0;
+        for _ in 0..STEPS {
+            let was_solution = best.is_solution();
+            let (tip, columns) = self.chain.forward_and_columns(&at);
+            let (twist, distance, angle) = difference(goal, &tip);
+            let error = distance * distance + angle * angle;
+            slow = if error > PROGRESS * best.error {
+                slow + 1
+            } else {
+                0
+            };
+            if error < best.error {
+                best = Descent {
+                    positions: at,
+                    distance,
+                    angle,
+                    error,
+                };
+            }
+            // One step more than needed makes a solution much better.
+            if was_solution || error < EXACT || slow > SLOW_STEPS {
+                break;
+            }
+            let Some(step) = self.step(&columns, &twist, error, &at) else {
+                break;
+            };
+            self.advance(&mut at, &step);
+        }
+        best
+    }
+
+    /// Moves the joints by the step, or a part of it if it is great, within the limits.
+    fn advance(&self, at: &mut ChainPositions, step: &ChainPositions) {
+        let greatest = step.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
+        let scale = if greatest > STRIDE {
+            STRIDE / greatest
+        } else {
+            1.0
+        };
+        for ((position, d), [lower, upper]) in at.iter_mut().zip(step).zip(&self.bounds) {
+            *position = (*position + scale * d).max(*lower).min(*upper);
+        }
+    }
+
+    /// The step of the joints that brings the tip nearer. Joints that it would push beyond a limit at
+    /// which they are take no part.
+    fn step(
+        &self,
+        columns: &Columns,
+        twist: &[f64; 6],
+        error: f64,
+        at: &ChainPositions,
+    ) -> Option<ChainPositions> {
+        let damping = DAMPING[0] + DAMPING[1] * error.min(DAMPING[2]);
+        let count = self.chain.joints.len();
+        let mut takes_part = [false; MOST_ARM_JOINTS];
+        for (takes_part, [lower, upper]) in takes_part.iter_mut().zip(&self.bounds).take(count) {
+            *takes_part = lower < upper;
+        }
+        loop {
+            let weights = solved(columns, &takes_part, damping, twist)?;
+            let mut step = [0.0; MOST_ARM_JOINTS];
+            let mut is_blocked = false;
+            for i in 0..MOST_ARM_JOINTS {
+                if !takes_part[i] {
+                    continue;
+                }
+                step[i] = dot(&columns[i], &weights);
+                let [lower, upper] = self.bounds[i];
+                let pushes_down = step[i] < 0.0 && at[i] <= lower + AT_LIMIT;
+                let pushes_up = step[i] > 0.0 && at[i] >= upper - AT_LIMIT;
+                if pushes_down || pushes_up {
+                    takes_part[i] = false;
+                    is_blocked = true;
+                }
+            }
+            if !is_blocked {
+                return Some(step);
+            }
+        }
+    }
+
+    /// The solution, whose greatest move from the seed is `away`, or one near it that is nearer to the
+    /// seed.
+    fn towards(
+        &self,
+        goal: &Pose,
+        solution: &ChainPositions,
+        away: f64,
+        seed: &ChainPositions,
+    ) -> ChainPositions {
+        if self.chain.joints.len() <= 6 || away < 1e-3 {
+            return *solution;
+        }
+        let mut at = *solution;
+        for _ in 0..PULLS {
+            let (tip, columns) = self.chain.forward_and_columns(&at);
+            let (mut twist, ..) = difference(goal, &tip);
+            let mut pull = [0.0; MOST_ARM_JOINTS];
+            for i in 0..MOST_ARM_JOINTS {
+                pull[i] = (0.5 * (seed[i] - at[i])).clamp(-0.5, 0.5);
+                for (t, c) in twist.iter_mut().zip(&columns[i]) {
+                    *t -= c * pull[i];
+                }
+            }
+            let Some(step) = self.step(&columns, &twist, 0.0, &at) else {
+                break;
+            };
+            for (pull, step) in pull.iter_mut().zip(step) {
+                *pull += step;
+            }
+            self.advance(&mut at, &pull);
+        }
+        let pulled = self.descend(goal, &at);
+        let nearer = self.turned_to(&pulled.positions, seed);
+        match pulled.is_solution() && self.greatest_move(&nearer, seed) < away {
+            true => nearer,
+            false => *solution,
+        }
+    }
+
+    /// The same posture, with joints that can do so turned by full turns towards the seed.
+    fn turned_to(&self, positions: &ChainPositions, seed: &ChainPositions) -> ChainPositions {
+        let mut turned = *positions;
+        for (i, is_turn) in self.chain.is_turn.iter().enumerate() {
+            let (Some(position), Some(seed), Some([lower, upper])) =
+                (turned.get_mut(i), seed.get(i), self.bounds.get(i))
+            else {
+                continue;
+            };
+            let wanted = seed + trig::wrap(*position - seed);
+            if *is_turn && (*lower..=*upper).contains(&wanted) {
+                *position = wanted;
+            }
+        }
+        turned
+    }
+
+    /// Greatest difference (rad or m) of a joint between the postures.
+    fn greatest_move(&self, one: &ChainPositions, other: &ChainPositions) -> f64 {
+        let moves = one.iter().zip(other).map(|(a, b)| (a - b).abs());
+        moves.take(self.chain.joints.len()).fold(0.0, f64::max)
+    }
+}
+
+/// The way (m) and the turn (rad) from the tip to the goal, and the sizes of both.
+fn difference(goal: &Pose, tip: &Pose) -> ([f64; 6], f64, f64) {
+    let way = goal.translation.vector - tip.translation.vector;
+    let turn = goal.rotation * tip.rotation.inverse();
+    let imaginary = turn.imag();
+    let sine = imaginary.norm();
+    let half = trig::atan2(sine, turn.w.abs());
+    let share = if sine > 1e-12 { 2.0 * half / sine } else { 2.0 };
+    let turn = imaginary * (share * turn.w.signum());
+    let twist = [way.x, way.y, way.z, turn.x, turn.y, turn.z];
+    (twist, way.norm(), 2.0 * half)
+}
+
+fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let mut sum = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        sum += a * b;
+    }
+    sum
+}
+
+/// Solves (J Jᵀ + damping) x = twist for x, J having the columns that take part: by Cholesky.
+fn solved(
+    columns: &Columns,
+    takes_part: &[bool; MOST_ARM_JOINTS],
+    damping: f64,
+    twist: &[f64; 6],
+) -> Option<[f64; 6]> {
+    let mut matrix = [[0.0; 6]; 6];
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[i] = damping;
+    }
+    for (column, _) in columns.iter().zip(takes_part).filter(|(_, takes)| **takes) {
+        for i in 0..6 {
+            for j in 0..=i {
+                matrix[i][j] += column[i] * column[j];
+            }
+        }
+    }
+    // The lower triangle becomes the factor.
+    for j in 0..6 {
+        for k in 0..j {
+            matrix[j][j] -= matrix[j][k] * matrix[j][k];
+        }
+        if matrix[j][j].is_nan() || matrix[j][j] <= 0.0 {
+            return None;
+        }
+        matrix[j][j] = matrix[j][j].sqrt();
+        for i in j + 1..6 {
+            for k in 0..j {
+                matrix[i][j] -= matrix[i][k] * matrix[j][k];
+            }
+            matrix[i][j] /= matrix[j][j];
+        }
+    }
+    let mut x = *twist;
+    for i in 0..6 {
+        for k in 0..i {
+            x[i] -= matrix[i][k] * x[k];
+        }
+        x[i] /= matrix[i][i];
+    }
+    for i in (0..6).rev() {
+        for k in i + 1..6 {
+            x[i] -= matrix[k][i] * x[k];
+        }
+        x[i] /= matrix[i][i];
+    }
+    Some(x)
+}
+
+/// Pseudo-random shares (0..1), always the same.
+struct Shares(u64);
+
+impl Shares {
+    fn new() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+
+    /// A number by SplitMix64.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
