@@ -24,6 +24,21 @@ const PACKAGE: &str = "CRAM-ROBOT-INTERFACES";
 /// Gives the variables their values. They are set, not defined by plans, since they depend on the
 /// robot and the kitchen of a session.
 pub(super) fn install(image: &mut Image, models: &Models) {
+    describe_robot(image, models);
+    name_things(image, models);
+    describe_kitchen(image, models);
+}
+
+/// The robot that the variables describe.
+struct DescribedRobot(Arc<KinematicTree>);
+
+impl Extension for DescribedRobot {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        self
+    }
+}
+
+fn describe_robot(image: &mut Image, models: &Models) {
     let frames = frames(models);
     for (name, frame) in frames {
         let sym = symbol(image, "CRAM-TF", name);
@@ -32,8 +47,10 @@ pub(super) fn install(image: &mut Image, models: &Models) {
     let robot = robot(image, models);
     let sym = symbol(image, PACKAGE, "*ROBOT*");
     image.define_special(sym, robot);
-    name_things(image, models);
-    describe_kitchen(image, models);
+    let vocabulary = Vocabulary::of(image);
+    vocabulary.forget(Domain::Arm);
+    vocabulary.add(Domain::Arm, models.description.sides().map(Side::name));
+    image.extend(DescribedRobot(Arc::clone(&models.robot)));
 }
 
 /// The kitchen that the variables describe.
@@ -52,10 +69,15 @@ fn describe_kitchen(image: &mut Image, models: &Models) {
     image.extend(DescribedKitchen(Arc::clone(&models.kitchen)));
 }
 
-/// Lets the variables describe the present kitchen, if they describe another one.
+/// Lets the variables describe the present robot and kitchen, if they describe others.
 pub(crate) fn follow(image: &mut Image, models: &Models) {
+    let robot = image.extension::<DescribedRobot>();
+    let is_other = robot.is_none_or(|described| !Arc::ptr_eq(&described.0, &models.robot));
+    if is_other {
+        describe_robot(image, models);
+    }
     let described = image.extension::<DescribedKitchen>();
-    if described.is_some_and(|described| Arc::ptr_eq(&described.0, &models.kitchen)) {
+    if !is_other && described.is_some_and(|described| Arc::ptr_eq(&described.0, &models.kitchen)) {
         return;
     }
     let vocabulary = Vocabulary::of(image);
@@ -69,7 +91,6 @@ pub(crate) fn follow(image: &mut Image, models: &Models) {
 /// Makes known what names there are, so that programs can be checked before they run.
 fn name_things(image: &mut Image, models: &Models) {
     let vocabulary = Vocabulary::of(image);
-    vocabulary.add(Domain::Arm, models.description.sides().map(Side::name));
     vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
     vocabulary.add(Domain::ObjectType, models.objects.names());
     vocabulary.add(

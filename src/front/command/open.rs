@@ -20,7 +20,7 @@ use lisp::visible::visible;
 use robotics::robot::urdf_text;
 use robotics::world::Models;
 use session::dialogue::Evaluate;
-use session::{self, Session, SessionOptions, is_generated};
+use session::{self, Session, SessionOptions, is_generated, is_shipped_robot};
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
@@ -41,9 +41,14 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         Ok((path.display().to_string(), text))
     };
     let generated = options.world.as_deref().filter(|world| is_generated(world));
+    let shipped = options.robot.as_deref();
+    let shipped = shipped.filter(|robot| is_shipped_robot(robot));
     let mut session_options = SessionOptions {
         seed: options.seed,
-        robot: options.robot.as_deref().map(read_urdf).transpose()?,
+        robot: match shipped {
+            Some(_) => None,
+            None => options.robot.as_deref().map(read_urdf).transpose()?,
+        },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: match generated {
             Some(_) => None,
@@ -71,6 +76,10 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         heap: heap::limit(options.heap),
         ..SessionOptions::default()
     };
+    if let Some(name) = shipped {
+        let set = session_options.set_shipped_robot(&name.to_string_lossy());
+        set.map_err(|error| CommandError::Open(error.to_string()))?;
+    }
     if let Some(name) = generated {
         let set = session_options.set_generated_world(&name.to_string_lossy());
         set.map_err(|error| CommandError::Open(error.to_string()))?;

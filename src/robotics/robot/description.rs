@@ -138,6 +138,11 @@ impl Arm {
         posture.map(|(_, positions)| positions)
     }
 
+    /// The names of its postures, in the order of the file.
+    pub fn posture_names(&self) -> impl Iterator<Item = &str> {
+        self.postures.iter().map(|(name, _)| name.as_str())
+    }
+
     /// The link that the first of its joints moves.
     pub fn shoulder(&self, tree: &KinematicTree) -> LinkId {
         // An arm has at least one joint.
