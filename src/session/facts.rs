@@ -143,7 +143,8 @@ fn frames(models: &Models) -> [(&'static str, Option<String>); 5] {
 /// What else is known of the robot, as a property list.
 fn robot(image: &mut Image, models: &Models) -> Value {
     let description = &models.description;
-    let joint = &models.robot.joint(description.torso.joint).name;
+    let lift = description.torso.joint;
+    let lift = lift.map(|joint| Value::string(models.robot.joint(joint).name.as_str()));
     let camera = &models.robot.link(description.camera().frame).name;
     let sides: Vec<Side> = description.sides().collect();
     let mut of_arms = |of_arm: &dyn Fn(&mut Image, Side) -> Value| {
@@ -178,7 +179,7 @@ fn robot(image: &mut Image, models: &Models) -> Value {
     });
     let entries = [
         ("name", keyword(image, &description.name)),
-        ("torso-joint", Value::string(joint.as_str())),
+        ("torso-joint", lift.unwrap_or(Value::NIL)),
         ("camera-frame", Value::string(camera.as_str())),
         ("wrists", wrists),
         ("arm-links", links),

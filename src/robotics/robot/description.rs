@@ -56,30 +56,55 @@ pub struct Base {
     pub odometry: Option<String>,
 }
 
-/// The torso lift.
+/// The torso, which a lift may raise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torso {
-    /// The link that the joint raises.
+    /// The link that the joint raises; the body of a robot without a lift.
     pub link: LinkId,
-    /// The joint.
-    pub joint: JointId,
-    /// Range of heights (m), the hard limits of the URDF.
+    /// The joint of the lift, if there is one.
+    pub joint: Option<JointId>,
+    /// Range of heights (m), the hard limits of the URDF; from 0 to 0 without a lift.
     pub limits: Limits,
     /// Height after start-up (m).
     pub start: f64,
 }
 
-/// The neck, which turns the head sideways (pan), then up and down (tilt).
+impl Torso {
+    /// Its height (m).
+    pub fn height(&self, q: &JointPositions) -> f64 {
+        self.joint.map_or(0.0, |joint| q.get(joint))
+    }
+
+    /// Sets its height (m), if it has a lift.
+    pub fn set_height(&self, q: &mut JointPositions, height: f64) {
+        if let Some(joint) = self.joint {
+            q.set(joint, height);
+        }
+    }
+}
+
+/// The neck, which turns the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Neck {
-    /// Turns the head sideways, positive to the left.
-    pub pan_joint: JointId,
-    /// What the pan joint turns.
-    pub(crate) pan_link: LinkId,
-    /// Turns the head up and down, positive downwards.
-    pub tilt_joint: JointId,
-    /// What the tilt joint turns.
-    pub(crate) tilt_link: LinkId,
+    /// Its joints, from the body on; none if the camera does not move.
+    pub joints: Vec<JointId>,
+    /// What it aims.
+    pub(crate) aim: Aim,
+}
+
+/// What a neck aims at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// The head, which turns sideways (pan, about z, positive to the left), then up and down (tilt, about y,
+    /// positive downwards).
+    PanTilt {
+        /// What the pan joint turns.
+        pan: LinkId,
+        /// What the tilt joint turns.
+        tilt: LinkId,
+    },
+    /// The z axis of a camera's optical frame.
+    Camera(LinkId),
 }
 
 /// A camera of pinhole type.
@@ -364,7 +389,7 @@ impl RobotDescription {
     /// Positions of all joints after start-up.
     pub fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
         let mut q = tree.zero_positions();
-        q.set(self.torso.joint, self.torso.start);
+        self.torso.set_height(&mut q, self.torso.start);
         for arm in &self.arms {
             arm.set_positions(&mut q, &arm.start);
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::description::{Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso};
+use super::description::{Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso};
 use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
@@ -30,7 +30,7 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("torso", &["link", "joint", "start"]),
     (
         "neck",
-        &["pan-joint", "pan-link", "tilt-joint", "tilt-link"],
+        &["pan-joint", "pan-link", "tilt-joint", "tilt-link", "joints"],
     ),
     (
         "camera",
@@ -122,14 +122,14 @@ impl<'a> Reader<'a> {
             .all("camera")
             .map(|record| self.camera(record))
             .collect::<Result<_, _>>()?;
-        if cameras.is_empty() {
+        let Some(camera) = cameras.first() else {
             return Err(self.missing("camera"));
-        }
+        };
         let base = self.base()?;
         Ok(RobotDescription {
             name: robot.thing("name")?.symbol()?.to_owned(),
-            torso: self.torso()?,
-            neck: self.neck()?,
+            torso: self.torso(&base)?,
+            neck: self.neck(camera)?,
             cameras,
             arms: self.arms(&base)?,
             base,
@@ -151,8 +151,13 @@ impl<'a> Reader<'a> {
     }
 
     fn single(&self, head: &'static str) -> Result<&Record<'a>, DataError> {
+        self.optional(head)?.ok_or_else(|| self.missing(head))
+    }
+
+    /// The record with that head, if there is one.
+    fn optional(&self, head: &'static str) -> Result<Option<&Record<'a>>, DataError> {
         let mut all = self.all(head);
-        let first = all.next().ok_or_else(|| self.missing(head))?;
+        let first = all.next();
         match all.next() {
             None => Ok(first),
             Some(second) => Err(second
@@ -205,6 +210,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A joint that moves on its own.
+    fn moving_joint(&self, node: Node<'_>) -> Result<JointId, DataError> {
+        let id = self.joint(node)?;
+        match self.tree.joint(id).is_actuated() {
+            true => Ok(id),
+            false => Err(node.expected("a joint that moves and follows no other one")),
+        }
+    }
+
     fn groups(&self, head: &'static str) -> Result<Vec<Vec<LinkId>>, DataError> {
         self.all(head).map(|r| self.links(r.things())).collect()
     }
@@ -235,8 +249,18 @@ impl<'a> Reader<'a> {
         Ok(base)
     }
 
-    fn torso(&self) -> Result<Torso, DataError> {
-        let record = self.single("torso")?;
+    fn torso(&self, base: &Base) -> Result<Torso, DataError> {
+        let Some(record) = self.optional("torso")? else {
+            return Ok(Torso {
+                link: base.body,
+                joint: None,
+                limits: Limits {
+                    lower: 0.0,
+                    upper: 0.0,
+                },
+                start: 0.0,
+            });
+        };
         let (joint, limits) = self.limited_joint(record.required("joint")?)?;
         let start = record.required("start")?;
         let height = start.number()?;
@@ -246,19 +270,37 @@ impl<'a> Reader<'a> {
         }
         Ok(Torso {
             link: self.link(record.required("link")?)?,
-            joint,
+            joint: Some(joint),
             limits,
             start: height,
         })
     }
 
-    fn neck(&self) -> Result<Neck, DataError> {
-        let record = self.single("neck")?;
+    fn neck(&self, camera: &Camera) -> Result<Neck, DataError> {
+        let aim = Aim::Camera(camera.frame);
+        let Some(record) = self.optional("neck")? else {
+            let joints = Vec::new();
+            return Ok(Neck { joints, aim });
+        };
+        if let Some(joints) = record.optional("joints") {
+            let joints = joints.list()?;
+            let joints = joints.iter().map(|node| self.moving_joint(*node));
+            return Ok(Neck {
+                joints: joints.collect::<Result<_, _>>()?,
+                aim,
+            });
+        }
+        let joints = [record.required("pan-joint")?, record.required("tilt-joint")?];
+        let [pan_joint, tilt_joint] = joints;
         Ok(Neck {
-            pan_joint: self.limited_joint(record.required("pan-joint")?)?.0,
-            pan_link: self.link(record.required("pan-link")?)?,
-            tilt_joint: self.limited_joint(record.required("tilt-joint")?)?.0,
-            tilt_link: self.link(record.required("tilt-link")?)?,
+            joints: vec![
+                self.limited_joint(pan_joint)?.0,
+                self.limited_joint(tilt_joint)?.0,
+            ],
+            aim: Aim::PanTilt {
+                pan: self.link(record.required("pan-link")?)?,
+                tilt: self.link(record.required("tilt-link")?)?,
+            },
         })
     }
 
@@ -409,7 +451,7 @@ impl<'a> Reader<'a> {
                 }
             }
             None => {
-                let measured = JawGap::measure(self.tree, palm, joint, limits, &fingers);
+                let measured = JawGap::measure(self.tree, palm, &[joint], fingers.each_ref().map(Vec::as_slice));
                 let wrong = |error: JawGapError| DataProblem::Invalid(error.to_string());
                 Jaws::Measured(measured.map_err(|error| record.node().error(wrong(error)))?)
             }
@@ -421,8 +463,12 @@ impl<'a> Reader<'a> {
             fingers,
             joint_per_metre: optional_positive(record, "joint-per-metre")?,
             effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
+            pad_size: match (record.optional("pad-size"), &jaws) {
+                (Some(size), _) => Some(pad_size(size)?),
+                (None, Jaws::Measured(gap)) => Some(gap.pad_size),
+                (None, Jaws::Turning { .. }) => None,
+            },
             jaws,
-            pad_size: record.optional("pad-size").map(pad_size).transpose()?,
         })
     }
 

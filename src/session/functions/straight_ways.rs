@@ -124,7 +124,7 @@ fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> Wo
     }
     if let Some((side, torso, positions)) = posture {
         let description = &world.models().description;
-        robot.joints.set(description.torso.joint, *torso);
+        (description.torso).set_height(&mut robot.joints, *torso);
         let arm = description.arm(*side);
         arm.set_positions(&mut robot.joints, positions);
     }

@@ -108,7 +108,7 @@ impl<'w> GraspReach<'w> {
             }
         });
         let torso = &description.torso;
-        let now = world.robot_configuration().joints.get(torso.joint);
+        let now = torso.height(&world.robot_configuration().joints);
         let mut heights = vec![now];
         if torso_moves {
             let count = ((torso.limits.upper - torso.limits.lower) / HEIGHT_STEP).ceil() as u32;
@@ -274,7 +274,9 @@ impl<'w> GraspReachFrom<'w> {
             }
             self.checks += 1;
             self.reach.postures.set(self.reach.postures() + 1);
-            let positions: Vec<f64> = std::iter::once(height).chain(posture).collect();
+            let lift = self.reach.world.models().description.torso.joint;
+            let lift = lift.map(|_| height);
+            let positions: Vec<f64> = lift.into_iter().chain(posture).collect();
             let checker = self.checker(open);
             let Some(hit) = checker.blocked(&positions) else {
                 if station.part != GraspPart::Grasp {
@@ -326,7 +328,7 @@ impl<'w> GraspReachFrom<'w> {
         } else {
             &hand.careful
         };
-        let joints: Vec<JointId> = std::iter::once(description.torso.joint)
+        let joints: Vec<JointId> = (description.torso.joint.into_iter())
             .chain(arm.joints().iter().copied())
             .collect();
         let mut robot = self.robot.clone();

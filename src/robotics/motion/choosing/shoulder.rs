@@ -43,7 +43,7 @@ impl Shoulder {
             };
             joint.origin.translation.vector.norm() + slides
         });
-        let now = joints.get(torso.joint);
+        let now = torso.height(joints);
         Self {
             at: at.vector.into(),
             range: match torso_moves {

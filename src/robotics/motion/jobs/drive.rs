@@ -329,7 +329,7 @@ fn posture_joints(world: &World) -> impl Iterator<Item = JointId> {
         .arms
         .iter()
         .flat_map(|arm| arm.joints().iter().copied());
-    std::iter::once(description.torso.joint).chain(arms)
+    description.torso.joint.into_iter().chain(arms)
 }
 
 impl Activity for BaseMotion {

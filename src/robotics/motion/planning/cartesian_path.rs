@@ -141,9 +141,8 @@ impl CartesianTask<'_> {
         if let Some(end) = self.torso {
             let from = start.first().copied()?;
             let height = from + (end - from) * share;
-            robot
-                .joints
-                .set(self.models.description.torso.joint, height);
+            let torso = &self.models.description.torso;
+            torso.set_height(&mut robot.joints, height);
             configuration.push(height);
         }
         for line in &self.lines {

@@ -1,6 +1,7 @@
 //! Paths without collisions: for the base over the floor, for the arms to a posture or a pose, and
 //! for a hand with what it puts down or opens.
 
+pub(crate) mod aim;
 pub(crate) mod base_checker;
 mod base_lattice;
 pub(crate) mod base_path;

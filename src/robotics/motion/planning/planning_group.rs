@@ -26,8 +26,8 @@ impl PlanningGroup {
             joints: Vec::new(),
             axes: Vec::new(),
         };
-        if torso {
-            all.add(tree, body.torso.joint, ALL_CHAINS, 1.0, 0.0);
+        if let Some(lift) = body.torso.joint.filter(|_| torso) {
+            all.add(tree, lift, ALL_CHAINS, 1.0, 0.0);
         }
         for &side in sides {
             let arm = body.arm(side);

@@ -10,7 +10,6 @@ use nalgebra::Translation3;
 use super::cartesian_path::{
     CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_arm_base,
 };
-use super::configuration::with_joints;
 use super::configuration_checker::ConfigurationChecker;
 use super::joint_path::{JointPathEffort, blocked_between};
 use super::joint_plan::JointPlan;
@@ -85,10 +84,8 @@ impl PoseGoalTask<'_> {
     }
 
     pub(super) fn torso_now(&self) -> f64 {
-        self.world
-            .robot_configuration()
-            .joints
-            .get(self.body().torso.joint)
+        let torso = &self.body().torso;
+        torso.height(&self.world.robot_configuration().joints)
     }
 
     fn torso_limits(&self) -> Limits {
@@ -114,11 +111,8 @@ impl PoseGoalTask<'_> {
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
-        let robot = with_joints(
-            self.world.robot_configuration(),
-            &[self.body().torso.joint],
-            &[height],
-        );
+        let mut robot = self.world.robot_configuration().clone();
+        self.body().torso.set_height(&mut robot.joints, height);
         wrist_in_arm_base(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 

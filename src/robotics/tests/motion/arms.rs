@@ -332,7 +332,7 @@ fn a_torso_goal_beyond_the_limits_is_cropped_and_then_reported() {
             failure.to_string(),
             format!("Torso goal {goal} was out of joint limits\nthe torso goes from 0 to 0.33 m")
         );
-        let joint = kitchen.world.models().description.torso.joint;
+        let joint = kitchen.world.models().description.torso.joint.unwrap();
         let height = kitchen.world.robot_configuration().joints.get(joint);
         assert!((height - reached).abs() < 1e-12);
     }
