@@ -6,6 +6,12 @@ pub const PR2_URDF: &str = include_str!("pr2.urdf");
 /// The roles of the PR2's links and joints.
 pub const PR2_DESCRIPTION: &str = include_str!("pr2.sexp");
 
+/// Fetch: links, joints and shapes.
+pub const FETCH_URDF: &str = include_str!("fetch.urdf");
+
+/// The roles of Fetch's links and joints.
+pub const FETCH_DESCRIPTION: &str = include_str!("fetch.sexp");
+
 /// The kitchen; its root is the map frame.
 pub const KITCHEN_URDF: &str = include_str!("kitchen.urdf");
 
