@@ -6,6 +6,12 @@ pub const PR2_URDF: &str = include_str!("pr2.urdf");
 /// The roles of the PR2's links and joints.
 pub const PR2_DESCRIPTION: &str = include_str!("pr2.sexp");
 
+/// Fetch: links, joints and shapes.
+pub const FETCH_URDF: &str = include_str!("fetch.urdf");
+
+/// The roles of Fetch's links and joints.
+pub const FETCH_DESCRIPTION: &str = include_str!("fetch.sexp");
+
 /// A robot that comes with planwright.
 #[derive(Clone, Copy, Debug)]
 pub struct Robot {
@@ -23,6 +29,11 @@ pub const ROBOTS: &[Robot] = &[
         name: "pr2",
         urdf: PR2_URDF,
         description: PR2_DESCRIPTION,
+    },
+    Robot {
+        name: "fetch",
+        urdf: FETCH_URDF,
+        description: FETCH_DESCRIPTION,
     },
 ];
 

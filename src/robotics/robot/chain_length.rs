@@ -47,13 +47,14 @@ impl ChainLength {
                 }
             }
         }
-        if let Some(segment) = segments.get(first) {
-            if is_turn_about(segment, &offset(first)) && first + 1 < count {
-                for place in &mut from {
-                    *place += turned * offset(first);
-                }
-                first += 1;
+        if let Some(segment) = segments.get(first)
+            && is_turn_about(segment, &offset(first))
+            && first + 1 < count
+        {
+            for place in &mut from {
+                *place += turned * offset(first);
             }
+            first += 1;
         }
         let mut to = Point3::origin();
         let mut end = count;

@@ -50,6 +50,7 @@ pub mod robot_configuration;
 mod robot_motion;
 pub mod scene;
 pub(crate) mod scene_shapes;
+pub mod self_touching;
 mod separation;
 mod settling;
 pub mod snapshot;

@@ -2,9 +2,11 @@
 
 mod chains;
 mod description;
+mod fetch;
 mod forward_kinematics;
 mod garbled_files;
 mod inverse_kinematics;
+mod jaw_gap;
 mod kitchen;
 mod lenient_urdf;
 mod numeric_kinematics;

@@ -10,4 +10,5 @@ mod link_shapes;
 mod motion;
 mod objects;
 mod robot_bodies;
+mod self_touching;
 mod sight;
