@@ -402,7 +402,9 @@ fn gripper_opening(
     let object = simulation.perceived(image, &args[0])?;
     let side = side(image, &args[1])?;
     let grasp = simulation.grasp(image, &object.kind, side, &args[2])?;
-    done(simulation.grasps.opening(&object.kind, &grasp))
+    let gripper = &simulation.models.description.arm(side).gripper;
+    let most = gripper.opening_at(gripper.limits.upper);
+    done(simulation.grasps.opening(&object.kind, &grasp).min(most))
 }
 
 fn hand_releasing_opening(
