@@ -13,6 +13,9 @@
 (neck :pan-joint head_pan_joint :pan-link head_pan_link
       :tilt-joint head_tilt_joint :tilt-link head_tilt_link)
 
+; Plans may call the frame on the floor as the PR2 does.
+(alias base_footprint base_link)
+
 ; 0.7853981633974483 rad is 45 degrees.
 (camera head
         :frame head_camera_rgb_optical_frame

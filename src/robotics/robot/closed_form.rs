@@ -8,9 +8,7 @@
 
 use nalgebra::Matrix3;
 
-use super::arm_chain::{
-    ArmChain, ArmChainError, ELBOW, FLEX, FOREARM, LIFT, PAN, ROLL, WRIST,
-};
+use super::arm_chain::{ArmChain, ArmChainError, ELBOW, FLEX, FOREARM, LIFT, PAN, ROLL, WRIST};
 use super::arm_kinematics::toward_seed;
 use super::elbow_curve::{ElbowCurve, Stretch, wrist_angles};
 use super::unreachable::Unreachable;

@@ -2,7 +2,9 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::description::{Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso};
+use super::description::{
+    Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
+};
 use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
@@ -234,7 +236,9 @@ impl<'a> Reader<'a> {
         let base = Base {
             frame: self.link(frame)?,
             body: self.link(record.required("body")?)?,
-            kind: record.optional("drive").map_or(Ok(DriveKind::Omnidirectional), drive_kind)?,
+            kind: record
+                .optional("drive")
+                .map_or(Ok(DriveKind::Omnidirectional), drive_kind)?,
             drive: speed(record, "drive-velocity", "drive-acceleration")?,
             turn: speed(record, "turn-velocity", "turn-acceleration")?,
             odometry: record
@@ -290,7 +294,10 @@ impl<'a> Reader<'a> {
                 aim,
             });
         }
-        let joints = [record.required("pan-joint")?, record.required("tilt-joint")?];
+        let joints = [
+            record.required("pan-joint")?,
+            record.required("tilt-joint")?,
+        ];
         let [pan_joint, tilt_joint] = joints;
         Ok(Neck {
             joints: vec![
@@ -451,7 +458,12 @@ impl<'a> Reader<'a> {
                 }
             }
             None => {
-                let measured = JawGap::measure(self.tree, palm, &[joint], fingers.each_ref().map(Vec::as_slice));
+                let measured = JawGap::measure(
+                    self.tree,
+                    palm,
+                    &[joint],
+                    fingers.each_ref().map(Vec::as_slice),
+                );
                 let wrong = |error: JawGapError| DataProblem::Invalid(error.to_string());
                 Jaws::Measured(measured.map_err(|error| record.node().error(wrong(error)))?)
             }
@@ -503,7 +515,9 @@ impl<'a> Reader<'a> {
 fn drive_kind(node: Node<'_>) -> Result<DriveKind, DataError> {
     let name = node.symbol()?;
     let mut kinds = DriveKind::NAMED.iter();
-    let kind = kinds.find(|(known, _)| *known == name).map(|(_, kind)| *kind);
+    let kind = kinds
+        .find(|(known, _)| *known == name)
+        .map(|(_, kind)| *kind);
     kind.ok_or_else(|| node.expected("omnidirectional or differential"))
 }
 

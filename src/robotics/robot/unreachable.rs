@@ -4,9 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::{ArmPositions, Limits, Miss};
 use super::arm_chain::{ARM_JOINTS, ArmChain, LIFT};
 use super::elbow_curve::ElbowCurve;
+use super::{ArmPositions, Limits, Miss};
 
 /// A joint that would have to exceed its limits.
 #[derive(Clone, Debug, PartialEq, Serialize)]

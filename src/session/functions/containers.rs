@@ -224,7 +224,11 @@ fn choose_handle_grasp(
         return done(Value::values(Vec::new()));
     };
     let choice = found.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
-    let posture = choice.posture.into_iter().map(Value::Double).collect::<Vec<_>>();
+    let posture = choice
+        .posture
+        .into_iter()
+        .map(Value::Double)
+        .collect::<Vec<_>>();
     done(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, choice.grasp),

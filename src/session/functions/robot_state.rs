@@ -121,8 +121,7 @@ fn hand_opening(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         .robot_configuration()
         .joints
         .get(gripper.joint);
-    let [now, most] =
-        [now, gripper.limits.upper].map(|q| Value::Double(gripper.opening_at(q)));
+    let [now, most] = [now, gripper.limits.upper].map(|q| Value::Double(gripper.opening_at(q)));
     done(Value::values(vec![now, most]))
 }
 

@@ -26,7 +26,9 @@ pub(super) static TABLE: &[Builtin] = &[control(
 fn use_robot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let named = name_text(image, &args[0]);
     let Some(robot) = named.as_deref().and_then(robot_named) else {
-        let names = ROBOTS.iter().map(|robot| format!(":{}", robot.name.to_uppercase()));
+        let names = ROBOTS
+            .iter()
+            .map(|robot| format!(":{}", robot.name.to_uppercase()));
         return Err(Raise::simple(format!(
             "{} is no robot that planwright has: it has {}. Others are given by --robot when it starts.",
             print::to_string(image, &args[0], true),

@@ -7,9 +7,9 @@ use super::names::{name_text, type_text};
 use crate::log_level::LogLevel;
 use crate::simulation::properties::property;
 use cram::designator::MotionRequest;
-use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::designator::failure::no_process_module;
 use cram::designator::value::current;
+use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::pose::value::frame_of;
 use lisp::image::Image;
 use lisp::print;
@@ -41,9 +41,14 @@ pub(crate) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
 pub(crate) fn side(image: &Image, value: &Value) -> Result<Side> {
     let arms = arms(image);
     let text = name_text(image, value);
-    let mut named = arms.iter().filter(|arm| Some(keyword_name(**arm)) == text.as_deref());
+    let mut named = arms
+        .iter()
+        .filter(|arm| Some(keyword_name(**arm)) == text.as_deref());
     named.next().copied().ok_or_else(|| {
-        let arms: Vec<String> = arms.iter().map(|arm| format!(":{}", keyword_name(*arm))).collect();
+        let arms: Vec<String> = arms
+            .iter()
+            .map(|arm| format!(":{}", keyword_name(*arm)))
+            .collect();
         let plural = if arms.len() == 1 { "" } else { "s" };
         Raise::simple(format!(
             "{} is no arm: the robot has the arm{plural} {}.",

@@ -27,11 +27,14 @@ impl Shoulder {
         chain.reverse();
         let first = arm.joints().first();
         let begin = chain.iter().position(|joint| Some(joint) == first);
-        let mut chain = chain.into_iter().skip(begin.unwrap_or(0)).map(|id| tree.joint(id));
+        let mut chain = chain
+            .into_iter()
+            .skip(begin.unwrap_or(0))
+            .map(|id| tree.joint(id));
         // An arm has at least one joint.
-        let (parent, origin) = chain
-            .next()
-            .map_or((arm.base, Pose::identity()), |joint| (joint.parent, joint.origin));
+        let (parent, origin) = chain.next().map_or((arm.base, Pose::identity()), |joint| {
+            (joint.parent, joint.origin)
+        });
         let start = tree.relative_pose(models.description.base.frame, parent, joints);
         let at = (start.unwrap_or_default() * origin).translation;
         let lengths = chain.map(|joint| {

@@ -323,7 +323,10 @@ mod tests {
                 }
             }
         }
-        assert!(found > 20 && legs > 2 * found, "{found} paths of {legs} legs");
+        assert!(
+            found > 20 && legs > 2 * found,
+            "{found} paths of {legs} legs"
+        );
     }
 
     /// A way that only an omnidirectional base can take.
@@ -412,13 +415,13 @@ mod tests {
                         touches(p, m, &wall).then_some("wall")
                     };
                     find_base_path(
-            [-2.0, 0.0, 0.0],
-            goal,
-            (OMNIDIRECTIONAL, ROOM),
-            0.7,
-            explored,
-            &mut blocked,
-        )
+                        [-2.0, 0.0, 0.0],
+                        goal,
+                        (OMNIDIRECTIONAL, ROOM),
+                        0.7,
+                        explored,
+                        &mut blocked,
+                    )
                 };
                 let found = find(&mut explored, &mut checks[0]);
                 assert_eq!(

@@ -89,7 +89,11 @@ mod tests {
     #[test]
     fn a_differential_base_turns_drives_and_turns() {
         let all = legs(DIFFERENTIAL, &[0.0; 3], &[0.0, 1.0, 0.0]);
-        let expected = [[0.0, 0.0, FRAC_PI_2], [0.0, 1.0, FRAC_PI_2], [0.0, 1.0, 0.0]];
+        let expected = [
+            [0.0, 0.0, FRAC_PI_2],
+            [0.0, 1.0, FRAC_PI_2],
+            [0.0, 1.0, 0.0],
+        ];
         assert_eq!(all.len(), expected.len(), "{all:?}");
         for (leg, expected) in all.iter().flatten().zip(expected.iter().flatten()) {
             assert!((leg - expected).abs() < 1e-12, "{all:?}");
@@ -118,7 +122,10 @@ mod tests {
             for leg in legs(DIFFERENTIAL, &from, &to) {
                 let (s, c) = trig::sin_cos(before[2]);
                 let [dx, dy] = [leg[0] - before[0], leg[1] - before[1]];
-                assert!((dy * c - dx * s).abs() < 1e-9, "sideways from {from:?} to {to:?}");
+                assert!(
+                    (dy * c - dx * s).abs() < 1e-9,
+                    "sideways from {from:?} to {to:?}"
+                );
                 assert!(libm::hypot(dx, dy) < 1e-9 || leg[2] == before[2]);
                 before = leg;
             }

@@ -29,9 +29,14 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
     let away = checker.way_out(&start, drive);
     let from = away.unwrap_or(start);
     let found = world.with_explored_floor(|explored| {
-        find_base_path(from, goal, (drive, area), reach, explored, &mut |place, margin| {
-            checker.blocked(place, margin).map(Obstacle)
-        })
+        find_base_path(
+            from,
+            goal,
+            (drive, area),
+            reach,
+            explored,
+            &mut |place, margin| checker.blocked(place, margin).map(Obstacle),
+        )
     });
     let found = found.map(|path| {
         let path: Vec<BasePlace> = away.map(|_| start).into_iter().chain(path).collect();

@@ -90,7 +90,9 @@ fn reaches(tree: &KinematicTree, arm: &Arm) -> Vec<f64> {
         all.push(if slides { 1.0 } else { reach });
         reach += length(i);
         if slides {
-            reach += joint.limits.map_or(0.0, |l| l.lower.abs().max(l.upper.abs()));
+            reach += joint
+                .limits
+                .map_or(0.0, |l| l.lower.abs().max(l.upper.abs()));
         }
     }
     all.reverse();

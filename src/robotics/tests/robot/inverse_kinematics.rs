@@ -42,10 +42,13 @@ impl Fixture {
     /// Joint positions from shares 0..1 of their ranges.
     fn positions(&self, arm: usize, shares: &[f64; 7]) -> ArmPositions {
         let limits = self.arms[arm].1.limits();
-        let places = shares.iter().zip(limits).map(|(share, limits)| match limits {
-            Some(l) => l.lower + share * (l.upper - l.lower),
-            None => PI * (2.0 * share - 1.0),
-        });
+        let places = shares
+            .iter()
+            .zip(limits)
+            .map(|(share, limits)| match limits {
+                Some(l) => l.lower + share * (l.upper - l.lower),
+                None => PI * (2.0 * share - 1.0),
+            });
         places.collect()
     }
 
@@ -248,7 +251,12 @@ fn a_chain_of_another_layout_is_refused() {
 #[test]
 fn the_same_question_has_the_same_answer_to_the_bit() {
     let wrist = PR2.wrist(1, &PR2.positions(1, &[0.4; 7]));
-    let solve = || PR2.arms[1].1.nearest(&wrist, &[0.1; 7].into()).expect("reachable");
+    let solve = || {
+        PR2.arms[1]
+            .1
+            .nearest(&wrist, &[0.1; 7].into())
+            .expect("reachable")
+    };
     let bits = |q: ArmPositions| q.into_iter().map(f64::to_bits).collect::<Vec<_>>();
     assert_eq!(bits(solve()), bits(solve()));
 }
