@@ -422,7 +422,9 @@ fn gripping_effort(
     args: &[Value],
 ) -> Result<Reply> {
     let object = simulation.perceived(image, &args[0])?;
-    done(simulation.grip(&object.kind).effort)
+    let arms = simulation.models.description.arms.iter();
+    let most = arms.map(|arm| arm.gripper.effort).fold(0.0, f64::max);
+    done(simulation.grip(&object.kind).effort.min(most))
 }
 
 fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
