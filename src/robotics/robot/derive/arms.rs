@@ -6,8 +6,10 @@ use crate::robot::{JointId, JointKind, KinematicTree, Limits, LinkId, NumericKin
 use nalgebra::{Matrix3, Vector3};
 use spatial::Pose;
 
-/// Fewest joints of an arm that reaches poses of all kinds.
+/// Fewest joints of an arm that reaches poses of all kinds, and of what is taken as an arm without a
+/// gripper.
 const FEWEST_JOINTS: usize = 6;
+const FEWEST_WITHOUT_GRIPPER: usize = 5;
 /// From the middle of the pads to where grasps place the tool (m), or half of the pads' length if that is
 /// less.
 const AHEAD: f64 = 0.0185;
@@ -31,8 +33,8 @@ pub struct DerivedArm {
     pub tool_axes: Matrix3<f64>,
     /// Its joints from the base to the wrist.
     pub joints: Vec<JointId>,
-    /// Its gripper.
-    pub gripper: DerivedGripper,
+    /// Its gripper, if one was found.
+    pub gripper: Option<DerivedGripper>,
     /// A posture in which it is close to the body.
     pub park: Option<ArmPositions>,
 }
@@ -57,10 +59,23 @@ pub(super) fn find(
         above.retain(|joint| tree.joint(*joint).is_actuated());
         above
     };
-    let paths: Vec<Vec<JointId>> = grippers.iter().map(|gripper| path(gripper.palm)).collect();
+    let mut hands: Vec<(LinkId, Option<DerivedGripper>)> = Vec::new();
+    hands.extend(
+        grippers
+            .into_iter()
+            .map(|gripper| (gripper.palm, Some(gripper))),
+    );
+    for end in long_chains(tree) {
+        let has_hand =
+            |(palm, _): &(LinkId, _)| tree.carries(end, *palm) || tree.carries(*palm, end);
+        if !hands.iter().any(has_hand) {
+            hands.push((end, None));
+        }
+    }
+    let paths: Vec<Vec<JointId>> = hands.iter().map(|(palm, _)| path(*palm)).collect();
     let torso = torso(tree, &poses, &paths);
     let mut arms: Vec<(f64, DerivedArm)> = Vec::new();
-    for (gripper, path) in grippers.into_iter().zip(&paths) {
+    for ((palm_link, gripper), path) in hands.into_iter().zip(&paths) {
         // Behind the torso, and behind what other arms share.
         let shared = |joint: &JointId| paths.iter().filter(|path| path.contains(joint)).count() > 1;
         let is_body = |joint: &JointId| {
@@ -70,7 +85,7 @@ pub(super) fn find(
         };
         let from = path.iter().rposition(is_body).map_or(0, |place| place + 1);
         let joints: Vec<JointId> = path.get(from..).unwrap_or_default().to_vec();
-        let palm = tree.link(gripper.palm).name.clone();
+        let palm = tree.link(palm_link).name.clone();
         let (Some(first), Some(last)) = (joints.first(), joints.last()) else {
             remarks.push(format!("Nothing moves the gripper at {palm}."));
             continue;
@@ -94,35 +109,31 @@ pub(super) fn find(
                 joints.len()
             ));
         }
-        let palm_in_wrist = tree.relative_pose(wrist, gripper.palm, &tree.zero_positions());
-        let grip = palm_in_wrist.unwrap_or_else(Pose::identity) * gripper.jaw.grip;
-        let axis = |axis: Vector3<f64>| grip.rotation * axis;
-        let (away, across) = (axis(Vector3::x()), axis(Vector3::y()));
-        let ahead = AHEAD.min(gripper.jaw.pad_size[0] / 2.0);
-        let along = grip.translation.vector.dot(&away);
-        let aside = (grip.translation.vector - away * along).norm();
-        if aside > 2e-3 {
-            remarks.push(format!(
-                "The pads at {palm} are {:.0} mm beside the axis through the wrist {}: :tool-offset is only \
-                 along it.",
-                1000.0 * aside,
-                tree.link(wrist).name
-            ));
-        }
-        let y = poses
-            .get(base_of_hand(tree, *first).index())
-            .map_or(0.0, |pose| pose.translation.y);
+        let placed = match &gripper {
+            Some(gripper) => placement(tree, wrist, gripper, remarks),
+            None => {
+                remarks.push(format!(
+                    "The arm to {palm} has no gripper that was found: correct :tool-offset and :tool-axes, \
+                     whose rows are, in the frame of {}, across the palm, the third axis, and away from the \
+                     palm.",
+                    tree.link(wrist).name
+                ));
+                Placement {
+                    tool: palm_link,
+                    offset: 0.0,
+                    axes: Matrix3::identity(),
+                }
+            }
+        };
+        let y = poses.get(tree.joint(*first).child.index());
+        let y = y.map_or(0.0, |pose| pose.translation.y);
         let arm = DerivedArm {
             side: Side::Right,
             base,
             wrist,
-            tool: tool(tree, &gripper),
-            tool_offset: ((along + ahead) * 1e4).round() / 1e4,
-            tool_axes: Matrix3::from_rows(&[
-                across.transpose(),
-                away.cross(&across).transpose(),
-                away.transpose(),
-            ]),
+            tool: placed.tool,
+            tool_offset: placed.offset,
+            tool_axes: placed.axes,
             joints,
             gripper,
             park: None,
@@ -133,7 +144,7 @@ pub(super) fn find(
     for (_, arm) in arms.iter().skip(2) {
         remarks.push(format!(
             "The arm to {} is left out: an arm is the left or the right one.",
-            tree.link(arm.gripper.palm).name
+            tree.link(arm.tool).name
         ));
     }
     arms.truncate(2);
@@ -144,9 +155,75 @@ pub(super) fn find(
     (torso, arms)
 }
 
-/// Where an arm begins.
-fn base_of_hand(tree: &KinematicTree, first: JointId) -> LinkId {
-    tree.joint(first).child
+/// Where a gripper is in the frame of the wrist.
+struct Placement {
+    tool: LinkId,
+    /// To where grasps place the tool (m), away from the palm.
+    offset: f64,
+    axes: Matrix3<f64>,
+}
+
+fn placement(
+    tree: &KinematicTree,
+    wrist: LinkId,
+    gripper: &DerivedGripper,
+    remarks: &mut Vec<String>,
+) -> Placement {
+    let palm = tree.relative_pose(wrist, gripper.palm, &tree.zero_positions());
+    let grip = palm.unwrap_or_else(Pose::identity) * gripper.jaw.grip;
+    let (away, across) = (grip.rotation * Vector3::x(), grip.rotation * Vector3::y());
+    let ahead = AHEAD.min(gripper.jaw.pad_size[0] / 2.0);
+    let along = grip.translation.vector.dot(&away);
+    let aside = (grip.translation.vector - away * along).norm();
+    if aside > 2e-3 {
+        remarks.push(format!(
+            "The pads at {} are {:.0} mm beside the axis through the wrist {}: :tool-offset is only \
+             along it.",
+            tree.link(gripper.palm).name,
+            1000.0 * aside,
+            tree.link(wrist).name
+        ));
+    }
+    Placement {
+        tool: tool(tree, gripper),
+        offset: ((along + ahead) * 1e4).round() / 1e4,
+        axes: Matrix3::from_rows(&[
+            across.transpose(),
+            away.cross(&across).transpose(),
+            away.transpose(),
+        ]),
+    }
+}
+
+/// Where chains of many joints end that move one after the other, without branches between: the links
+/// behind the last joint, or those from which several joints branch.
+fn long_chains(tree: &KinematicTree) -> Vec<LinkId> {
+    let mut ends = Vec::new();
+    let mut open = vec![(tree.root(), 0)];
+    while let Some((link, before)) = open.pop() {
+        let mut branches = Vec::new();
+        for at in super::rigid_links(tree, link) {
+            let joints = tree.link(at).children.iter().copied();
+            let moving = joints.filter(|joint| tree.joint(*joint).kind != JointKind::Fixed);
+            branches.extend(moving.map(|joint| (at, joint)));
+        }
+        let behind = |joint: JointId| {
+            let own = usize::from(tree.joint(joint).is_actuated());
+            (tree.joint(joint).child, own)
+        };
+        match branches.as_slice() {
+            [(_, only)] => {
+                let (child, own) = behind(*only);
+                open.push((child, before + own));
+            }
+            several if before >= FEWEST_WITHOUT_GRIPPER => {
+                ends.push(several.first().map_or(link, |(at, _)| *at));
+            }
+            several => open.extend(several.iter().map(|(_, joint)| behind(*joint))),
+        }
+    }
+    ends.sort();
+    ends
 }
 
 /// Whether a joint carries something that turns without limits about a level axis: then it turns a body.

@@ -68,8 +68,9 @@ impl DerivedRobot {
         let is_body = |link: &LinkId| !tree.link(*link).collisions.is_empty();
         let base_body = rigid_links(tree, base_frame).into_iter().find(is_body);
         let used = |joint: JointId| {
+            let grips = |gripper: &DerivedGripper| gripper.joints.contains(&joint);
             let arm = |arm: &DerivedArm| {
-                arm.joints.contains(&joint) || arm.gripper.joints.contains(&joint)
+                arm.joints.contains(&joint) || arm.gripper.as_ref().is_some_and(grips)
             };
             Some(joint) == torso || neck.contains(&joint) || arms.iter().any(arm)
         };
@@ -86,10 +87,11 @@ impl DerivedRobot {
             ));
         }
         let rolls = |link: &LinkId| wheels.links.contains(link);
+        let grippers = arms.iter().filter_map(|arm| arm.gripper.as_ref());
         let built: Vec<_> = pairs
             .by_construction()
             .filter(|(a, b)| !rolls(a) && !rolls(b))
-            .chain(arms.iter().flat_map(|arm| arm.gripper.pad_pairs()))
+            .chain(grippers.flat_map(DerivedGripper::pad_pairs))
             .collect();
         let mut q = tree.zero_positions();
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
@@ -137,25 +139,32 @@ impl DerivedRobot {
 
 /// The optical frames, those on the body first.
 fn cameras(tree: &KinematicTree, arms: &[DerivedArm], remarks: &mut Vec<String>) -> Vec<LinkId> {
+    let has = |name: &str, words: &[&str]| words.iter().any(|word| name.contains(word));
+    let is_optical = |name: &str| name.ends_with("optical_frame") || name.ends_with("optical_link");
+    let is_named = |name: &str| has(name, &["camera", "rgb", "stereo", "xtion", "realsense"]);
+    let poses = rest_poses(tree);
+    // The axes of a picture: x to the right, y down.
+    let looks_level = |link: LinkId| {
+        let pose = poses.get(link.index());
+        pose.is_some_and(|pose| (pose.rotation * Vector3::y()).z < -0.7)
+    };
+    let some = tree
+        .links()
+        .any(|(_, link)| is_optical(&link.name.to_lowercase()));
     let mut found: Vec<(usize, LinkId)> = Vec::new();
     for (id, link) in tree.links() {
         let name = link.name.to_lowercase();
-        let sees = !["depth", "infra", "_ir_", "thermal"]
-            .iter()
-            .any(|other| name.contains(other));
-        if !name.ends_with("optical_frame") && !name.ends_with("optical_link") || !sees {
+        let is_one = is_optical(&name) || !some && is_named(&name) && looks_level(id);
+        let others = ["depth", "infra", "_ir_", "thermal", "accel", "gyro", "imu"];
+        if !is_one || has(&name, &others) {
             continue;
         }
         let on_arm = arms.iter().any(|arm| {
             let last = arm.joints.last();
             last.is_some_and(|joint| tree.ancestors(id).any(|above| above == *joint))
         });
-        let in_colour = ["rgb", "color", "colour"]
-            .iter()
-            .any(|word| name.contains(word));
-        let on_head = ["head", "xtion", "realsense"]
-            .iter()
-            .any(|word| name.contains(word));
+        let in_colour = has(&name, &["rgb", "color", "colour"]);
+        let on_head = has(&name, &["head", "xtion", "realsense"]);
         let rank = usize::from(on_arm) * 4 + usize::from(!in_colour) * 2 + usize::from(!on_head);
         found.push((rank, id));
     }
@@ -164,6 +173,12 @@ fn cameras(tree: &KinematicTree, arms: &[DerivedArm], remarks: &mut Vec<String>)
         remarks.push(
             "No frame is named …optical_frame (z forward, x to the right): add one to the URDF where \
              the camera is, and its (camera …) record."
+                .to_owned(),
+        );
+    } else if !some {
+        remarks.push(
+            "No frame is named …optical_frame: the cameras are frames whose y axis points down, as that \
+             of a picture does. See that their z axis looks forward."
                 .to_owned(),
         );
     }

@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 /// Postures that are looked at, and how many of the best ones are tried.
 const POSTURES: usize = 4000;
 const TRIED: usize = 400;
-/// How much (m) of height counts as one metre of reach.
-const HEIGHT: f64 = 0.15;
+/// Metres of reach for which a metre of height counts.
+const HEIGHT: f64 = 0.4;
 
 /// The posture of those in which nothing touches that keeps the arm nearest to the body, and low. `others`
 /// are the positions of all other joints.

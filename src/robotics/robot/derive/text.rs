@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{DerivedArm, DerivedDrive, DerivedRobot};
+use super::{DerivedArm, DerivedDrive, DerivedGripper, DerivedRobot};
 use crate::robot::{JointId, KinematicTree, LinkId};
 use nalgebra::Vector3;
 
@@ -90,20 +90,23 @@ pub(super) fn written(robot: &DerivedRobot, tree: &KinematicTree) -> String {
     );
     text.push_str("(default-speed :velocity 1.0 :acceleration 4.0)\n");
     for group in &robot.touching {
-        names(&mut text, "(touching", group.iter().map(|id| link(*id)));
-    }
-    if !robot.wheels.links.is_empty() {
         names(
             &mut text,
-            "(wheels",
-            robot.wheels.links.iter().map(|id| link(*id)),
+            "(touching",
+            group.iter().map(|id| link(*id)),
+            ")",
         );
+    }
+    let wheels = &robot.wheels.links;
+    if !wheels.is_empty() {
+        names(&mut text, "(wheels", wheels.iter().map(|id| link(*id)), ")");
     }
     if !robot.idle.is_empty() {
         names(
             &mut text,
             "(idle-joints",
             robot.idle.iter().map(|id| joint(*id)),
+            ")",
         );
     }
     text
@@ -164,45 +167,68 @@ fn arm(text: &mut String, arm: &DerivedArm, tree: &KinematicTree) {
         "     :start park :postures ((park {})))",
         park.join(" ")
     );
-    let gripper = &arm.gripper;
+    match &arm.gripper {
+        Some(gripper) => write_gripper(text, arm, gripper, tree),
+        None => {
+            let _ = writeln!(
+                text,
+                "; (gripper {} :palm … :joints (…) :left-finger (…) :right-finger (…))",
+                arm.side
+            );
+        }
+    }
+}
+
+fn write_gripper(
+    text: &mut String,
+    arm: &DerivedArm,
+    gripper: &DerivedGripper,
+    tree: &KinematicTree,
+) {
     let jaw = &gripper.jaw;
-    let moved: Vec<String> = gripper.joints.iter().map(joint).collect();
+    let moved = gripper
+        .joints
+        .iter()
+        .map(|joint| tree.joint(*joint).name.clone());
+    let moved: Vec<String> = moved.collect();
     comment(
         text,
         &format!(
-            "The gap is measured: {:.1} to {:.1} mm at {} to {} of {}.",
-            1000.0 * jaw.closed().1,
-            1000.0 * jaw.open().1,
+            "The gap is measured: {} to {} mm at {} to {} of {}.",
+            number((1e4 * jaw.closed().1).round() / 10.0),
+            number((1e4 * jaw.open().1).round() / 10.0),
             number(jaw.closed().0),
             number(jaw.open().0),
             moved.first().map_or("", String::as_str)
         ),
     );
-    let finger = |side: usize| {
-        let links: Vec<String> = gripper.fingers[side].iter().map(|id| link(*id)).collect();
-        links.join(" ")
-    };
+    let palm = &tree.link(gripper.palm).name;
     let _ = write!(
         text,
-        "(gripper {} :palm {} :joints ({})",
+        "(gripper {} :palm {palm} :joints ({})",
         arm.side,
-        link(gripper.palm),
         moved.join(" ")
     );
-    if let Some(effort) = gripper.effort {
-        let _ = write!(text, " :effort {effort}");
+    match gripper.effort {
+        Some(effort) => {
+            let _ = writeln!(text, " :effort {effort}");
+        }
+        None => text.push('\n'),
     }
-    let _ = writeln!(
+    let [left, right] = &gripper.fingers;
+    let link = |id: &LinkId| tree.link(*id).name.clone();
+    names(text, "         :left-finger (", left.iter().map(link), ")");
+    names(
         text,
-        "\n         :left-finger ({}) :right-finger ({}))",
-        finger(0),
-        finger(1)
+        "         :right-finger (",
+        right.iter().map(link),
+        "))",
     );
 }
 
 /// A number that is read as it is meant: with a point, and of few digits.
 fn number(x: f64) -> String {
-    let rounded = (x * 1e6).round() / 1e6 + 0.0;
+    let rounded = (x * 1e9).round() / 1e9 + 0.0;
     format!("{rounded}")
 }
 
@@ -234,16 +260,19 @@ fn comment(text: &mut String, sentences: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// Appends a record of names.
-fn names(text: &mut String, head: &str, names: impl Iterator<Item = String>) {
+/// Appends a list of names between its beginning and its end.
+fn names(text: &mut String, head: &str, names: impl Iterator<Item = String>, end: &str) {
+    let margin = head.len() + usize::from(!head.ends_with('('));
     let mut line = String::from(head);
     for name in names {
-        if line.chars().count() + 2 + name.chars().count() > WIDTH {
+        if line.chars().count() + 3 + name.chars().count() > WIDTH && line.len() > margin {
             let _ = writeln!(text, "{line}");
-            line = " ".repeat(head.len());
+            line = " ".repeat(margin);
         }
-        line.push(' ');
+        if !line.ends_with('(') && !line.ends_with(' ') {
+            line.push(' ');
+        }
         line.push_str(&name);
     }
-    let _ = writeln!(text, "{line})");
+    let _ = writeln!(text, "{line}{end}");
 }
