@@ -13,13 +13,17 @@
 (neck :pan-joint head_pan_joint :pan-link head_pan_link
       :tilt-joint head_tilt_joint :tilt-link head_tilt_link)
 
+; Plans may call the frame on the floor as the PR2 does.
+(alias base_footprint base_link)
+
 ; 0.7853981633974483 rad is 45 degrees.
 (camera head
         :frame head_camera_rgb_optical_frame
         :width 320 :height 240 :vertical-view 0.7853981633974483
         :near 0.1 :far 10 :visible-share 0.9)
 
-; The maker's tuck stays within the base's radius. The carrying postures hold the hand before the torso.
+; The maker's tuck stays within the base's radius, but there is no room for a thing in the hand. The other
+; postures hold the hand before the torso.
 ; The frame of the tool is in the middle of the pads; grasps place what is 19 mm ahead of it.
 (arm right
      :base torso_lift_link
@@ -28,10 +32,11 @@
      :tool-offset 0.185
      :tool-axes ((0 1 0) (0 0 1) (1 0 0))
      :payload 6
-     :start park
+     :start tucked
      :postures
-     ((park 1.32 1.40 -0.2 1.72 0.0 1.66 0.0)
-      (carry-top -0.9586 -0.8466 1.843 2.0795 -0.711 1.3599 1.1473)
+     ((tucked 1.32 1.40 -0.2 1.72 0.0 1.66 0.0)
+      (park 1.4388 1.4149 -0.0575 2.1741 -1.3594 1.9996 -1.0748)
+(carry-top -0.9586 -0.8466 1.843 2.0795 -0.711 1.3599 1.1473)
       (carry-side-gripper-vertical 1.4388 1.4149 -0.0575 2.1741 -1.3594 1.9996 -1.0748)))
 
 ; Each finger has a joint of its own; both move by the same way. The gap is measured.

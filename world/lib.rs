@@ -12,6 +12,38 @@ pub const FETCH_URDF: &str = include_str!("fetch.urdf");
 /// The roles of Fetch's links and joints.
 pub const FETCH_DESCRIPTION: &str = include_str!("fetch.sexp");
 
+/// A robot that comes with planwright.
+#[derive(Clone, Copy, Debug)]
+pub struct Robot {
+    /// What `--robot` and `use-robot` call it.
+    pub name: &'static str,
+    /// Its URDF: links, joints and shapes.
+    pub urdf: &'static str,
+    /// The roles of its links and joints.
+    pub description: &'static str,
+}
+
+/// The robots that come with planwright, the usual one first.
+pub const ROBOTS: &[Robot] = &[
+    Robot {
+        name: "pr2",
+        urdf: PR2_URDF,
+        description: PR2_DESCRIPTION,
+    },
+    Robot {
+        name: "fetch",
+        urdf: FETCH_URDF,
+        description: FETCH_DESCRIPTION,
+    },
+];
+
+/// The robot of that name, in letters of any case.
+pub fn robot_named(name: &str) -> Option<&'static Robot> {
+    ROBOTS
+        .iter()
+        .find(|robot| robot.name.eq_ignore_ascii_case(name))
+}
+
 /// The kitchen; its root is the map frame.
 pub const KITCHEN_URDF: &str = include_str!("kitchen.urdf");
 

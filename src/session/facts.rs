@@ -24,16 +24,33 @@ const PACKAGE: &str = "CRAM-ROBOT-INTERFACES";
 /// Gives the variables their values. They are set, not defined by plans, since they depend on the
 /// robot and the kitchen of a session.
 pub(super) fn install(image: &mut Image, models: &Models) {
+    describe_robot(image, models);
+    name_things(image, models);
+    describe_kitchen(image, models);
+}
+
+/// The robot that the variables describe.
+struct DescribedRobot(Arc<KinematicTree>);
+
+impl Extension for DescribedRobot {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        self
+    }
+}
+
+fn describe_robot(image: &mut Image, models: &Models) {
     let frames = frames(models);
     for (name, frame) in frames {
         let sym = symbol(image, "CRAM-TF", name);
-        image.define_special(sym, Value::string(frame));
+        image.define_special(sym, frame.map_or(Value::NIL, Value::string));
     }
     let robot = robot(image, models);
     let sym = symbol(image, PACKAGE, "*ROBOT*");
     image.define_special(sym, robot);
-    name_things(image, models);
-    describe_kitchen(image, models);
+    let vocabulary = Vocabulary::of(image);
+    vocabulary.forget(Domain::Arm);
+    vocabulary.add(Domain::Arm, models.description.sides().map(Side::name));
+    image.extend(DescribedRobot(Arc::clone(&models.robot)));
 }
 
 /// The kitchen that the variables describe.
@@ -52,10 +69,15 @@ fn describe_kitchen(image: &mut Image, models: &Models) {
     image.extend(DescribedKitchen(Arc::clone(&models.kitchen)));
 }
 
-/// Lets the variables describe the present kitchen, if they describe another one.
+/// Lets the variables describe the present robot and kitchen, if they describe others.
 pub(crate) fn follow(image: &mut Image, models: &Models) {
+    let robot = image.extension::<DescribedRobot>();
+    let is_other = robot.is_none_or(|described| !Arc::ptr_eq(&described.0, &models.robot));
+    if is_other {
+        describe_robot(image, models);
+    }
     let described = image.extension::<DescribedKitchen>();
-    if described.is_some_and(|described| Arc::ptr_eq(&described.0, &models.kitchen)) {
+    if !is_other && described.is_some_and(|described| Arc::ptr_eq(&described.0, &models.kitchen)) {
         return;
     }
     let vocabulary = Vocabulary::of(image);
@@ -69,7 +91,6 @@ pub(crate) fn follow(image: &mut Image, models: &Models) {
 /// Makes known what names there are, so that programs can be checked before they run.
 fn name_things(image: &mut Image, models: &Models) {
     let vocabulary = Vocabulary::of(image);
-    vocabulary.add(Domain::Arm, Side::BOTH.map(Side::name));
     vocabulary.add_later(Domain::Grasp, KnownGrasps::built_in_names);
     vocabulary.add(Domain::ObjectType, models.objects.names());
     vocabulary.add(
@@ -101,15 +122,19 @@ fn name_furniture(image: &mut Image, models: &Models) {
 }
 
 /// CRAM's variables that hold names of the robot's frames.
-fn frames(models: &Models) -> [(&'static str, String); 5] {
+fn frames(models: &Models) -> [(&'static str, Option<String>); 5] {
     let description = &models.description;
     let link = |link| models.robot.link(link).name.clone();
-    let tool = |side| link(description.arm(side).tool);
+    let tool = |wanted| {
+        let mut sides = description.sides();
+        let side = sides.find(|side| *side == wanted)?;
+        Some(link(description.arm(side).tool))
+    };
     let odometry = description.base.odometry.as_deref().unwrap_or(MAP);
     [
-        ("*ODOM-FRAME*", odometry.to_owned()),
-        ("*ROBOT-BASE-FRAME*", link(description.base.frame)),
-        ("*ROBOT-TORSO-FRAME*", link(description.torso.link)),
+        ("*ODOM-FRAME*", Some(odometry.to_owned())),
+        ("*ROBOT-BASE-FRAME*", Some(link(description.base.frame))),
+        ("*ROBOT-TORSO-FRAME*", Some(link(description.torso.link))),
         ("*ROBOT-LEFT-TOOL-FRAME*", tool(Side::Left)),
         ("*ROBOT-RIGHT-TOOL-FRAME*", tool(Side::Right)),
     ]
@@ -118,15 +143,21 @@ fn frames(models: &Models) -> [(&'static str, String); 5] {
 /// What else is known of the robot, as a property list.
 fn robot(image: &mut Image, models: &Models) -> Value {
     let description = &models.description;
-    let joint = &models.robot.joint(description.torso.joint).name;
+    let lift = description.torso.joint;
+    let lift = lift.map(|joint| Value::string(models.robot.joint(joint).name.as_str()));
     let camera = &models.robot.link(description.camera().frame).name;
-    let wrists = Side::BOTH.map(|side| {
+    let sides: Vec<Side> = description.sides().collect();
+    let mut of_arms = |of_arm: &dyn Fn(&mut Image, Side) -> Value| {
+        let all = sides.iter().map(|side| of_arm(image, *side));
+        Value::list(all.collect::<Vec<_>>())
+    };
+    let wrists = of_arms(&|image, side| {
         let wrist = &models.robot.link(description.arm(side).wrist).name;
         Value::list([keyword(image, side.name()), Value::string(wrist.as_str())])
     });
-    let links = Side::BOTH.map(|side| {
+    let links = of_arms(&|image, side| {
         let robot = &models.robot;
-        let first = robot.joint(description.arm(side).joints()[0]).child;
+        let first = description.arm(side).shoulder(robot);
         let links = robot
             .links()
             .filter(|(link, _)| robot.carries(first, *link));
@@ -134,12 +165,12 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         let arm = std::iter::once(keyword(image, side.name()));
         Value::list(arm.chain(links).collect::<Vec<_>>())
     });
-    let grippers = Side::BOTH.map(|side| {
+    let grippers = of_arms(&|image, side| {
         let joint = description.arm(side).gripper.joint;
         let joint = &models.robot.joint(joint).name;
         Value::list([keyword(image, side.name()), Value::string(joint.as_str())])
     });
-    let joints = Side::BOTH.map(|side| {
+    let joints = of_arms(&|image, side| {
         let joints = description.arm(side).joints();
         let names = joints.iter().map(|j| &models.robot.joint(*j).name);
         let names = names.map(|name| Value::string(name.as_str()));
@@ -148,12 +179,12 @@ fn robot(image: &mut Image, models: &Models) -> Value {
     });
     let entries = [
         ("name", keyword(image, &description.name)),
-        ("torso-joint", Value::string(joint.as_str())),
+        ("torso-joint", lift.unwrap_or(Value::NIL)),
         ("camera-frame", Value::string(camera.as_str())),
-        ("wrists", Value::list(wrists)),
-        ("arm-links", Value::list(links)),
-        ("arm-joints", Value::list(joints)),
-        ("grippers", Value::list(grippers)),
+        ("wrists", wrists),
+        ("arm-links", links),
+        ("arm-joints", joints),
+        ("grippers", grippers),
     ];
     property_list(image, entries)
 }

@@ -66,7 +66,7 @@ pub use face::{
     Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
 pub use log_level::LogLevel;
-pub use options::{SessionError, SessionOptions, is_generated};
+pub use options::{SessionError, SessionOptions, is_built_in, is_generated, is_shipped_robot};
 
 /// A session.
 pub struct Session {

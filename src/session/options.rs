@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
+use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF, ROBOTS, robot_named};
 use kitchens::Kitchen;
 use thiserror::Error;
 
@@ -12,10 +12,14 @@ use super::mesh_files::SessionMeshes;
 use super::outside::Outside;
 use lisp::guard::heap::HeapLimit;
 use robotics::mesh::MeshLibrary;
-use robotics::robot::{KinematicTree, MissingNames, RobotDescription, UrdfReading, UrdfUse};
+use robotics::robot::{
+    DerivedRobot, KinematicTree, MissingNames, PostureSample, RobotDescription, UrdfReading,
+    UrdfUse,
+};
 use robotics::sexp::DataError;
 use robotics::world::noise::NoiseLevels;
 use robotics::world::object_library::{OBJECTS, ObjectLibrary};
+use robotics::world::self_touching::SelfTouching;
 use robotics::world::{KitchenDescription, Models};
 
 /// What a session starts with.
@@ -94,6 +98,16 @@ pub fn is_generated(world: &Path) -> bool {
         .is_some_and(|world| world.starts_with(GENERATED))
 }
 
+/// Whether a robot is one that comes with planwright, rather than a file.
+pub fn is_shipped_robot(robot: &Path) -> bool {
+    robot.to_str().and_then(robot_named).is_some()
+}
+
+/// Whether what an option names is no file: a generated kitchen, or a robot that comes with planwright.
+pub fn is_built_in(name: &Path) -> bool {
+    is_generated(name) || is_shipped_robot(name)
+}
+
 /// The kitchen of a seed.
 ///
 /// # Errors
@@ -108,6 +122,27 @@ pub(crate) fn generated_kitchen(seed: u64) -> Result<Kitchen, SessionError> {
 }
 
 impl SessionOptions {
+    /// Has the session begin with the robot of that name that comes with planwright.
+    ///
+    /// # Errors
+    ///
+    /// There is none of that name.
+    pub fn set_shipped_robot(&mut self, name: &str) -> Result<(), SessionError> {
+        let robot = robot_named(name).ok_or_else(|| {
+            let names: Vec<&str> = ROBOTS.iter().map(|robot| robot.name).collect();
+            SessionError::Models(format!(
+                "there is no robot {name}: planwright has {}",
+                names.join(", ")
+            ))
+        })?;
+        let file = |ending: &str| format!("{}.{ending}", robot.name);
+        self.robot = Some((file("urdf"), robot.urdf.to_owned()));
+        if self.robot_description.is_none() {
+            self.robot_description = Some((file("sexp"), robot.description.to_owned()));
+        }
+        Ok(())
+    }
+
     /// Has the session begin in the generated kitchen with a name such as `generated:7`.
     ///
     /// # Errors
@@ -185,6 +220,20 @@ impl SessionOptions {
         let mut models = Models::new(robot, description, kitchen, furnishing, objects);
         models.remarks = remarks;
         Ok(models)
+    }
+
+    /// A description of the robot's links and joints that follows from its URDF, with comments on what
+    /// is assumed or missing.
+    ///
+    /// # Errors
+    ///
+    /// If the URDF cannot be read.
+    pub fn derived_description(&self) -> Result<String, SessionError> {
+        let tree = self
+            .tree(&self.robot, [PR2_URDF, "pr2.urdf"], UrdfUse::Robot)?
+            .tree;
+        let touching = SelfTouching::new(&tree, PostureSample::default());
+        Ok(DerivedRobot::of(&tree, &touching).text(&tree))
     }
 
     /// Reads the tree in a URDF that is given as its name and text, or in the one that is built in.

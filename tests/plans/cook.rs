@@ -41,7 +41,8 @@ impl Cook {
         Self::watched_in(&SessionOptions::default(), is_watched)
     }
 
-    fn watched_in(options: &SessionOptions, is_watched: bool) -> Self {
+    /// One in a session with options, whose overlaps may be watched.
+    pub(crate) fn watched_in(options: &SessionOptions, is_watched: bool) -> Self {
         let mut session = Session::new(options).unwrap();
         let overlaps = is_watched.then(|| Overlaps::watch(&mut session));
         Self::in_session(session, overlaps)

@@ -11,6 +11,7 @@ mod demos;
 mod designators;
 mod every_type;
 mod exercises;
+mod fetch;
 mod generated_kitchens;
 mod grasping;
 mod kinds_of_worlds;

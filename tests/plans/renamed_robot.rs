@@ -81,7 +81,7 @@ fn a_robot_with_other_names_moves() {
     assert_eq!(outcome, Outcome::Finished, "{printed}");
     let world = session.simulation().world();
     let joints = &world.robot_configuration().joints;
-    let torso = joints.get(world.models().description.torso.joint);
+    let torso = world.models().description.torso.height(joints);
     assert!((torso - 0.2).abs() < 1e-9, "{torso}");
 }
 

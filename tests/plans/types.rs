@@ -208,8 +208,8 @@ fn keys_do_what_they_say_under_each_of_their_names() {
     let mut table = Table::new();
     let height = |table: &Table| {
         let world = table.session.simulation().world();
-        let torso = world.models().description.torso.joint;
-        world.robot_configuration().joints.get(torso)
+        let torso = &world.models().description.torso;
+        torso.height(&world.robot_configuration().joints)
     };
     for (name, wanted) in [("joint-angle", 0.25), ("position", 0.15)] {
         let motion = format!("(a motion (type moving-torso) ({name} {wanted}))");

@@ -99,7 +99,7 @@ impl Vocabulary {
     }
 
     /// Is it a name of that kind? Where no names are known, any may be one.
-    pub(super) fn has(&self, domain: Domain, name: &str) -> bool {
+    pub fn has(&self, domain: Domain, name: &str) -> bool {
         self.read(domain);
         let all = self.names.borrow();
         let known = all.iter().find(|(known, _)| *known == domain);

@@ -15,7 +15,7 @@ use crate::jupyter::{
 };
 use crate::transcript::{Transcript, Verdict};
 use session::dialogue::Evaluate;
-use session::is_generated;
+use session::is_built_in;
 use view::picture::View;
 
 /// Width and height of the picture by which the kernel is known (pixels).
@@ -190,7 +190,7 @@ fn options_as_given(options: &Options) -> Result<Vec<String>, CommandError> {
     let systems = options.systems.iter().map(|path| ("systems", path));
     let setup = options.setup.iter().map(|path| ("setup", path));
     for (name, path) in files.chain(packages).chain(systems).chain(setup) {
-        if is_generated(path) {
+        if is_built_in(path) {
             add(name, path.to_string_lossy().into_owned());
             continue;
         }

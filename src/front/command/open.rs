@@ -20,7 +20,7 @@ use lisp::visible::visible;
 use robotics::robot::urdf_text;
 use robotics::world::Models;
 use session::dialogue::Evaluate;
-use session::{self, Session, SessionOptions, is_generated};
+use session::{self, Session, SessionOptions, is_generated, is_shipped_robot};
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
@@ -34,16 +34,15 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
         Ok((path.display().to_string(), text))
     };
-    let read_urdf = |path: &Path| -> Result<(String, String), CommandError> {
-        let wrong = |error: String| CommandError::Open(format!("{}: {error}", path.display()));
-        let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
-        let text = urdf_text(&bytes).map_err(wrong)?;
-        Ok((path.display().to_string(), text))
-    };
     let generated = options.world.as_deref().filter(|world| is_generated(world));
+    let shipped = options.robot.as_deref();
+    let shipped = shipped.filter(|robot| is_shipped_robot(robot));
     let mut session_options = SessionOptions {
         seed: options.seed,
-        robot: options.robot.as_deref().map(read_urdf).transpose()?,
+        robot: match shipped {
+            Some(_) => None,
+            None => options.robot.as_deref().map(read_urdf).transpose()?,
+        },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: match generated {
             Some(_) => None,
@@ -71,6 +70,10 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         heap: heap::limit(options.heap),
         ..SessionOptions::default()
     };
+    if let Some(name) = shipped {
+        let set = session_options.set_shipped_robot(&name.to_string_lossy());
+        set.map_err(|error| CommandError::Open(error.to_string()))?;
+    }
     if let Some(name) = generated {
         let set = session_options.set_generated_world(&name.to_string_lossy());
         set.map_err(|error| CommandError::Open(error.to_string()))?;
@@ -114,6 +117,27 @@ pub(crate) fn open_default() -> Result<Session, String> {
     crate::precompiled::provide();
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open_session(&arguments.options).map_err(|error| error.to_string())
+}
+
+/// Name and text of a URDF.
+fn read_urdf(path: &Path) -> Result<(String, String), CommandError> {
+    let wrong = |error: String| CommandError::Open(format!("{}: {error}", path.display()));
+    let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
+    let text = urdf_text(&bytes).map_err(wrong)?;
+    Ok((path.display().to_string(), text))
+}
+
+/// Options that are about nothing but the robot of a file.
+pub(in crate::command) fn robot_options(
+    options: &Options,
+    file: &Path,
+) -> Result<SessionOptions, CommandError> {
+    Ok(SessionOptions {
+        robot: Some(read_urdf(file)?),
+        package_paths: package_paths(&options.package_path)?,
+        mesh_cache: cache::directory("meshes"),
+        ..SessionOptions::default()
+    })
 }
 
 /// The folders of packages: those that are given, then those of ROS.

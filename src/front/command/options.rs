@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::heap;
 use super::paint::ColorWhen;
-use session::is_generated;
+use session::is_built_in;
 
 /// Options of all commands.
 #[derive(Args, Clone, Debug)]
@@ -22,7 +22,7 @@ pub(crate) struct Options {
     /// --world FILE.urdf, a file FILE.sexp beside it]
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) world_description: Option<PathBuf>,
-    /// Robot to load (a URDF file) instead of the built-in PR2
+    /// Robot to load instead of the PR2: fetch, or a URDF file
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot: Option<PathBuf>,
     /// What the robot's links and joints are for (in the form of world/pr2.sexp), for a robot
@@ -104,7 +104,7 @@ impl Options {
             &self.objects,
         ];
         let files = files.into_iter().flatten();
-        let files = files.filter(|file| !is_generated(file));
+        let files = files.filter(|file| !is_built_in(file));
         files.chain(&self.setup)
     }
 }

@@ -11,7 +11,7 @@ use super::options::Options;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
-use session::is_generated;
+use session::is_built_in;
 
 use crate::prompt::{Beginning, JournalError, Loaded, Opened, ReplOptions, Wanted};
 use lisp::visible::visible;
@@ -111,7 +111,7 @@ pub(super) fn open_journals(
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {
-            if given.as_deref().is_some_and(is_generated) {
+            if given.as_deref().is_some_and(is_built_in) {
                 return given != began;
             }
             let given = given.as_ref().map(std::path::absolute);

@@ -4,6 +4,7 @@ use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use std::hint::black_box;
 
 use super::Stopwatch;
+use robotics::robot::closed_form::ClosedForm;
 use robotics::robot::{ArmPositions, KinematicTree, RobotDescription, Side};
 use spatial::Pose;
 use spatial::pose::from_xyz_rpy;
@@ -27,10 +28,15 @@ fn reachable_poses(tree: &KinematicTree, pr2: &RobotDescription, side: Side) -> 
     let mut poses = Vec::new();
     for _ in 0..10_000 {
         let mut q = tree.zero_positions();
-        let positions: ArmPositions = arm.kinematics.limits().map(|limits| match limits {
-            Some(l) => l.lower + shares.next() * (l.upper - l.lower),
-            None => std::f64::consts::PI * (2.0 * shares.next() - 1.0),
-        });
+        let positions: ArmPositions = arm
+            .kinematics
+            .limits()
+            .iter()
+            .map(|limits| match limits {
+                Some(l) => l.lower + shares.next() * (l.upper - l.lower),
+                None => std::f64::consts::PI * (2.0 * shares.next() - 1.0),
+            })
+            .collect();
         arm.set_positions(&mut q, &positions);
         poses.extend(tree.relative_pose(arm.base, arm.wrist, &q));
     }
@@ -49,14 +55,24 @@ pub fn kinematics(stopwatch: &mut dyn Stopwatch) {
 
     for side in Side::BOTH {
         let poses = reachable_poses(tree, pr2, side);
-        let solver = &pr2.arm(side).kinematics;
+        let arm = pr2.arm(side);
+        let solver = &arm.kinematics;
+        let closed_form = ClosedForm::new(tree, arm.base, arm.wrist);
         let mut next = poses.iter().cycle();
         stopwatch.repeated(&format!("nearest solution, {side} arm"), &mut || {
-            black_box(next.next().map(|pose| solver.nearest(pose, &[0.0; 7])));
+            black_box(
+                next.next()
+                    .map(|pose| solver.nearest(pose, &[0.0; 7].into())),
+            );
         });
         let mut next = poses.iter().cycle();
         stopwatch.repeated(&format!("solutions at one roll, {side} arm"), &mut || {
-            black_box(next.next().map(|pose| solver.solve(pose, -0.5)));
+            let closed_form = closed_form.as_ref().ok();
+            black_box(
+                next.next()
+                    .zip(closed_form)
+                    .map(|(pose, solver)| solver.solve(pose, -0.5)),
+            );
         });
     }
 

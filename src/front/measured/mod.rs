@@ -38,7 +38,7 @@ pub(crate) fn models() -> Arc<Models> {
 /// The robot at (m, m, degrees) with parked arms and its torso at the height (m).
 pub(crate) fn parked(models: &Models, [x, y, degrees]: [f64; 3], torso: f64) -> RobotConfiguration {
     let mut joints = models.robot.zero_positions();
-    joints.set(models.description.torso.joint, torso);
+    models.description.torso.set_height(&mut joints, torso);
     for arm in &models.description.arms {
         arm.set_positions(
             &mut joints,

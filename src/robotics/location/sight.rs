@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::base_query::{BaseQuery, Target};
 use super::reach::object_of;
-use crate::motion::pan_and_tilt;
+use crate::motion::neck_positions;
 use crate::perception::Sight;
 use crate::world::{PartKey, World, WorldError};
 
@@ -16,11 +16,11 @@ const SLACK: f64 = 0.03;
 /// Turns the head of the robot in the imagined world to the target; false if the neck cannot.
 fn look(world: &mut World, target: &Target) -> bool {
     let point = Point3::from(target.pose.translation.vector);
-    let angles = pan_and_tilt(world, &point);
+    let angles = neck_positions(world, &point);
     let mut robot = world.robot_configuration().clone();
     let models = world.models();
     let neck = &models.description.neck;
-    for (joint, angle) in [neck.pan_joint, neck.tilt_joint].into_iter().zip(angles) {
+    for (&joint, angle) in neck.joints.iter().zip(angles) {
         let limits = models.robot.joint(joint).limits;
         if limits.is_some_and(|l| angle < l.lower || angle > l.upper) {
             return false;

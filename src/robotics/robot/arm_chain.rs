@@ -7,12 +7,9 @@ use super::{JointId, JointKind, KinematicTree, Limits, LinkId};
 
 /// Joints of an arm, from the shoulder to the wrist: shoulder pan, shoulder lift, upper
 /// arm roll, elbow flex, forearm roll, wrist flex, wrist roll.
-pub(crate) const ARM_JOINTS: usize = 7;
+pub(super) const ARM_JOINTS: usize = 7;
 
-/// Positions (rad) of the joints of an arm, from the shoulder to the wrist.
-pub type ArmPositions = [f64; ARM_JOINTS];
-
-/// Indices into [`ArmPositions`].
+/// Indices into [`super::ArmPositions`].
 pub(super) const PAN: usize = 0;
 pub(super) const LIFT: usize = 1;
 pub(super) const ROLL: usize = 2;

@@ -1,234 +1,135 @@
-//! Inverse kinematics of an arm with the PR2's joint layout: the joint positions that put
-//! the wrist at a pose, in closed form and complete over the one redundant freedom.
+//! Inverse kinematics of an arm: the joint positions that put the wrist at a pose.
 //!
-//! Limits are the soft limits of the URDF (those of the safety controller) where it gives
-//! any. All dimensions come from the kinematic tree. A pose of the wrist is the pose of the
-//! arm's tip link in the frame of the arm's base link; nothing here knows of tools,
-//! collisions or other arms.
+//! Where the layout of the joints allows it, they are calculated in closed form, which also proves
+//! that a pose is unreachable; otherwise they are searched numerically. Limits are the soft limits of
+//! the URDF (those of the safety controller) where it gives any. All dimensions come from the
+//! kinematic tree. A pose of the wrist is the pose of the arm's tip link in the frame of the arm's
+//! base link; nothing here knows of tools, collisions or other arms.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::arm_chain::{
-    ARM_JOINTS, ArmChain, ArmChainError, ArmPositions, ELBOW, FLEX, FOREARM, LIFT, PAN, ROLL, WRIST,
+use super::closed_form::ClosedForm;
+use super::{
+    ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId, NumericKinematics,
+    Unreachable,
 };
-use super::elbow_curve::{ElbowCurve, Stretch, wrist_angles};
-use super::unreachable::Unreachable;
-use super::{JointId, KinematicTree, Limits, LinkId};
 use spatial::{Pose, trig};
-
-/// Positions up to this far (rad) outside a limit are clamped to the limit.
-const SLACK: f64 = 1e-9;
-/// Samples evaluated on each stretch before the best one is refined.
-const PLACES: usize = 9;
-/// Steps of refinement; each narrows the stretch to 62 %.
-const REFINEMENTS: usize = 8;
-
-/// A solution with its place in the solution set.
-#[derive(Clone, Debug)]
-struct Candidate {
-    stretch: Stretch,
-    share: f64,
-    /// Sum of the squared joint differences (rad²) from the seed.
-    distance: f64,
-    positions: ArmPositions,
-}
-
-/// The nearer of two candidates, or the first if they are equally near.
-fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),
-        (a, b) => a.or(b),
-    }
-}
-
-/// The orientation of the forearm before it is rolled, in the frame of the arm's base.
-fn forearm_rotation(positions: &ArmPositions) -> Matrix3<f64> {
-    let (sin, cos) = trig::sin_cos(positions[PAN]);
-    let pan = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-    pan * about_y(positions[LIFT]) * about_x(positions[ROLL]) * about_y(positions[ELBOW])
-}
-
-fn about_x(angle: f64) -> Matrix3<f64> {
-    let (sin, cos) = trig::sin_cos(angle);
-    Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
-}
-
-fn about_y(angle: f64) -> Matrix3<f64> {
-    let (sin, cos) = trig::sin_cos(angle);
-    Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos)
-}
 
 /// Inverse kinematics of one arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmKinematics {
-    chain: ArmChain,
+    solver: Solver,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Solver {
+    ClosedForm(ClosedForm),
+    Numeric(NumericKinematics),
 }
 
 impl ArmKinematics {
     /// The arm from link `base` (the torso) to link `tip` (the wrist).
-    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, ArmChainError> {
-        Ok(Self {
-            chain: ArmChain::read(tree, base, tip)?,
-        })
+    ///
+    /// # Errors
+    ///
+    /// If there is no chain of one to eight joints between the two.
+    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, JointChainError> {
+        let solver = match ClosedForm::new(tree, base, tip) {
+            Ok(solver) => Solver::ClosedForm(solver),
+            Err(_) => Solver::Numeric(NumericKinematics::new(tree, base, tip)?),
+        };
+        Ok(Self { solver })
     }
 
-    /// The joints from the shoulder to the wrist: shoulder pan, shoulder lift, upper arm
-    /// roll, elbow flex, forearm roll, wrist flex, wrist roll.
-    pub fn joints(&self) -> &[JointId; ARM_JOINTS] {
-        &self.chain.joints
+    /// Whether they are calculated: then all solutions are found, and a pose without any is proved
+    /// to be unreachable.
+    pub fn is_closed_form(&self) -> bool {
+        matches!(self.solver, Solver::ClosedForm(_))
     }
 
-    /// The limits (rad) that solutions respect; `None` for continuous joints.
-    pub fn limits(&self) -> &[Option<Limits>; ARM_JOINTS] {
-        &self.chain.limits
+    /// The joints from the shoulder to the wrist.
+    pub fn joints(&self) -> &[JointId] {
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.joints(),
+            Solver::Numeric(solver) => solver.joints(),
+        }
     }
 
-    /// The solutions with the upper arm rolled to `roll` (rad): at most two, with continuous
-    /// joints within -π..π.
-    pub fn solve(&self, wrist: &Pose, roll: f64) -> Vec<ArmPositions> {
-        let curve = ElbowCurve::new(&self.chain, wrist);
-        let found = curve.positions_at_roll(roll).into_iter().flatten();
-        found.filter_map(|q| self.within_limits(q)).collect()
+    /// The limits (rad or m) that solutions respect; `None` for continuous joints.
+    pub fn limits(&self) -> &[Option<Limits>] {
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.limits(),
+            Solver::Numeric(solver) => solver.limits(),
+        }
     }
 
     /// Solutions from every part of the solution set, with continuous joints within -π..π.
-    /// Neighbours are about `step` (rad) apart in the shoulder joint that moves most.
-    ///
-    /// Empty exactly when the pose is unreachable.
+    /// Neighbours are about `step` (rad) apart.
     pub fn solutions(&self, wrist: &Pose, step: f64) -> Vec<ArmPositions> {
-        let curve = ElbowCurve::new(&self.chain, wrist);
-        let mut found = Vec::new();
-        for stretch in curve.stretches() {
-            let at = |share: f64| {
-                let q = curve.positions(stretch.lift_at(share), stretch.bend)?;
-                self.within_limits(q)
-            };
-            let coarse: Vec<ArmPositions> =
-                (0..=8).filter_map(|i| at(f64::from(i) / 8.0)).collect();
-            let lengths = coarse.windows(2).map(|pair| {
-                let turns = (0..3).map(|j| (pair[1][j] - pair[0][j]).abs());
-                turns.fold(0.0, f64::max)
-            });
-            let length: f64 = lengths.sum();
-            let count = (length / step.max(1e-4)).ceil().clamp(1.0, 10_000.0) as u32;
-            found.extend((0..=count).filter_map(|i| at(f64::from(i) / f64::from(count))));
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.solutions(wrist, step),
+            Solver::Numeric(solver) => solver.solutions(wrist, step),
         }
-        found
     }
 
     /// Whether there is a solution at all; faster than finding one.
     pub fn reaches(&self, wrist: &Pose) -> bool {
-        let away = (wrist.translation.vector - self.chain.shoulder).norm();
-        away <= self.chain.length() && !ElbowCurve::new(&self.chain, wrist).stretches().is_empty()
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.reaches(wrist),
+            Solver::Numeric(solver) => solver.reaches(wrist),
+        }
     }
 
-    /// A solution near `seed`: continuous joints are within half a turn of the seed.
-    ///
-    /// "Near" means the least sum of squared joint differences among samples spread over all
-    /// parts of the solution set, refined around the best one. If there is no solution, the
-    /// error says why.
+    /// A solution near `seed`: continuous joints are within half a turn of the seed. If there is no
+    /// solution, or none was found, the error says why.
     pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {
-        let curve = ElbowCurve::new(&self.chain, wrist);
-        let mut best: Option<Candidate> = None;
-        for stretch in curve.stretches() {
-            for i in 0..PLACES {
-                let share = i as f64 / (PLACES - 1) as f64;
-                let found = self.candidate(&curve, stretch, share, seed);
-                best = nearer(best, found);
-            }
-        }
-        match best {
-            Some(best) => Ok(self.refine(&curve, best, seed).positions),
-            None => Err(Unreachable::explain(&self.chain, &curve)),
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.nearest(wrist, seed),
+            Solver::Numeric(solver) => solver.nearest(wrist, seed).map_err(Unreachable::Searched),
         }
     }
 
     /// The orientation of the wrist's last link in the frame of the arm's base.
     pub(crate) fn hand_rotation(&self, positions: &ArmPositions) -> Matrix3<f64> {
-        forearm_rotation(positions)
-            * about_x(positions[FOREARM])
-            * about_y(positions[FLEX])
-            * about_x(positions[WRIST])
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.hand_rotation(positions),
+            Solver::Numeric(solver) => rotation_of(&solver.forward(positions)),
+        }
     }
 
-    /// The positions with the last three joints turned so that the hand has an orientation in the frame of
-    /// the arm's base. The wrist stays where it is. `None` if that is beyond the limits.
+    /// The positions with the hand turned to an orientation in the frame of the arm's base. The
+    /// wrist stays where it is. `None` if that is beyond the limits.
     pub(crate) fn with_hand_turned(
         &self,
         positions: &ArmPositions,
         hand: &Matrix3<f64>,
     ) -> Option<ArmPositions> {
-        let [forearm, flex, wrist] = wrist_angles(&forearm_rotation(positions), hand);
-        let mut turned = *positions;
-        (turned[FOREARM], turned[FLEX], turned[WRIST]) = (forearm, flex, wrist);
-        let turned = self.within_limits(turned)?;
-        Some(self.toward_seed(turned, positions))
-    }
-
-    fn candidate(
-        &self,
-        curve: &ElbowCurve<'_>,
-        stretch: Stretch,
-        share: f64,
-        seed: &ArmPositions,
-    ) -> Option<Candidate> {
-        let positions = curve.positions(stretch.lift_at(share), stretch.bend)?;
-        let positions = self.toward_seed(self.within_limits(positions)?, seed);
-        let differences = positions.iter().zip(seed).map(|(a, b)| a - b);
-        Some(Candidate {
-            stretch,
-            share,
-            distance: differences.map(|d| d * d).sum(),
-            positions,
-        })
-    }
-
-    /// Golden-section search between the neighbours of the best sample.
-    fn refine(&self, curve: &ElbowCurve<'_>, best: Candidate, seed: &ArmPositions) -> Candidate {
-        const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        let at = |share: f64| self.candidate(curve, best.stretch, share, seed);
-        let distance = |c: &Option<Candidate>| c.as_ref().map_or(f64::INFINITY, |c| c.distance);
-        let width = 1.0 / (PLACES - 1) as f64;
-        let mut lo = (best.share - width).max(0.0);
-        let mut hi = (best.share + width).min(1.0);
-        let mut left = at(hi - GOLDEN * (hi - lo));
-        let mut right = at(lo + GOLDEN * (hi - lo));
-        for _ in 0..REFINEMENTS {
-            if distance(&left) <= distance(&right) {
-                hi = lo + GOLDEN * (hi - lo);
-                right = left;
-                left = at(hi - GOLDEN * (hi - lo));
-            } else {
-                lo = hi - GOLDEN * (hi - lo);
-                left = right;
-                right = at(lo + GOLDEN * (hi - lo));
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.with_hand_turned(positions, hand),
+            Solver::Numeric(solver) => {
+                let mut wrist = solver.forward(positions);
+                let hand = Rotation3::from_matrix_unchecked(*hand);
+                wrist.rotation = UnitQuaternion::from_rotation_matrix(&hand);
+                solver.nearest(&wrist, positions).ok()
             }
         }
-        let refined = nearer(left, right);
-        nearer(Some(best.clone()), refined).unwrap_or(best)
     }
+}
 
-    /// The positions, clamped to limits that they exceed only by rounding; `None` if they
-    /// exceed a limit by more.
-    fn within_limits(&self, mut positions: ArmPositions) -> Option<ArmPositions> {
-        for (position, limits) in positions.iter_mut().zip(&self.chain.limits) {
-            if let Some(limits) = limits {
-                if limits.excess(*position) > SLACK {
-                    return None;
-                }
-                *position = limits.clamp(*position);
-            }
-        }
-        Some(positions)
-    }
+fn rotation_of(pose: &Pose) -> Matrix3<f64> {
+    pose.rotation.to_rotation_matrix().into_inner()
+}
 
-    /// The positions with the continuous joints turned to within half a turn of the seed.
-    fn toward_seed(&self, mut positions: ArmPositions, seed: &ArmPositions) -> ArmPositions {
-        for (i, limits) in self.chain.limits.iter().enumerate() {
-            if limits.is_none() {
-                positions[i] = seed[i] + trig::wrap(positions[i] - seed[i]);
-            }
+/// The positions with the joints that have no limits turned to within half a turn of the seed.
+pub(super) fn toward_seed(
+    mut positions: ArmPositions,
+    limits: &[Option<Limits>],
+    seed: &ArmPositions,
+) -> ArmPositions {
+    for ((position, limits), seed) in positions.iter_mut().zip(limits).zip(seed) {
+        if limits.is_none() {
+            *position = seed + trig::wrap(*position - seed);
         }
-        positions
     }
+    positions
 }

@@ -2,6 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
+use serde::{Serialize, Serializer};
+
 /// The most joints that an arm may have.
 pub const MOST_ARM_JOINTS: usize = 8;
 
@@ -87,5 +89,12 @@ impl<'a> IntoIterator for &'a ArmPositions {
 
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
+    }
+}
+
+/// A sequence of numbers.
+impl Serialize for ArmPositions {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter())
     }
 }

@@ -5,6 +5,7 @@
 //! so that every name in it is a link or joint of that tree. The rest of the program
 //! uses this description and never names a link itself.
 
+use super::jaw_gap::JawGap;
 use super::{
     Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
     Side,
@@ -21,6 +22,23 @@ pub struct Speed {
     pub acceleration: f64,
 }
 
+/// How a base drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveKind {
+    /// In any direction, turning meanwhile.
+    Omnidirectional,
+    /// Ahead and back, and it turns on the spot.
+    Differential,
+}
+
+impl DriveKind {
+    /// Both, with the names that descriptions give them.
+    pub(super) const NAMED: [(&'static str, Self); 2] = [
+        ("omnidirectional", Self::Omnidirectional),
+        ("differential", Self::Differential),
+    ];
+}
+
 /// The mobile base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Base {
@@ -28,6 +46,8 @@ pub struct Base {
     pub frame: LinkId,
     /// The body.
     pub body: LinkId,
+    /// How it drives.
+    pub kind: DriveKind,
     /// Over the floor (m).
     pub drive: Speed,
     /// About the vertical axis (rad).
@@ -36,30 +56,55 @@ pub struct Base {
     pub odometry: Option<String>,
 }
 
-/// The torso lift.
+/// The torso, which a lift may raise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torso {
-    /// The link that the joint raises.
+    /// The link that the joint raises; the body of a robot without a lift.
     pub link: LinkId,
-    /// The joint.
-    pub joint: JointId,
-    /// Range of heights (m), the hard limits of the URDF.
+    /// The joint of the lift, if there is one.
+    pub joint: Option<JointId>,
+    /// Range of heights (m), the hard limits of the URDF; from 0 to 0 without a lift.
     pub limits: Limits,
     /// Height after start-up (m).
     pub start: f64,
 }
 
-/// The neck, which turns the head sideways (pan), then up and down (tilt).
+impl Torso {
+    /// Its height (m).
+    pub fn height(&self, q: &JointPositions) -> f64 {
+        self.joint.map_or(0.0, |joint| q.get(joint))
+    }
+
+    /// Sets its height (m), if it has a lift.
+    pub fn set_height(&self, q: &mut JointPositions, height: f64) {
+        if let Some(joint) = self.joint {
+            q.set(joint, height);
+        }
+    }
+}
+
+/// The neck, which turns the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Neck {
-    /// Turns the head sideways, positive to the left.
-    pub pan_joint: JointId,
-    /// What the pan joint turns.
-    pub(crate) pan_link: LinkId,
-    /// Turns the head up and down, positive downwards.
-    pub tilt_joint: JointId,
-    /// What the tilt joint turns.
-    pub(crate) tilt_link: LinkId,
+    /// Its joints, from the body on; none if the camera does not move.
+    pub joints: Vec<JointId>,
+    /// What it aims.
+    pub(crate) aim: Aim,
+}
+
+/// What a neck aims at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// The head, which turns sideways (pan, about z, positive to the left), then up and down (tilt, about y,
+    /// positive downwards).
+    PanTilt {
+        /// What the pan joint turns.
+        pan: LinkId,
+        /// What the tilt joint turns.
+        tilt: LinkId,
+    },
+    /// The z axis of a camera's optical frame.
+    Camera(LinkId),
 }
 
 /// A camera of pinhole type.
@@ -118,14 +163,26 @@ impl Arm {
         posture.map(|(_, positions)| positions)
     }
 
+    /// The names of its postures, in the order of the file.
+    pub fn posture_names(&self) -> impl Iterator<Item = &str> {
+        self.postures.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// The link that the first of its joints moves.
+    pub fn shoulder(&self, tree: &KinematicTree) -> LinkId {
+        // An arm has at least one joint.
+        let first = self.joints().first();
+        first.map_or(self.wrist, |joint| tree.joint(*joint).child)
+    }
+
     /// The joints from the shoulder to the wrist.
-    pub fn joints(&self) -> &[JointId; 7] {
+    pub fn joints(&self) -> &[JointId] {
         self.kinematics.joints()
     }
 
     /// Positions of the arm's joints.
     pub fn positions(&self, q: &JointPositions) -> ArmPositions {
-        self.joints().map(|joint| q.get(joint))
+        self.joints().iter().map(|joint| q.get(*joint)).collect()
     }
 
     /// Sets the arm's joints to the positions.
@@ -151,44 +208,98 @@ impl Arm {
 pub struct Gripper {
     /// The link that the fingers are mounted on.
     pub palm: LinkId,
-    /// The joint that moves both fingers (rad, 0 is closed).
+    /// The joint that moves both fingers (rad or m, closed at its lower limit).
     pub joint: JointId,
-    /// Limits of the joint (rad).
+    /// Limits of the joint (rad or m).
     pub limits: Limits,
     /// The links of the finger that closes from the left, then of the one from the right.
     pub fingers: [Vec<LinkId>; 2],
-    /// Joint position (rad) per metre of opening that CRAM asks for.
-    pub joint_per_metre: f64,
+    /// Joint position (rad) per metre of opening that CRAM asks for; without it, the opening is the gap.
+    pub(super) joint_per_metre: Option<f64>,
     /// Greatest force (N) with which each finger presses.
     pub effort: f64,
     /// Length along the finger and width (m) of the face of a pad, if they are known.
     pub pad_size: Option<[f64; 2]>,
-    /// From a finger's joint to its tip, along the closed finger and across it (m).
-    pub(super) tip: [f64; 2],
-    /// From the middle of the palm to a finger's joint, minus from the tip to the face of
-    /// its pad (m).
-    pub(super) pad: f64,
+    /// How its fingers move.
+    pub(super) jaws: Jaws,
 }
+
+/// How the fingers of a gripper move apart.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Jaws {
+    /// They turn, and their tips stay parallel.
+    Turning {
+        /// From a finger's joint to its tip, along the closed finger and across it (m).
+        tip: [f64; 2],
+        /// From the middle of the palm to a finger's joint, minus from the tip to the face of
+        /// its pad (m).
+        pad: f64,
+    },
+    /// As their shapes show.
+    Measured(JawGap),
+}
+
+/// The range (rad) of a joint that closes and opens fingers as fast as its speed says; others are
+/// that much faster or slower as their range is larger or smaller.
+const USUAL_RANGE: f64 = 0.548;
 
 impl Gripper {
     /// Gap (m) between the pads at a joint position (rad); slightly negative when closed.
     pub fn gap(&self, position: f64) -> f64 {
-        let (s, c) = trig::sin_cos(position);
-        2.0 * (self.tip[0] * s + self.tip[1] * c + self.pad)
+        match &self.jaws {
+            Jaws::Turning { tip, pad } => {
+                let (s, c) = trig::sin_cos(position);
+                2.0 * (tip[0] * s + tip[1] * c + pad)
+            }
+            Jaws::Measured(gap) => gap.gap(position),
+        }
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
     pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
-        let [along, across] = self.tip;
-        let aside = (0.5 * gap - self.pad) / libm::hypot(along, across);
-        self.limits
-            .clamp(trig::asin(aside) - trig::atan2(across, along))
+        let position = match &self.jaws {
+            Jaws::Turning { tip, pad } => {
+                let [along, across] = *tip;
+                let aside = (0.5 * gap - pad) / libm::hypot(along, across);
+                trig::asin(aside) - trig::atan2(across, along)
+            }
+            Jaws::Measured(measured) => measured.position_for_gap(gap),
+        };
+        self.limits.clamp(position)
     }
 
-    /// Joint position (rad), within its limits, that CRAM sets for an opening (m). Its
+    /// Joint position (rad or m), also beyond its limits, that CRAM sets for an opening (m). The PR2's
     /// real gap is 14 to 18 % smaller.
+    pub(crate) fn wanted_for_opening(&self, opening: f64) -> f64 {
+        match self.joint_per_metre {
+            Some(per_metre) => opening * per_metre,
+            None => {
+                let position = self.position_for_gap(opening);
+                // Beyond its range, a finger moves half as far as the gap grows.
+                position + 0.5 * (opening - self.gap(position))
+            }
+        }
+    }
+
+    /// As [`Self::wanted_for_opening`], within the limits.
     pub fn position_for_opening(&self, opening: f64) -> f64 {
-        self.limits.clamp(opening * self.joint_per_metre)
+        self.limits.clamp(self.wanted_for_opening(opening))
+    }
+
+    /// The opening (m), as CRAM counts it, at a joint position (rad or m).
+    pub fn opening_at(&self, position: f64) -> f64 {
+        match self.joint_per_metre {
+            Some(per_metre) => position / per_metre,
+            None => self.gap(position),
+        }
+    }
+
+    /// What speeds of a joint that turns are multiplied by (rad or m, per rad).
+    pub(crate) fn scale(&self) -> f64 {
+        match &self.jaws {
+            Jaws::Turning { .. } => 1.0,
+            Jaws::Measured(_) => (self.limits.upper - self.limits.lower) / USUAL_RANGE,
+        }
     }
 
     /// Palm and fingers.
@@ -213,14 +324,16 @@ pub struct RobotDescription {
     pub neck: Neck,
     /// The cameras, the one in use first; never empty.
     pub(crate) cameras: Vec<Camera>,
-    /// The left and the right arm.
-    pub arms: [Arm; 2],
+    /// The arms, the left one first; never empty.
+    pub arms: Vec<Arm>,
     /// Links within one group are never checked against each other.
     pub touching: Vec<Vec<LinkId>>,
     /// Links that roll on the floor; never checked against it or the robot.
     pub(crate) wheels: Vec<LinkId>,
     /// Joints that could move but never do.
     pub(crate) idle_joints: Vec<JointId>,
+    /// Joints that move as another one does, though the URDF does not say so, each with that one.
+    pub(crate) joined: Vec<(JointId, JointId)>,
     /// Names by which users call links and joints, besides those in the URDF.
     pub aliases: Vec<Alias>,
     /// Greatest velocity and acceleration of each joint, at its index.
@@ -228,9 +341,24 @@ pub struct RobotDescription {
 }
 
 impl RobotDescription {
-    /// The arm of that side.
+    /// The arm of that side. A side without an arm is refused where plans name it; here, it stands
+    /// for the only arm.
     pub fn arm(&self, side: Side) -> &Arm {
-        &self.arms[side.index()]
+        let own = self.arms.iter().find(|arm| arm.side == side);
+        // The reader refuses a file without arms.
+        own.unwrap_or(&self.arms[0])
+    }
+
+    /// The sides that have an arm, left first.
+    pub fn sides(&self) -> impl Iterator<Item = Side> + Clone + '_ {
+        self.arms.iter().map(|arm| arm.side)
+    }
+
+    /// The sides that have an arm, right first: the right arm is preferred.
+    pub fn preferred_sides(&self) -> Vec<Side> {
+        let mut sides: Vec<Side> = self.sides().collect();
+        sides.reverse();
+        sides
     }
 
     /// The camera in use.
@@ -261,7 +389,7 @@ impl RobotDescription {
     /// Positions of all joints after start-up.
     pub fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
         let mut q = tree.zero_positions();
-        q.set(self.torso.joint, self.torso.start);
+        self.torso.set_height(&mut q, self.torso.start);
         for arm in &self.arms {
             arm.set_positions(&mut q, &arm.start);
         }

@@ -2,7 +2,10 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-use super::description::{Arm, Base, Camera, Gripper, Neck, RobotDescription, Speed, Torso};
+use super::description::{
+    Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
+};
+use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
     LinkId, Side,
@@ -18,6 +21,7 @@ const RECORDS: &[(&str, &[&str])] = &[
         &[
             "frame",
             "body",
+            "drive",
             "drive-velocity",
             "drive-acceleration",
             "turn-velocity",
@@ -28,7 +32,7 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("torso", &["link", "joint", "start"]),
     (
         "neck",
-        &["pan-joint", "pan-link", "tilt-joint", "tilt-link"],
+        &["pan-joint", "pan-link", "tilt-joint", "tilt-link", "joints"],
     ),
     (
         "camera",
@@ -60,6 +64,7 @@ const RECORDS: &[(&str, &[&str])] = &[
         &[
             "palm",
             "joint",
+            "joints",
             "tip-joint",
             "pad-face",
             "pad-size",
@@ -89,12 +94,19 @@ impl RobotDescription {
         for node in file.nodes() {
             records.push(node.record("record", RECORDS)?);
         }
-        let reader = Reader {
+        let mut reader = Reader {
             tree,
             file: &file,
             records,
         };
-        reader.description()
+        // Fingers that move together are measured so.
+        let mut joined = tree.clone();
+        let followers = reader.joined()?;
+        for &(follower, leader) in &followers {
+            joined.join(follower, leader);
+        }
+        reader.tree = &joined;
+        reader.description(followers)
     }
 }
 
@@ -106,26 +118,27 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn description(&self) -> Result<RobotDescription, DataError> {
+    fn description(&self, joined: Vec<(JointId, JointId)>) -> Result<RobotDescription, DataError> {
         let robot = self.single("robot")?;
         let cameras: Vec<Camera> = self
             .all("camera")
             .map(|record| self.camera(record))
             .collect::<Result<_, _>>()?;
-        if cameras.is_empty() {
+        let Some(camera) = cameras.first() else {
             return Err(self.missing("camera"));
-        }
+        };
         let base = self.base()?;
         Ok(RobotDescription {
             name: robot.thing("name")?.symbol()?.to_owned(),
-            torso: self.torso()?,
-            neck: self.neck()?,
+            torso: self.torso(&base)?,
+            neck: self.neck(camera)?,
             cameras,
-            arms: [self.arm(Side::Left, &base)?, self.arm(Side::Right, &base)?],
+            arms: self.arms(&base)?,
             base,
             touching: self.groups("touching")?,
             wheels: self.groups("wheels")?.concat(),
             idle_joints: self.idle_joints()?,
+            joined,
             aliases: aliases(self.tree, self.all("alias"))?,
             speeds: self.speeds()?,
         })
@@ -140,8 +153,13 @@ impl<'a> Reader<'a> {
     }
 
     fn single(&self, head: &'static str) -> Result<&Record<'a>, DataError> {
+        self.optional(head)?.ok_or_else(|| self.missing(head))
+    }
+
+    /// The record with that head, if there is one.
+    fn optional(&self, head: &'static str) -> Result<Option<&Record<'a>>, DataError> {
         let mut all = self.all(head);
-        let first = all.next().ok_or_else(|| self.missing(head))?;
+        let first = all.next();
         match all.next() {
             None => Ok(first),
             Some(second) => Err(second
@@ -150,8 +168,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The record with that head for one side.
-    fn sided(&self, head: &'static str, side: Side) -> Result<&Record<'a>, DataError> {
+    /// The record with that head for one side, if there is one.
+    fn sided(&self, head: &'static str, side: Side) -> Result<Option<&Record<'a>>, DataError> {
         let mut found = None;
         for record in self.all(head) {
             let thing = record.thing("side, left or right")?;
@@ -161,7 +179,7 @@ impl<'a> Reader<'a> {
                 return Err(thing.error(DataProblem::Repeated(format!("({head} {side} …)"))));
             }
         }
-        found.ok_or_else(|| self.missing(&format!("{head} {side}")))
+        Ok(found)
     }
 
     fn link(&self, node: Node<'_>) -> Result<LinkId, DataError> {
@@ -194,6 +212,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A joint that moves on its own.
+    fn moving_joint(&self, node: Node<'_>) -> Result<JointId, DataError> {
+        let id = self.joint(node)?;
+        match self.tree.joint(id).is_actuated() {
+            true => Ok(id),
+            false => Err(node.expected("a joint that moves and follows no other one")),
+        }
+    }
+
     fn groups(&self, head: &'static str) -> Result<Vec<Vec<LinkId>>, DataError> {
         self.all(head).map(|r| self.links(r.things())).collect()
     }
@@ -209,6 +236,9 @@ impl<'a> Reader<'a> {
         let base = Base {
             frame: self.link(frame)?,
             body: self.link(record.required("body")?)?,
+            kind: record
+                .optional("drive")
+                .map_or(Ok(DriveKind::Omnidirectional), drive_kind)?,
             drive: speed(record, "drive-velocity", "drive-acceleration")?,
             turn: speed(record, "turn-velocity", "turn-acceleration")?,
             odometry: record
@@ -223,8 +253,18 @@ impl<'a> Reader<'a> {
         Ok(base)
     }
 
-    fn torso(&self) -> Result<Torso, DataError> {
-        let record = self.single("torso")?;
+    fn torso(&self, base: &Base) -> Result<Torso, DataError> {
+        let Some(record) = self.optional("torso")? else {
+            return Ok(Torso {
+                link: base.body,
+                joint: None,
+                limits: Limits {
+                    lower: 0.0,
+                    upper: 0.0,
+                },
+                start: 0.0,
+            });
+        };
         let (joint, limits) = self.limited_joint(record.required("joint")?)?;
         let start = record.required("start")?;
         let height = start.number()?;
@@ -234,19 +274,40 @@ impl<'a> Reader<'a> {
         }
         Ok(Torso {
             link: self.link(record.required("link")?)?,
-            joint,
+            joint: Some(joint),
             limits,
             start: height,
         })
     }
 
-    fn neck(&self) -> Result<Neck, DataError> {
-        let record = self.single("neck")?;
+    fn neck(&self, camera: &Camera) -> Result<Neck, DataError> {
+        let aim = Aim::Camera(camera.frame);
+        let Some(record) = self.optional("neck")? else {
+            let joints = Vec::new();
+            return Ok(Neck { joints, aim });
+        };
+        if let Some(joints) = record.optional("joints") {
+            let joints = joints.list()?;
+            let joints = joints.iter().map(|node| self.moving_joint(*node));
+            return Ok(Neck {
+                joints: joints.collect::<Result<_, _>>()?,
+                aim,
+            });
+        }
+        let joints = [
+            record.required("pan-joint")?,
+            record.required("tilt-joint")?,
+        ];
+        let [pan_joint, tilt_joint] = joints;
         Ok(Neck {
-            pan_joint: self.limited_joint(record.required("pan-joint")?)?.0,
-            pan_link: self.link(record.required("pan-link")?)?,
-            tilt_joint: self.limited_joint(record.required("tilt-joint")?)?.0,
-            tilt_link: self.link(record.required("tilt-link")?)?,
+            joints: vec![
+                self.limited_joint(pan_joint)?.0,
+                self.limited_joint(tilt_joint)?.0,
+            ],
+            aim: Aim::PanTilt {
+                pan: self.link(record.required("pan-link")?)?,
+                tilt: self.link(record.required("tilt-link")?)?,
+            },
         })
     }
 
@@ -273,8 +334,20 @@ impl<'a> Reader<'a> {
         Ok(camera)
     }
 
-    fn arm(&self, side: Side, base: &Base) -> Result<Arm, DataError> {
-        let record = self.sided("arm", side)?;
+    fn arms(&self, base: &Base) -> Result<Vec<Arm>, DataError> {
+        let mut arms = Vec::new();
+        for side in Side::BOTH {
+            if let Some(record) = self.sided("arm", side)? {
+                arms.push(self.arm(record, side, base)?);
+            }
+        }
+        match arms.is_empty() {
+            true => Err(self.missing("arm")),
+            false => Ok(arms),
+        }
+    }
+
+    fn arm(&self, record: &Record<'_>, side: Side, base: &Base) -> Result<Arm, DataError> {
         let arm_base = record.required("base")?;
         let wrist = record.required("wrist")?;
         let (base_link, wrist_link) = (self.link(arm_base)?, self.link(wrist)?);
@@ -311,7 +384,7 @@ impl<'a> Reader<'a> {
     fn postures(
         &self,
         node: Node<'_>,
-        joints: &[JointId; 7],
+        joints: &[JointId],
     ) -> Result<Vec<(String, ArmPositions)>, DataError> {
         let mut postures = Vec::new();
         for posture in node.list()? {
@@ -319,8 +392,11 @@ impl<'a> Reader<'a> {
             let name = posture.head()?;
             let numbers = items.iter().skip(1).map(Node::number);
             let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
-            let positions = ArmPositions::try_from(numbers.as_slice())
-                .map_err(|_| posture.expected("a name and seven joint positions"))?;
+            let positions = ArmPositions::try_from(numbers.as_slice()).ok();
+            let Some(positions) = positions.filter(|all| all.len() == joints.len()) else {
+                let wanted = format!("a name and {} joint positions", joints.len());
+                return Err(posture.expected(&wanted));
+            };
             for (i, (joint, position)) in joints.iter().zip(positions).enumerate() {
                 let joint = self.tree.joint(*joint);
                 if let Some(limits) = joint.limits.filter(|l| !l.contains(position)) {
@@ -336,25 +412,75 @@ impl<'a> Reader<'a> {
         Ok(postures)
     }
 
+    /// The joint that moves the fingers of a gripper, and those that move as it does.
+    fn finger_joints<'r>(
+        &self,
+        record: &Record<'r>,
+    ) -> Result<(Node<'r>, Vec<Node<'r>>), DataError> {
+        let Some(joints) = record.optional("joints") else {
+            return Ok((record.required("joint")?, Vec::new()));
+        };
+        match joints.list()?.as_slice() {
+            [] => Err(joints.expected("the joints of the fingers")),
+            [first, others @ ..] => Ok((*first, others.to_vec())),
+        }
+    }
+
+    /// The joints of fingers that move as another one does, each with that one.
+    fn joined(&self) -> Result<Vec<(JointId, JointId)>, DataError> {
+        let mut joined = Vec::new();
+        for record in self.all("gripper") {
+            let (leader, followers) = self.finger_joints(record)?;
+            let leader = self.limited_joint(leader)?.0;
+            for follower in followers {
+                joined.push((self.limited_joint(follower)?.0, leader));
+            }
+        }
+        Ok(joined)
+    }
+
     fn gripper(&self, side: Side) -> Result<Gripper, DataError> {
         let record = self.sided("gripper", side)?;
-        let (joint, limits) = self.limited_joint(record.required("joint")?)?;
-        let tip = self.joint(record.required("tip-joint")?)?;
-        let tip = self.tree.joint(tip).origin.translation.vector;
-        let finger = self.tree.joint(joint).origin.translation.vector;
+        let record = record.ok_or_else(|| self.missing(&format!("gripper {side}")))?;
+        let (joint, limits) = self.limited_joint(self.finger_joints(record)?.0)?;
+        let palm = self.link(record.required("palm")?)?;
+        let fingers = [
+            self.links(&record.required("left-finger")?.list()?)?,
+            self.links(&record.required("right-finger")?.list()?)?,
+        ];
+        let jaws = match record.optional("tip-joint") {
+            Some(tip) => {
+                let tip = self.tree.joint(self.joint(tip)?).origin.translation.vector;
+                let finger = self.tree.joint(joint).origin.translation.vector;
+                Jaws::Turning {
+                    tip: [tip.x, tip.y.abs()],
+                    pad: finger.y.abs() - record.required("pad-face")?.number()?,
+                }
+            }
+            None => {
+                let measured = JawGap::measure(
+                    self.tree,
+                    palm,
+                    &[joint],
+                    fingers.each_ref().map(Vec::as_slice),
+                );
+                let wrong = |error: JawGapError| DataProblem::Invalid(error.to_string());
+                Jaws::Measured(measured.map_err(|error| record.node().error(wrong(error)))?)
+            }
+        };
         Ok(Gripper {
-            palm: self.link(record.required("palm")?)?,
+            palm,
             joint,
             limits,
-            fingers: [
-                self.links(&record.required("left-finger")?.list()?)?,
-                self.links(&record.required("right-finger")?.list()?)?,
-            ],
-            joint_per_metre: record.required("joint-per-metre")?.positive()?,
+            fingers,
+            joint_per_metre: optional_positive(record, "joint-per-metre")?,
             effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
-            tip: [tip.x, tip.y.abs()],
-            pad: finger.y.abs() - record.required("pad-face")?.number()?,
-            pad_size: record.optional("pad-size").map(pad_size).transpose()?,
+            pad_size: match (record.optional("pad-size"), &jaws) {
+                (Some(size), _) => Some(pad_size(size)?),
+                (None, Jaws::Measured(gap)) => Some(gap.pad_size),
+                (None, Jaws::Turning { .. }) => None,
+            },
+            jaws,
         })
     }
 
@@ -384,6 +510,15 @@ impl<'a> Reader<'a> {
         }
         Ok(speeds)
     }
+}
+
+fn drive_kind(node: Node<'_>) -> Result<DriveKind, DataError> {
+    let name = node.symbol()?;
+    let mut kinds = DriveKind::NAMED.iter();
+    let kind = kinds
+        .find(|(known, _)| *known == name)
+        .map(|(_, kind)| *kind);
+    kind.ok_or_else(|| node.expected("omnidirectional or differential"))
 }
 
 /// The aliases that records `(alias NAME LINK-OR-JOINT)` give to links and joints of a tree.

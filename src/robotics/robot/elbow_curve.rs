@@ -13,7 +13,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::arm_chain::{ArmChain, ArmPositions, ELBOW, FLEX, LIFT, PAN, ROLL};
+use super::ArmPositions;
+use super::arm_chain::{ArmChain, ELBOW, FLEX, LIFT, PAN, ROLL};
 use super::polynomial::quartic_roots;
 use spatial::{Pose, trig};
 
@@ -274,7 +275,7 @@ impl<'a> ElbowCurve<'a> {
             elbow,
             ..
         } = *point;
-        [pan, lift, roll, elbow, forearm, flex, wrist]
+        [pan, lift, roll, elbow, forearm, flex, wrist].into()
     }
 
     /// Whether pan, roll and elbow are within their limits at the lift angle.

@@ -5,9 +5,10 @@
 //! time, physics or the plan language; poses are those of [`spatial`].
 
 pub(crate) mod arm_chain;
-pub(crate) mod arm_kinematics;
+pub mod arm_kinematics;
 pub mod arm_positions;
 mod chain_length;
+pub mod closed_form;
 pub mod derive;
 pub mod description;
 mod description_file;
@@ -35,9 +36,8 @@ mod urdf_shapes;
 mod urdf_text;
 mod xml_elements;
 
-pub(crate) use arm_chain::ARM_JOINTS;
-pub use arm_chain::ArmPositions;
 pub use arm_kinematics::ArmKinematics;
+pub use arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 pub use derive::{DerivedRobot, TouchTest};
 pub use description::RobotDescription;
 pub(crate) use description_file::aliases;

@@ -77,7 +77,7 @@ impl<'a> TorsoSearch<'a> {
     ) -> Self {
         let base_at = |height: f64| {
             let mut q = q.clone();
-            q.set(torso.joint, height);
+            torso.set_height(&mut q, height);
             // The reader has checked that the arm is a descendant of the frame.
             tree.relative_pose(frame, arm.base, &q)
                 .unwrap_or_else(Pose::identity)
@@ -86,7 +86,7 @@ impl<'a> TorsoSearch<'a> {
         Self {
             arm,
             limits: torso.limits,
-            current: q.get(torso.joint),
+            current: torso.height(q),
             seed: arm.positions(q),
             lowest,
             rise: base_at(1.0).translation.vector - lowest.translation.vector,

@@ -290,6 +290,24 @@ impl KinematicTree {
                 .any(|j| self.joint(j).parent == carrier)
     }
 
+    /// Lets a joint move as another one does, in the other direction if its range is on the other side of 0.
+    pub(crate) fn join(&mut self, follower: JointId, leader: JointId) {
+        let upper = |joint: JointId| self.joint(joint).limits.map_or(0.0, |limits| limits.upper);
+        let is_mirrored = (upper(follower) > 0.0) != (upper(leader) > 0.0);
+        if let Some(joint) = self.joints.get_mut(follower.0) {
+            joint.mimic = Some(Mimic {
+                joint: leader,
+                multiplier: if is_mirrored { -1.0 } else { 1.0 },
+                offset: 0.0,
+            });
+        }
+        for placed in &mut self.order {
+            if placed.joint == follower {
+                placed.leader = Some(leader);
+            }
+        }
+    }
+
     /// Every joint at zero.
     pub fn zero_positions(&self) -> JointPositions {
         JointPositions::zero(self.joints.len())

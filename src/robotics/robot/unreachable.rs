@@ -4,9 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::Limits;
-use super::arm_chain::{ARM_JOINTS, ArmChain, ArmPositions, LIFT};
+use super::arm_chain::{ARM_JOINTS, ArmChain, LIFT};
 use super::elbow_curve::ElbowCurve;
+use super::{ArmPositions, Limits, Miss};
 
 /// A joint that would have to exceed its limits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,7 +32,7 @@ impl fmt::Display for LimitViolation {
     }
 }
 
-/// Proof that a wrist pose is unreachable, and what comes nearest.
+/// Why a wrist pose is not reached: a proof, unless it was searched numerically; and what comes nearest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Unreachable {
     /// The arm is too short, or cannot fold tightly enough.
@@ -47,6 +47,8 @@ pub enum Unreachable {
         /// The violations, worst first; never empty.
         violations: Vec<LimitViolation>,
     },
+    /// What a numeric search says.
+    Searched(Miss),
 }
 
 impl Unreachable {
@@ -56,6 +58,7 @@ impl Unreachable {
         match self {
             Self::OutOfReach { missing } => 10.0 + missing,
             Self::Limits { violations, .. } => violations.first().map_or(0.0, |v| v.excess),
+            Self::Searched(miss) => miss.badness(),
         }
     }
 
@@ -109,6 +112,7 @@ impl fmt::Display for Unreachable {
                 }
                 Ok(())
             }
+            Self::Searched(miss) => miss.fmt(f),
         }
     }
 }

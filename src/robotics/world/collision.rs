@@ -424,7 +424,7 @@ mod tests {
             let models = world.models();
             let mut robot = world.robot_configuration().clone();
             robot.base = from_xy_yaw(x, y, yaw);
-            robot.joints.set(models.description.torso.joint, torso);
+            (models.description.torso).set_height(&mut robot.joints, torso);
             let arm = models.description.arm(Side::Right);
             robot.joints.set(arm.joints()[0], pan);
             robot.joints.set(arm.joints()[3], elbow);

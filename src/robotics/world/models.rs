@@ -88,6 +88,9 @@ impl Models {
         kitchen_description: KitchenDescription,
         objects: ObjectLibrary,
     ) -> Self {
+        for (follower, leader) in &description.joined {
+            robot.join(*follower, *leader);
+        }
         robot.set_aliases(description.aliases.clone());
         kitchen.set_aliases(kitchen_description.aliases.clone());
         let idle = &description.idle_joints;
@@ -105,8 +108,8 @@ impl Models {
         }
         let hand_of = |link| {
             let palm = |side: &Side| description.arm(*side).gripper.palm;
-            Side::BOTH
-                .into_iter()
+            description
+                .sides()
                 .find(|side| robot.carries(palm(side), link))
         };
         let hand_of = robot.links().map(|(link, _)| hand_of(link)).collect();
@@ -123,11 +126,8 @@ impl Models {
         });
         let hands = hands.collect();
         let is_of_arm = |link| {
-            let shoulder = |arm: &Arm| robot.joint(arm.joints()[0]).child;
-            description
-                .arms
-                .iter()
-                .any(|arm| robot.carries(shoulder(arm), link))
+            let mut arms = description.arms.iter();
+            arms.any(|arm| robot.carries(arm.shoulder(&robot), link))
         };
         let footing = |link| {
             if description.wheels.contains(&link) {
@@ -165,6 +165,27 @@ impl Models {
         }
     }
 
+    /// Another robot in the same kitchen; the description must belong to that robot.
+    #[must_use]
+    pub fn with_robot(&self, robot: KinematicTree, description: RobotDescription) -> Self {
+        let kitchen = (*self.kitchen).clone();
+        let (furnishing, objects) = (&self.kitchen_description, &self.objects);
+        let new = Self::new(
+            robot,
+            description,
+            kitchen,
+            (**furnishing).clone(),
+            (**objects).clone(),
+        );
+        Self {
+            kitchen: Arc::clone(&self.kitchen),
+            kitchen_description: Arc::clone(furnishing),
+            kitchen_geometry: Arc::clone(&self.kitchen_geometry),
+            objects: Arc::clone(objects),
+            ..new
+        }
+    }
+
     /// The same in another kitchen; the description must belong to that.
     #[must_use]
     pub fn with_kitchen(
@@ -182,6 +203,23 @@ impl Models {
             remarks: Vec::new(),
             ..self.clone()
         }
+    }
+
+    /// The same in the kitchen of others.
+    #[must_use]
+    pub fn with_kitchen_of(&self, other: &Self) -> Self {
+        Self {
+            map: other.map,
+            kitchen: Arc::clone(&other.kitchen),
+            kitchen_description: Arc::clone(&other.kitchen_description),
+            kitchen_geometry: Arc::clone(&other.kitchen_geometry),
+            ..self.clone()
+        }
+    }
+
+    /// Whether two have the same robot.
+    pub fn share_robot(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.robot, &other.robot)
     }
 
     /// Whether two have the same kitchen.

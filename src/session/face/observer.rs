@@ -95,7 +95,7 @@ impl Follower for Observer {
 
 /// The objects that the hands hold.
 fn held(world: &World) -> Vec<(Side, String)> {
-    let held = Side::BOTH.into_iter().flat_map(|side| {
+    let held = world.models().description.sides().flat_map(|side| {
         let objects = held_objects(world, side).into_iter();
         objects.map(move |object| (side, object))
     });

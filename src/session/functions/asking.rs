@@ -15,7 +15,7 @@ use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use nalgebra::Point3;
-use robotics::motion::{CollisionMode, can_reach, pan_and_tilt};
+use robotics::motion::{CollisionMode, can_reach, neck_positions};
 use robotics::perception::{Camera, Sight};
 use robotics::robot::{JointId, KinematicTree};
 use robotics::world::{BodyName, WorldError};
@@ -445,11 +445,11 @@ fn hand_reaches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
 
 fn point_head(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let pose = simulation.pose_in_map(image, &args[0])?;
-    let positions = pan_and_tilt(&simulation.world, &Point3::from(pose.translation.vector));
+    let positions = neck_positions(&simulation.world, &Point3::from(pose.translation.vector));
     let neck = &simulation.models.description.neck;
     let tree = &simulation.models.robot;
     let mut robot = simulation.world.robot_configuration().clone();
-    for (joint, position) in [neck.pan_joint, neck.tilt_joint].into_iter().zip(positions) {
+    for (&joint, position) in neck.joints.iter().zip(positions) {
         let limits = tree.joint(joint).limits;
         let position = limits.map_or(position, |limits| limits.clamp(position));
         robot.joints.set(joint, position);

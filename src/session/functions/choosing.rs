@@ -4,7 +4,7 @@ use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::grasp_choice::PlacingTarget;
-use crate::simulation::motions::{side, side_keyword, sides};
+use crate::simulation::motions::{self, side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
 use cram::Reply;
 use lisp::builtin::{Builtin, control};
@@ -54,7 +54,7 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     let object = simulation.perceived(image, &args[0])?;
     let arms = match arms.filter(Value::is_true) {
         Some(arms) => sides(image, &arms)?,
-        None => vec![Side::Right, Side::Left],
+        None => motions::arms(image).into_iter().rev().collect(),
     };
     let mut names = Vec::new();
     for grasp in listed(grasps) {

@@ -3,7 +3,7 @@
 use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
-use crate::simulation::motions::{side, side_keyword, sides};
+use crate::simulation::motions::{self, side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text};
 use cram::Reply;
 use cram::pose::value::pose_stamped;
@@ -17,7 +17,7 @@ use nalgebra::Translation3;
 use robotics::location::{Container, containers};
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
-use robotics::robot::{JointKind, Side};
+use robotics::robot::JointKind;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -163,7 +163,7 @@ fn question(
     let [arms, grasps] = keywords::parse(image, &args[2..], keys)?;
     let arms = match arms.filter(Value::is_true) {
         Some(arms) => sides(image, &arms)?,
-        None => vec![Side::Right, Side::Left],
+        None => motions::arms(image).into_iter().rev().collect(),
     };
     let grasps = grasps.map_or_else(Vec::new, |grasps| grasps.iter_list().collect());
     let position = simulation.wanted_opening(&container, Some(&args[1]))?;
@@ -224,7 +224,11 @@ fn choose_handle_grasp(
         return done(Value::values(Vec::new()));
     };
     let choice = found.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
-    let posture = choice.posture.map(Value::Double);
+    let posture = choice
+        .posture
+        .into_iter()
+        .map(Value::Double)
+        .collect::<Vec<_>>();
     done(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, choice.grasp),

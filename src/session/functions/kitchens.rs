@@ -52,7 +52,7 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
     let description = KitchenDescription::from_sexp(&kitchen.description, &name, &tree)
         .map_err(Raise::reporting)?;
     let models = simulation.models.with_kitchen(tree, description);
-    simulation.enter_kitchen(&models);
+    simulation.begin_with(&models);
     let facts = kitchen.facts;
     // As the reader makes it of a decimal fraction.
     let length = |length: f64| Value::Single(((length * 1e3).round() / 1e3) as f32);

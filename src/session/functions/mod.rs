@@ -22,6 +22,7 @@ mod prompt;
 mod reaching;
 mod robot_macros;
 mod robot_state;
+mod robots;
 mod ros;
 mod run_facts;
 mod scene;

@@ -319,16 +319,19 @@ impl Simulation {
 fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let side = side(image, &args[0])?;
     let name = type_text(image, &args[1]).unwrap_or_default();
-    let name = if name == "carry" {
-        "park"
-    } else {
-        name.as_str()
+    let arm = simulation.models.description.arm(side);
+    // A robot may be described with one posture that serves for all.
+    let names: &[&str] = match name.as_str() {
+        "carry" => &["park"],
+        "tucked" => &["tucked", "park"],
+        other => &[other],
     };
-    match simulation.models.description.arm(side).posture(name) {
+    match names.iter().find_map(|name| arm.posture(name)) {
         Some(angles) => done(Value::list(angles.iter().map(|a| Value::Double(*a)))),
         None => Err(Raise::simple(format!(
-            "The {side} arm has no posture {}.",
-            print::to_string(image, &args[1], true)
+            "The {side} arm has no posture {}: it has {}.",
+            print::to_string(image, &args[1], true),
+            arm.posture_names().collect::<Vec<_>>().join(", ")
         ))),
     }
 }
@@ -399,7 +402,9 @@ fn gripper_opening(
     let object = simulation.perceived(image, &args[0])?;
     let side = side(image, &args[1])?;
     let grasp = simulation.grasp(image, &object.kind, side, &args[2])?;
-    done(simulation.grasps.opening(&object.kind, &grasp))
+    let gripper = &simulation.models.description.arm(side).gripper;
+    let most = gripper.opening_at(gripper.limits.upper);
+    done(simulation.grasps.opening(&object.kind, &grasp).min(most))
 }
 
 fn hand_releasing_opening(

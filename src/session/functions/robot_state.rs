@@ -14,7 +14,7 @@ use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
-use robotics::motion::pan_and_tilt;
+use robotics::motion::neck_positions;
 use robotics::robot::{JointId, KinematicTree};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -121,17 +121,16 @@ fn hand_opening(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         .robot_configuration()
         .joints
         .get(gripper.joint);
-    let [now, most] =
-        [now, gripper.limits.upper].map(|q| Value::Double(q / gripper.joint_per_metre));
+    let [now, most] = [now, gripper.limits.upper].map(|q| Value::Double(gripper.opening_at(q)));
     done(Value::values(vec![now, most]))
 }
 
 fn gaze_error(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let target = simulation.pose_in_map(image, &args[0])?;
-    let wanted = pan_and_tilt(&simulation.world, &Point3::from(target.translation.vector));
+    let wanted = neck_positions(&simulation.world, &Point3::from(target.translation.vector));
     let neck = &simulation.models.description.neck;
     let joints = &simulation.world.robot_configuration().joints;
-    let now = [neck.pan_joint, neck.tilt_joint].map(|joint| joints.get(joint));
+    let now = neck.joints.iter().map(|joint| joints.get(*joint));
     let errors = wanted
         .iter()
         .zip(now)

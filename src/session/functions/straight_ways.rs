@@ -108,8 +108,9 @@ fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
     };
     let torso = number::to_f64(torso).filter(|torso| torso.is_finite());
     let torso = torso.ok_or_else(|| Raise::simple("The height of the torso is a number."))?;
-    let positions = ArmPositions::try_from(numbers(joints)?);
-    let positions = positions.map_err(|_| Raise::simple("An arm has seven joints."))?;
+    let positions = numbers(joints)?;
+    let positions = ArmPositions::try_from(positions.as_slice());
+    let positions = positions.map_err(|error| Raise::simple(format!("{error}.")))?;
     Ok((side(image, arm)?, torso, positions))
 }
 
@@ -123,7 +124,7 @@ fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> Wo
     }
     if let Some((side, torso, positions)) = posture {
         let description = &world.models().description;
-        robot.joints.set(description.torso.joint, *torso);
+        (description.torso).set_height(&mut robot.joints, *torso);
         let arm = description.arm(*side);
         arm.set_positions(&mut robot.joints, positions);
     }

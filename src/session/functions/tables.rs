@@ -37,6 +37,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-BULLET-REASONING", functions::straight_ways::TABLE),
     ("PLANWRIGHT", functions::object_types::TABLE),
     ("PLANWRIGHT", functions::kitchens::TABLE),
+    ("PLANWRIGHT", functions::robots::TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::noise::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),

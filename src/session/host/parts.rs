@@ -13,7 +13,6 @@ use lisp::types::type_of::type_of;
 use lisp::value::Value;
 use lisp::value::function::{Body, Deferred, Native};
 use lisp::value::symbol::{FunctionCell, Sym};
-use robotics::robot::Side;
 
 /// Maximum number of parts shown.
 const MAX_PARTS: usize = 60;
@@ -130,7 +129,8 @@ pub(crate) fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) 
 fn robot(host: &SimulationHost) -> View {
     let simulation = &host.simulation;
     let mut parts = vec![part("base", pose_stamped("map", &simulation.base()))];
-    for (side, name) in [(Side::Left, "left hand"), (Side::Right, "right hand")] {
+    for side in simulation.models.description.sides() {
+        let name = format!("{side} hand");
         let held = simulation.held_by(side);
         let symbols: Vec<Value> = held.iter().map(|n| simulation.symbol_of(n)).collect();
         parts.push(part(format!("{name} holds"), Value::list(symbols)));

@@ -98,8 +98,9 @@ impl Snapshot {
     /// Restores the state, in which nothing has moved by itself meanwhile.
     fn put_back(&self, simulation: &mut Simulation) {
         let state = &self.0;
-        if !simulation.models.share_kitchen(&state.models) {
-            simulation.enter_kitchen(&state.models);
+        let models = &simulation.models;
+        if !models.share_kitchen(&state.models) || !models.share_robot(&state.models) {
+            simulation.begin_with(&state.models);
         }
         simulation.world.restore(&state.world);
         simulation.names.clone_from(&state.names);

@@ -14,7 +14,7 @@ use lisp::image::Image;
 use robotics::motion::BasePlace;
 use robotics::motion::{
     CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
-    pan_and_tilt, touching_at,
+    neck_positions, touching_at,
 };
 use robotics::perception::{Sight, Visibility};
 use robotics::robot::Side;
@@ -259,8 +259,8 @@ impl Simulation {
         let neck = &self.world.models().description.neck;
         let mut world = self.world.clone();
         let mut robot = world.robot_configuration().clone();
-        let angles = pan_and_tilt(&world, &target);
-        for (joint, angle) in [neck.pan_joint, neck.tilt_joint].into_iter().zip(angles) {
+        let angles = neck_positions(&world, &target);
+        for (&joint, angle) in neck.joints.iter().zip(angles) {
             let limits = world.models().robot.joint(joint).limits;
             if limits.is_some_and(|l| angle < l.lower || angle > l.upper) {
                 return format!("driving elsewhere: the neck cannot turn to {name} from here");

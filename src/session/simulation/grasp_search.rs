@@ -141,7 +141,7 @@ impl Simulation {
         let Some(wanted) = self.wanted(image, action) else {
             return Vec::new();
         };
-        let arm = wanted.arm.unwrap_or(Side::Right);
+        let arm = self.arm_or_preferred(wanted.arm);
         let first = || self.defined_grasps(&wanted.kind, arm).first().cloned();
         let own = wanted.grasp.clone().or_else(first);
         let grasps = self.grasps_from_here(image, &wanted, own.as_deref());
@@ -149,6 +149,12 @@ impl Simulation {
             .into_iter()
             .map(|(arm, grasp)| (side_keyword(image, arm), type_keyword(image, &grasp)))
             .collect()
+    }
+
+    /// An arm, or the one that is preferred where none is given.
+    fn arm_or_preferred(&self, arm: Option<Side>) -> Side {
+        let preferred = self.models.description.preferred_sides();
+        arm.or(preferred.first().copied()).unwrap_or(Side::Right)
     }
 
     /// Arms and grasps by which an object can be reached from the current base pose, those of
@@ -160,10 +166,11 @@ impl Simulation {
         tried: Option<&str>,
     ) -> Vec<(Side, String)> {
         let base = self.base();
-        let own_arm = wanted.arm.unwrap_or(Side::Right);
-        let other_arm = own_arm.other();
+        let own_arm = self.arm_or_preferred(wanted.arm);
+        let others = self.models.description.sides();
+        let others = others.filter(|arm| *arm != own_arm);
         let mut found = Vec::new();
-        for arm in [own_arm, other_arm] {
+        for arm in std::iter::once(own_arm).chain(others) {
             if !self.held_by(arm).is_empty() {
                 continue;
             }
@@ -199,9 +206,10 @@ impl Simulation {
         image: &mut Image,
         wanted: &Wanted,
     ) -> Option<(Pose, Side, String)> {
-        let arms: Vec<Side> = wanted
-            .arm
-            .map_or(vec![Side::Right, Side::Left], |arm| vec![arm]);
+        let arms: Vec<Side> = match wanted.arm {
+            Some(arm) => vec![arm],
+            None => self.models.description.preferred_sides(),
+        };
         let mut all: Vec<String> = Vec::new();
         for arm in &arms {
             let names = self.defined_grasps(&wanted.kind, *arm).into_iter();

@@ -65,9 +65,8 @@ impl Simulation {
 
     /// The hand that holds an object.
     pub(crate) fn hand_of(&self, object: &str) -> Option<Side> {
-        [Side::Left, Side::Right]
-            .into_iter()
-            .find(|side| self.held_by(*side).iter().any(|name| name == object))
+        let mut sides = self.models.description.sides();
+        sides.find(|side| self.held_by(*side).iter().any(|name| name == object))
     }
 
     /// How a hand holds an object.

@@ -254,9 +254,9 @@ impl Simulation {
         self.looks = OnceCell::new();
     }
 
-    /// Another kitchen without objects, with the robot at its start; types of objects stay known. The
+    /// Another robot or another kitchen, without objects, with the robot at its start; types of objects stay known. The
     /// world of a snapshot may be restored then.
-    pub(super) fn enter_kitchen(&mut self, models: &Models) {
+    pub(super) fn begin_with(&mut self, models: &Models) {
         let objects = Arc::clone(&self.models.objects);
         self.models = Arc::new(models.with_objects(objects));
         self.start = Rc::default();
@@ -270,7 +270,8 @@ impl Simulation {
     pub(super) fn go_home(&mut self) {
         let home = Arc::clone(&self.home);
         if !self.models.share_kitchen(&home) {
-            self.enter_kitchen(&home);
+            let models = self.models.with_kitchen_of(&home);
+            self.begin_with(&models);
         }
     }
 

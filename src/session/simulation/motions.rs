@@ -9,6 +9,7 @@ use crate::simulation::properties::property;
 use cram::designator::MotionRequest;
 use cram::designator::failure::no_process_module;
 use cram::designator::value::current;
+use cram::designator::vocabulary::{Domain, Vocabulary};
 use cram::pose::value::frame_of;
 use lisp::image::Image;
 use lisp::print;
@@ -38,24 +39,45 @@ pub(crate) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
 
 /// The side that an argument names.
 pub(crate) fn side(image: &Image, value: &Value) -> Result<Side> {
+    let arms = arms(image);
     let text = name_text(image, value);
-    match text.as_deref() {
-        Some("LEFT") => Ok(Side::Left),
-        Some("RIGHT") => Ok(Side::Right),
-        _ => Err(Raise::simple(format!(
-            "{} is no arm: the robot has the arms :LEFT and :RIGHT.",
-            print::to_string(image, value, true)
-        ))),
+    let mut named = arms
+        .iter()
+        .filter(|arm| Some(keyword_name(**arm)) == text.as_deref());
+    named.next().copied().ok_or_else(|| {
+        let arms: Vec<String> = arms
+            .iter()
+            .map(|arm| format!(":{}", keyword_name(*arm)))
+            .collect();
+        let plural = if arms.len() == 1 { "" } else { "s" };
+        Raise::simple(format!(
+            "{} is no arm: the robot has the arm{plural} {}.",
+            print::to_string(image, value, true),
+            arms.join(" and ")
+        ))
+    })
+}
+
+/// The arms that the robot of a session has, left first.
+pub(crate) fn arms(image: &Image) -> Vec<Side> {
+    let known = image.extension::<Vocabulary>();
+    let has = |side: &Side| {
+        let known = known.as_ref();
+        known.is_none_or(|known| known.has(Domain::Arm, side.name()))
+    };
+    Side::BOTH.into_iter().filter(has).collect()
+}
+
+fn keyword_name(side: Side) -> &'static str {
+    match side {
+        Side::Left => "LEFT",
+        Side::Right => "RIGHT",
     }
 }
 
 /// `:LEFT` or `:RIGHT`.
 pub(crate) fn side_keyword(image: &mut Image, side: Side) -> Value {
-    let name = match side {
-        Side::Left => "LEFT",
-        Side::Right => "RIGHT",
-    };
-    image.keyword(name).into()
+    image.keyword(keyword_name(side)).into()
 }
 
 /// The list of finite numbers.

@@ -44,7 +44,7 @@ impl TrajectoryLines {
                     let own = description.arm(*side).joints();
                     own.iter().any(|joint| joints.contains(joint))
                 };
-                let sides = Side::BOTH.into_iter().filter(moved);
+                let sides = description.sides().filter(moved);
                 sides
                     .map(|side| Path {
                         what: Path::WHAT[1 + side.index()],

@@ -164,7 +164,7 @@ impl Record {
 
 /// The name of a file. It keeps its meaning when the session is resumed in another directory.
 fn absolute(file: &Path) -> String {
-    if session::is_generated(file) {
+    if session::is_built_in(file) {
         return file.to_string_lossy().into_owned();
     }
     let absolute = std::path::absolute(file);

@@ -325,7 +325,7 @@ impl<'w> GraspChooser<'w> {
             let search = models.description.torso_search(&models.robot, joints, side);
             let wrist = search.in_arm_base(
                 &arm.wrist_for_tool(&tool),
-                joints.get(models.description.torso.joint),
+                models.description.torso.height(joints),
             );
             let seed = arm.positions(joints);
             arm.kinematics.nearest(&wrist, &seed).err()

@@ -11,7 +11,7 @@ use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
 use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
 use crate::robot::torso_search::TorsoSearch;
-use crate::robot::{ARM_JOINTS, JointId, Side};
+use crate::robot::{ArmPositions, JointId, Side};
 use crate::world::{BodyName, CollisionHit, RobotConfiguration, World};
 use spatial::Pose;
 
@@ -108,7 +108,7 @@ impl<'w> GraspReach<'w> {
             }
         });
         let torso = &description.torso;
-        let now = world.robot_configuration().joints.get(torso.joint);
+        let now = torso.height(&world.robot_configuration().joints);
         let mut heights = vec![now];
         if torso_moves {
             let count = ((torso.limits.upper - torso.limits.lower) / HEIGHT_STEP).ceil() as u32;
@@ -214,7 +214,7 @@ impl<'w> GraspReachFrom<'w> {
         hand.torso.in_arm_base(&arm.wrist_for_tool(tool), height)
     }
 
-    fn postures(&self, side: Side, tool: &Pose, height: f64) -> Vec<[f64; ARM_JOINTS]> {
+    fn postures(&self, side: Side, tool: &Pose, height: f64) -> Vec<ArmPositions> {
         let arm = self.reach.world.models().description.arm(side);
         let wrist = self.wrist(side, tool, height);
         let all = arm.kinematics.solutions(&wrist, CONFIGURATION_STEP);
@@ -274,7 +274,9 @@ impl<'w> GraspReachFrom<'w> {
             }
             self.checks += 1;
             self.reach.postures.set(self.reach.postures() + 1);
-            let positions: Vec<f64> = std::iter::once(height).chain(posture).collect();
+            let lift = self.reach.world.models().description.torso.joint;
+            let lift = lift.map(|_| height);
+            let positions: Vec<f64> = lift.into_iter().chain(posture).collect();
             let checker = self.checker(open);
             let Some(hit) = checker.blocked(&positions) else {
                 if station.part != GraspPart::Grasp {
@@ -326,8 +328,8 @@ impl<'w> GraspReachFrom<'w> {
         } else {
             &hand.careful
         };
-        let joints: Vec<JointId> = std::iter::once(description.torso.joint)
-            .chain(*arm.joints())
+        let joints: Vec<JointId> = (description.torso.joint.into_iter())
+            .chain(arm.joints().iter().copied())
             .collect();
         let mut robot = self.robot.clone();
         let fingers = arm.gripper.position_for_opening(open.opening);

@@ -116,7 +116,7 @@ impl<'w> HandleChooser<'w> {
             (*side, torso, Shoulder::of(world, *side, true))
         });
         let torso = &models.description.torso;
-        let now = joints.get(torso.joint);
+        let now = torso.height(joints);
         let count = ((torso.limits.upper - torso.limits.lower) / HEIGHT_STEP).ceil() as u32;
         let others = (0..=count)
             .map(|i| (torso.limits.lower + f64::from(i) * HEIGHT_STEP).min(torso.limits.upper));
@@ -194,9 +194,8 @@ impl<'w> HandleChooser<'w> {
                         nothing.add(Some(*side), HandleObstacle::OutOfReach);
                         continue;
                     }
-                    robot
-                        .joints
-                        .set(self.world.models().description.torso.joint, *height);
+                    let torso_of = &self.world.models().description.torso;
+                    torso_of.set_height(&mut robot.joints, *height);
                     if checks >= self.effort.most_checks() {
                         nothing.add(Some(*side), HandleObstacle::NotTried);
                         return Err(nothing);
@@ -262,7 +261,7 @@ impl<'w> HandleChooser<'w> {
     ) -> Result<HandleChoice, HandleObstacle> {
         let models = self.world.models();
         let arm = models.description.arm(side);
-        let height = robot.joints.get(models.description.torso.joint);
+        let height = models.description.torso.height(&robot.joints);
         let Some(first) = self.way.parts.first() else {
             return Err(HandleObstacle::OutOfReach);
         };

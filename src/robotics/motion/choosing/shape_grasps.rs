@@ -99,7 +99,7 @@ impl ShapeGrasps {
         let mut grasps = Vec::new();
         let mut grip = None;
         let mut refusal = None;
-        for side in Side::BOTH {
+        for side in models.description.sides() {
             match Search::new(models, side, kind).and_then(|search| search.run(wanted)) {
                 Ok((found, own)) => {
                     grip = grip.or(Some(own));
@@ -180,10 +180,8 @@ impl<'a> Search<'a> {
             self.from(direction, &mut found);
         }
         let opening = |gap: f64| {
-            self.gripper
-                .position_for_gap(gap)
-                .min(self.gripper.limits.upper)
-                / self.gripper.joint_per_metre
+            let position = self.gripper.position_for_gap(gap);
+            (self.gripper).opening_at(position.min(self.gripper.limits.upper))
         };
         let mut chosen: Vec<(String, Found)> = Vec::new();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));

@@ -2,8 +2,9 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::robot::{ARM_JOINTS, JointId, Side};
+use crate::robot::{JointKind, Side};
 use crate::world::World;
+use spatial::Pose;
 
 /// Where an arm begins, and how far away its wrist can be.
 pub(super) struct Shoulder {
@@ -22,18 +23,37 @@ impl Shoulder {
         let joints = &world.robot_configuration().joints;
         let (arm, torso) = (models.description.arm(side), &models.description.torso);
         let tree = &models.robot;
-        let start = tree.relative_pose(models.description.base.frame, arm.base, joints);
-        let [first, rest @ ..]: &[JointId; ARM_JOINTS] = arm.joints();
-        let at = (start.unwrap_or_default() * tree.joint(*first).origin).translation;
-        let lengths = rest.iter().map(|joint| tree.joint(*joint).origin);
-        let now = joints.get(torso.joint);
+        let mut chain: Vec<_> = tree.ancestors(arm.wrist).collect();
+        chain.reverse();
+        let first = arm.joints().first();
+        let begin = chain.iter().position(|joint| Some(joint) == first);
+        let mut chain = chain
+            .into_iter()
+            .skip(begin.unwrap_or(0))
+            .map(|id| tree.joint(id));
+        // An arm has at least one joint.
+        let (parent, origin) = chain.next().map_or((arm.base, Pose::identity()), |joint| {
+            (joint.parent, joint.origin)
+        });
+        let start = tree.relative_pose(models.description.base.frame, parent, joints);
+        let at = (start.unwrap_or_default() * origin).translation;
+        let lengths = chain.map(|joint| {
+            let slides = match joint.limits {
+                Some(limits) if joint.kind == JointKind::Prismatic => {
+                    limits.lower.abs().max(limits.upper.abs())
+                }
+                _ => 0.0,
+            };
+            joint.origin.translation.vector.norm() + slides
+        });
+        let now = torso.height(joints);
         Self {
             at: at.vector.into(),
             range: match torso_moves {
                 true => [torso.limits.lower - now, torso.limits.upper - now],
                 false => [0.0, 0.0],
             },
-            length: lengths.map(|origin| origin.translation.vector.norm()).sum(),
+            length: lengths.sum(),
         }
     }
 

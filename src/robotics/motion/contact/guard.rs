@@ -140,7 +140,11 @@ pub(crate) fn pinned(world: &World, object: &str) -> Option<PinnedObject> {
 
 /// The first drawer or door that something keeps from following one of the hands.
 fn stopped_part(world: &World, is_hand: impl Fn(Side) -> bool) -> Option<StoppedPart> {
-    let mut sides = Side::BOTH.into_iter().filter(|side| is_hand(*side));
+    let mut sides = world
+        .models()
+        .description
+        .sides()
+        .filter(|side| is_hand(*side));
     sides.find_map(|side| {
         let hold = world.handle_hold(side)?;
         let hit = hold.against()?.clone();

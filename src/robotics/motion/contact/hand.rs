@@ -49,8 +49,7 @@ pub(crate) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
 /// The links of an arm, from the shoulder on, and of its hand.
 pub(crate) fn arm_names(world: &World, side: Side) -> Vec<BodyName> {
     let models = world.models();
-    let [first, ..] = models.description.arm(side).joints();
-    let shoulder = models.robot.joint(*first).child;
+    let shoulder = models.description.arm(side).shoulder(&models.robot);
     let links = models.robot.links().map(|(link, _)| link);
     let moving = links.filter(|link| models.robot.carries(shoulder, *link));
     moving.map(|link| models.robot_body(link)).collect()
@@ -142,7 +141,7 @@ fn is_between(world: &World, side: Side, handle: LinkId) -> bool {
 /// How far (m) a hand opens to let go of what it holds.
 pub fn releasing_opening(world: &World, side: Side) -> f64 {
     let gripper = &world.models().description.arm(side).gripper;
-    let now = world.robot_configuration().joints.get(gripper.joint) / gripper.joint_per_metre;
-    let most = gripper.limits.upper / gripper.joint_per_metre;
+    let now = gripper.opening_at(world.robot_configuration().joints.get(gripper.joint));
+    let most = gripper.opening_at(gripper.limits.upper);
     (now + RELEASE).min(most)
 }

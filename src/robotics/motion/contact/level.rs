@@ -2,9 +2,11 @@
 //!
 //! A hand is bound that holds something hollow upright. What lies in the hand or is upside down may turn.
 
+use std::ops::Range;
+
 use nalgebra::{Matrix3, Vector3};
 
-use crate::robot::{ARM_JOINTS, ArmKinematics, ArmPositions, JointId, Side};
+use crate::robot::{ArmKinematics, ArmPositions, JointId, Side};
 use crate::world::{Tilt, World};
 use spatial::{Pose, trig};
 
@@ -30,10 +32,13 @@ struct LevelHand<'w> {
 }
 
 impl LevelHand<'_> {
+    /// The places of the arm's joints among those that move.
+    fn range(&self) -> Range<usize> {
+        self.first..self.first + self.kinematics.joints().len()
+    }
+
     fn positions(&self, all: &[f64]) -> Option<ArmPositions> {
-        all.get(self.first..self.first + ARM_JOINTS)?
-            .try_into()
-            .ok()
+        all.get(self.range())?.try_into().ok()
     }
 
     /// The upward axis of what is held, in the frame of the arm's base.
@@ -57,7 +62,7 @@ pub(crate) struct LevelHands<'w>(Vec<LevelHand<'w>>);
 impl<'w> LevelHands<'w> {
     /// Those whose arms' joints are all among some joints.
     pub(crate) fn of(world: &'w World, joints: &[JointId]) -> Self {
-        let hands = Side::BOTH.into_iter();
+        let hands = world.models().description.sides();
         Self(
             hands
                 .filter_map(|side| level_hand(world, side, joints))
@@ -112,7 +117,7 @@ impl<'w> LevelHands<'w> {
             }
             let turned = turning(&axis, &hand.up).map(|turn| turn * rotation);
             let settled = turned.and_then(|to| hand.kinematics.with_hand_turned(&at, &to));
-            let place = positions.get_mut(hand.first..hand.first + ARM_JOINTS);
+            let place = positions.get_mut(hand.range());
             match (settled, place) {
                 (Some(settled), Some(place)) => {
                     place.copy_from_slice(&settled);
@@ -138,7 +143,7 @@ fn level_hand<'w>(world: &'w World, side: Side, joints: &[JointId]) -> Option<Le
     let (object, held) = world.upright_in_hand(side)?;
     let arm = world.models().description.arm(side);
     let own = arm.joints();
-    let first = joints.windows(ARM_JOINTS).position(|some| some == own)?;
+    let first = joints.windows(own.len()).position(|some| some == own)?;
     let palm = world.link_pose(arm.gripper.palm);
     let up = palm.rotation * held.at.rotation * Vector3::z();
     let wrist = world.link_pose(arm.wrist);

@@ -22,6 +22,7 @@ use crate::motion::trajectories::planned_trajectory::{PlannedTrajectory, Traject
 use crate::motion::trajectories::trajectory::Trajectory;
 use crate::motion::trajectories::trajectory_follower::TrajectoryFollower;
 use crate::robot::JointId;
+use crate::robot::description::DriveKind;
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, RobotConfiguration, World};
 use spatial::{Pose, pose};
@@ -135,7 +136,11 @@ impl BaseMotion {
         let mut is_free = |place: &[f64]| {
             <BasePlace>::try_from(place).is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
         };
-        let trajectory = Trajectory::rounded(&points, &limits, &mut is_free);
+        let trajectory = match base.kind {
+            DriveKind::Omnidirectional => Trajectory::rounded(&points, &limits, &mut is_free),
+            // It stops between driving and turning.
+            DriveKind::Differential => Trajectory::new(&points, &limits),
+        };
         Ok((TrajectoryFollower::new(trajectory), length_of(&path)))
     }
 
@@ -324,7 +329,7 @@ fn posture_joints(world: &World) -> impl Iterator<Item = JointId> {
         .arms
         .iter()
         .flat_map(|arm| arm.joints().iter().copied());
-    std::iter::once(description.torso.joint).chain(arms)
+    description.torso.joint.into_iter().chain(arms)
 }
 
 impl Activity for BaseMotion {

@@ -108,8 +108,8 @@ impl Grip {
         // With half of the acceleration, since steps of time are not infinitely short.
         let stopping = (acceleration * room).sqrt();
         let speed = (self.speed + acceleration * STEP_SECONDS)
-            .min(speeds::GRIP_VELOCITY)
-            .min(stopping.max(SLOWEST));
+            .min(speeds::GRIP_VELOCITY * gripper.scale())
+            .min(stopping.max(SLOWEST * gripper.scale()));
         let closer = position - speed * STEP_SECONDS;
         let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
         let mut allowed = hand_may_touch_objects(world, side);

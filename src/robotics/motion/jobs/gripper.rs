@@ -109,7 +109,7 @@ impl FingerGoal {
         match self.command {
             GripperCommand::Open => gripper.limits.upper,
             GripperCommand::Close | GripperCommand::Grip { .. } => gripper.limits.lower,
-            GripperCommand::Position(opening) => opening * gripper.joint_per_metre,
+            GripperCommand::Position(opening) => gripper.wanted_for_opening(opening),
         }
     }
 
@@ -192,7 +192,7 @@ impl JointGoal for FingerGoal {
         let joint = world.models().robot.joint(gripper.joint);
         Arrival::Failed(MotionFailure::GripperLimit {
             side: self.side,
-            goal: goal / gripper.joint_per_metre,
+            goal: gripper.opening_at(goal),
             violation: violation(joint, gripper.limits, goal),
         })
     }

@@ -1,7 +1,6 @@
 //! Turning the head to look at something.
 //!
-//! The head is aimed, not one of its cameras: the x axis of the tilted link passes through
-//! the point if the point is level with it.
+//! Of a neck that pans and tilts as the PR2's does, the head is aimed, not one of its cameras.
 
 use nalgebra::Point3;
 
@@ -10,13 +9,13 @@ use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use crate::motion::failure::joint_limit::violation;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
-use crate::motion::planning::configuration::with_joints;
+use crate::motion::planning::aim::neck_positions;
 use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
-use crate::robot::{JointId, LimitViolation, LinkId, RobotDescription};
+use crate::robot::{LimitViolation, LinkId};
 use crate::world::{AllowedPairs, CollisionHit, World};
-use spatial::{Pose, trig};
+use spatial::Pose;
 
 /// An angle farther outside its limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
@@ -127,24 +126,21 @@ impl JointGoal for LookGoal {
         if let Some(point) = &point {
             check_finite(Self::MODULE, point.coords.as_slice())?;
         }
+        let joints = world.models().description.neck.joints.clone();
         let wanted = match point {
-            None => [0.0; 2],
-            Some(point) => pan_and_tilt(world, &point),
+            None => vec![0.0; joints.len()],
+            Some(point) => neck_positions(world, &point),
         };
         let tree = &world.models().robot;
         let mut goal = Vec::new();
-        for (id, wanted) in neck_joints(&world.models().description)
-            .into_iter()
-            .zip(wanted)
-        {
-            let joint = tree.joint(id);
+        for (id, wanted) in joints.iter().zip(wanted) {
+            let joint = tree.joint(*id);
             let cropped = joint.limits.map_or(wanted, |l| l.clamp(wanted));
             goal.push(cropped);
             if let Some(l) = joint.limits.filter(|l| l.excess(wanted) > CROPPED) {
                 self.violation = Some(violation(joint, l, wanted));
             }
         }
-        let joints = neck_joints(&world.models().description).to_vec();
         let now = joints
             .iter()
             .map(|j| world.robot_configuration().joints.get(*j))
@@ -168,24 +164,4 @@ impl JointGoal for LookGoal {
     fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {
         MotionFailure::NeckBlocked { hit: hit.into() }
     }
-}
-
-fn neck_joints(body: &RobotDescription) -> [JointId; 2] {
-    [body.neck.pan_joint, body.neck.tilt_joint]
-}
-
-/// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
-pub fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
-    let tree = &world.models().robot;
-    let body = &world.models().description;
-    let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);
-    let level = with_joints(world.robot_configuration(), &neck_joints(body), &[0.0, 0.0]);
-    let frame_of = |link| tree.link_pose(link, &level.base, &level.joints);
-    // Each joint turns about an axis of its own frame: pan about z, tilt about y.
-    let seen = frame_of(pan).inverse_transform_point(point);
-    let axis = frame_of(pan).inverse() * frame_of(tilt);
-    let pan_angle = trig::atan2(seen.y, seen.x);
-    let ahead = libm::hypot(seen.x, seen.y) - axis.translation.x;
-    let tilt_angle = trig::atan2(axis.translation.z - seen.z, ahead);
-    [pan_angle, tilt_angle]
 }

@@ -12,7 +12,7 @@ use crate::motion::planning::joint_path::JointPathEffort;
 use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::planning::joint_trajectory::plan_joint_trajectory;
 use crate::motion::planning::planning_group::PlanningGroup;
-use crate::robot::{ARM_JOINTS, Side};
+use crate::robot::Side;
 use crate::world::{AllowedPairs, CollisionHit, World};
 use spatial::trig;
 
@@ -49,8 +49,9 @@ impl ArmGoal {
         let mut goal = Vec::new();
         for (side, given) in Side::BOTH.into_iter().zip(&self.positions) {
             let Some(given) = given else { continue };
-            if given.len() != ARM_JOINTS {
-                let (given, expected) = (given.len(), ARM_JOINTS);
+            let expected = world.models().description.arm(side).joints().len();
+            if given.len() != expected {
+                let given = given.len();
                 return Err(MotionFailure::JointCount {
                     side,
                     given,

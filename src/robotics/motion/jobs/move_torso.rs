@@ -36,8 +36,8 @@ fn limits(world: &World) -> Limits {
 }
 
 fn height(world: &World) -> f64 {
-    let joint = world.models().description.torso.joint;
-    world.robot_configuration().joints.get(joint)
+    let torso = &world.models().description.torso;
+    torso.height(&world.robot_configuration().joints)
 }
 
 impl JointGoal for TorsoGoal {
@@ -51,8 +51,12 @@ impl JointGoal for TorsoGoal {
 
     fn plan(&mut self, world: &World, _: u32) -> Result<JointPlan, MotionFailure> {
         check_finite(Self::MODULE, &[self.height])?;
-        let joints = vec![world.models().description.torso.joint];
-        let path = [vec![height(world)], vec![limits(world).clamp(self.height)]];
+        let lift = world.models().description.torso.joint;
+        let joints: Vec<_> = lift.into_iter().collect();
+        let path = match lift {
+            Some(_) => vec![vec![height(world)], vec![limits(world).clamp(self.height)]],
+            None => vec![],
+        };
         let speeds = speeds::limits_of(&world.models().description, &joints);
         let trajectory = Trajectory::new(&path, &speeds);
         Ok(JointPlan::new(joints, trajectory, AllowedPairs::none()))

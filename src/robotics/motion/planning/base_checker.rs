@@ -1,12 +1,13 @@
 //! Checks poses of the base for the robot's present posture.
 
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::{FRAC_PI_8, PI};
 
 use super::base_path::MARGIN;
 use super::configuration::at_place;
 use crate::motion::contact::expected_contacts::ExpectedContacts;
 use crate::motion::contact::touching::TouchingPairs;
 use crate::motion::failure::base_place::BasePlace;
+use crate::robot::description::DriveKind;
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
 };
@@ -82,18 +83,22 @@ impl<'w> BaseChecker<'w> {
 
     /// A pose at which the robot, which touches something at the start, no longer does; the
     /// straight path there leads out of the contact from the first centimetre on.
-    pub(super) fn way_out(&mut self, start: &BasePlace) -> Option<BasePlace> {
+    pub(super) fn way_out(&mut self, start: &BasePlace, drive: DriveKind) -> Option<BasePlace> {
         if self.touching.is_empty() {
             return None;
         }
         let [x, y, yaw] = *start;
-        let at = |r: f64, turn: u32| {
-            let (s, c) = trig::sin_cos(f64::from(turn) * FRAC_PI_8);
+        let at = |r: f64, direction: f64| {
+            let (s, c) = trig::sin_cos(direction);
             [x + r * c, y + r * s, yaw]
+        };
+        let directions: Vec<f64> = match drive {
+            DriveKind::Omnidirectional => (0..16).map(|i| f64::from(i) * FRAC_PI_8).collect(),
+            DriveKind::Differential => vec![yaw, yaw + PI],
         };
         let (spacing, steps) = WAY_OUT;
         for step in 1..=steps {
-            for turn in 0..16 {
+            for &turn in &directions {
                 let end = at(f64::from(step) * spacing, turn);
                 if self.touches(&end) {
                     continue;

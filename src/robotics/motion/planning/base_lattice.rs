@@ -14,8 +14,10 @@ use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 use std::f64::consts::FRAC_PI_8;
 
-use super::base_path::{Search, TURN_COST};
+use super::base_path::Search;
+use super::drive_legs::{self, BACK_COST, TURN_COST};
 use crate::motion::failure::base_place::BasePlace;
+use crate::robot::description::DriveKind;
 use crate::world::{ExploredGrid, Known};
 use spatial::trig;
 
@@ -136,10 +138,15 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         explored: &'s mut ExploredGrid,
     ) -> Self {
         let (area, goal) = (search.area, search.goal);
-        let floor = Grid::new(search.start, spacing, area.min, area.max, 0);
+        // A base that drives ahead only does so along the lines of the grid.
+        let origin = |[x, y, yaw]: BasePlace| match search.drive {
+            DriveKind::Omnidirectional => [x, y, yaw],
+            DriveKind::Differential => [x, y, 0.0],
+        };
+        let floor = Grid::new(origin(search.start), spacing, area.min, area.max, 0);
         let min = [0, 1].map(|i| area.min[i].max(goal[i] - AROUND_GOAL));
         let max = [0, 1].map(|i| area.max[i].min(goal[i] + AROUND_GOAL));
-        let around_goal = Grid::new(goal, spacing, min, max, floor.size());
+        let around_goal = Grid::new(origin(goal), spacing, min, max, floor.size());
         let size = (floor.size() + around_goal.size()) as usize;
         explored.cells.resize(floor.size() as usize, Known::Nothing);
         Self {
@@ -159,7 +166,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             let cells = self.cheapest()?;
             let places = self.unwound(&cells);
             if self.through {
-                return Some(places);
+                return Some(self.with_ends(places));
             }
             let mut good = true;
             for (leg, cells) in places.windows(2).zip(cells.windows(2)) {
@@ -170,7 +177,8 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
                 }
             }
             if good {
-                return Some(places);
+                let path = self.with_ends(places);
+                return self.ends_are_free(&path).then_some(path);
             }
         }
         None
@@ -187,6 +195,24 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     fn place(&self, cell: Cell) -> BasePlace {
         let grid = self.grid(cell);
         grid.place(grid.steps(cell))
+    }
+
+    /// The path with start and goal themselves, whose headings may be between those of the grids.
+    fn with_ends(&self, mut path: Vec<BasePlace>) -> Vec<BasePlace> {
+        if self.search.drive == DriveKind::Omnidirectional {
+            return path;
+        }
+        path.insert(0, self.search.start);
+        path.push(self.search.goal);
+        path
+    }
+
+    /// Whether the robot can turn from start to grid and from grid to goal.
+    fn ends_are_free(&mut self, path: &[BasePlace]) -> bool {
+        let last = path.len().saturating_sub(2);
+        let mut turns = [path.get(..2), path.get(last..)].into_iter().flatten();
+        self.search.drive == DriveKind::Omnidirectional
+            || turns.all(|turn| self.search.edge(&turn[0], &turn[1]).is_none())
     }
 
     /// Poses of the cells, with headings that are continuous from one to the next.
@@ -261,9 +287,15 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let spacing = grid.spacing;
         let turns = [1, -1].map(|turn| ([i, j, k + turn], TURN * TURN_COST));
         let moves = (-1..=1).flat_map(move |di| (-1..=1).map(move |dj| (di, dj)));
-        let moves = moves.filter(|step| *step != (0, 0)).map(move |(di, dj)| {
+        let drive = self.search.drive;
+        let moves = moves.filter(|step| *step != (0, 0));
+        let moves = moves.filter_map(move |(di, dj)| {
             let length = if di == 0 || dj == 0 { 1.0 } else { DIAGONAL };
-            ([i + di, j + dj, k], length * spacing)
+            let dearer = match drive {
+                DriveKind::Omnidirectional => 1.0,
+                DriveKind::Differential => along(k, (di, dj))?,
+            };
+            Some(([i + di, j + dj, k], length * spacing * dearer))
         });
         let all = turns.into_iter().chain(moves);
         all.filter_map(|(steps, cost)| Some((grid.cell(steps)?, cost)))
@@ -277,7 +309,12 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let place = self.place(cell);
         let steps = self.around_goal.nearest(&place);
         let next = self.around_goal.cell(steps)?;
-        Some((next, cost_between(&place, &self.around_goal.place(steps))))
+        let there = self.around_goal.place(steps);
+        let cost = match self.search.drive {
+            DriveKind::Omnidirectional => cost_between(&place, &there),
+            DriveKind::Differential => drive_legs::cost(self.search.drive, &place, &there),
+        };
+        Some((next, cost))
     }
 
     /// The cells of the first grid from which that of the second is the nearest.
@@ -298,8 +335,8 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     /// A* over free cells; edges are assumed to be free unless known otherwise.
     fn cheapest(&mut self) -> Option<Vec<Cell>> {
         // Both grids have their origin within them.
-        let start = self.floor.cell([0; 3])?;
-        let goal = self.around_goal.cell([0; 3])?;
+        let start = self.floor.cell(self.floor.nearest(&self.search.start))?;
+        let goal = (self.around_goal).cell(self.around_goal.nearest(&self.search.goal))?;
         self.known[start as usize] = Known::Free;
         self.known[goal as usize] = Known::Free;
         let size = self.known.len();
@@ -398,6 +435,26 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             }
         }
         true
+    }
+}
+
+/// How much more a step costs a base that drives ahead only with that heading; `None` if it is not along it.
+fn along(heading: i32, (di, dj): (i32, i32)) -> Option<f64> {
+    // The step's direction, in eighths of a turn.
+    let direction = match (di, dj) {
+        (1, 0) => 0,
+        (1, 1) => 1,
+        (0, 1) => 2,
+        (-1, 1) => 3,
+        (-1, 0) => 4,
+        (-1, -1) => 5,
+        (0, -1) => 6,
+        _ => 7,
+    };
+    match (heading - 2 * direction).rem_euclid(HEADINGS) {
+        0 => Some(1.0),
+        8 => Some(1.0 + BACK_COST),
+        _ => None,
     }
 }
 

@@ -1,14 +1,17 @@
 //! Search for a collision-free path of the robot's base over the floor.
 //!
-//! The base may move in any direction and turn in place. The straight path is tried
+//! The base may move in any direction and turn in place, or it drives ahead and back only (its legs are those of
+//! [`drive_legs`]). The straight path is tried
 //! first, then A* on a lattice of positions and headings ([`Lattice`]). The result is shortened.
 //! Paths keep a distance from obstacles where they can: the search first requires a margin, then
 //! one that is just large enough that nothing is pushed between two checked poses. The caller's closure
 //! checks for collisions, so the robot's present posture and what its arms hold are taken into account.
 
 use super::base_lattice::Lattice;
+use super::drive_legs::{self, legs, with_legs};
 use super::interruption;
 use crate::motion::failure::base_place::BasePlace;
+use crate::robot::description::DriveKind;
 use crate::world::ExploredGrids;
 use spatial::trig;
 
@@ -46,22 +49,20 @@ const NO_MARGIN_WITHIN: f64 = 0.35;
 const RESOLUTION: f64 = 0.01;
 /// Lattice spacings (m) with the clearance (m) that is kept, in the order in which they are tried.
 const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, MIN_MARGIN)];
-/// Cost of a radian of turning, in metres of driving.
-pub(super) const TURN_COST: f64 = 0.5;
 
 type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 
 /// A path from `start` to `goal`, both included; the goal's heading is unwound so that the
 /// robot turns in the shorter direction.
 ///
-/// `blocked` returns what the robot touches at a pose, or what is closer than the margin
+/// The path consists of legs as the base drives them. `blocked` returns what the robot touches at a pose, or what is closer than the margin
 /// (m). `reach` (m) is the largest distance of any part of the robot from the base's axis.
 /// `explored` is what earlier searches from the same start, with the same obstacles, have found
 /// out, or the default.
 pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
-    area: FloorArea,
+    (drive, area): (DriveKind, FloorArea),
     reach: f64,
     explored: &mut ExploredGrids,
     blocked: &mut Check<'_, P>,
@@ -77,18 +78,19 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
         start,
         goal,
         area,
+        drive,
         reach,
         margin: MARGIN,
         blocked,
     };
     if search.edge(&start, &goal).is_none() {
-        return Ok(vec![start, goal]);
+        return Ok(with_legs(drive, &[start, goal]));
     }
     let [coarse, fine, through] = explored;
     for ((spacing, margin), grid) in SPACINGS.into_iter().zip([coarse, fine]) {
         search.margin = margin;
         if let Some(path) = Lattice::new(&mut search, spacing, false, grid).path() {
-            return Ok(search.shorten(path));
+            return Ok(with_legs(drive, &search.shorten(path)));
         }
     }
     let blockers = match Lattice::new(&mut search, SPACINGS[0].0, true, through).path() {
@@ -103,6 +105,7 @@ pub(super) struct Search<'a, 'c, P> {
     pub(super) start: BasePlace,
     pub(super) goal: BasePlace,
     pub(super) area: FloorArea,
+    pub(super) drive: DriveKind,
     reach: f64,
     margin: f64,
     blocked: &'a mut Check<'c, P>,
@@ -130,8 +133,27 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
         self.spares_goal() && is_near(p, &self.goal)
     }
 
-    /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.
+    /// What blocks the way from one place to another; the ends are assumed to be free.
     pub(super) fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
+        let mut at = *from;
+        let legs = legs(self.drive, from, to);
+        let last = legs.len() - 1;
+        for (i, to) in legs.into_iter().enumerate() {
+            let from = std::mem::replace(&mut at, to);
+            if i < last
+                && let Some(p) = self.place(&to)
+            {
+                return Some(p);
+            }
+            if let Some(p) = self.leg(&from, &to) {
+                return Some(p);
+            }
+        }
+        None
+    }
+
+    /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.
+    fn leg(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
         let way =
             libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
         let parts = (way / RESOLUTION).ceil().max(1.0) as usize;
@@ -153,14 +175,32 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     fn shorten(&mut self, path: Vec<BasePlace>) -> Vec<BasePlace> {
         let mut short = self.skip(path);
         for _ in 0..3 {
-            let halved = halve(&short);
+            let halved = self.halve(&short);
             let next = self.skip(halved);
-            if cost(&next) > cost(&short) - 0.01 {
+            if self.cost(&next) > self.cost(&short) - 0.01 {
                 break;
             }
             short = next;
         }
         short
+    }
+
+    /// Adds the midpoint of every leg that is longer than 20 cm or turns more than 20 degrees.
+    fn halve(&self, path: &[BasePlace]) -> Vec<BasePlace> {
+        let mut fine: Vec<BasePlace> = path.first().copied().into_iter().collect();
+        for leg in path.windows(2) {
+            if drive_legs::cost(self.drive, &leg[0], &leg[1]) > 0.2 {
+                fine.push(between(&leg[0], &leg[1], 0.5));
+            }
+            fine.push(leg[1]);
+        }
+        fine
+    }
+
+    fn cost(&self, path: &[BasePlace]) -> f64 {
+        let legs = path.windows(2);
+        legs.map(|leg| drive_legs::cost(self.drive, &leg[0], &leg[1]))
+            .sum()
     }
 
     fn skip(&mut self, path: Vec<BasePlace>) -> Vec<BasePlace> {
@@ -199,37 +239,17 @@ fn is_near(p: &BasePlace, end: &BasePlace) -> bool {
     libm::hypot(p[0] - end[0], p[1] - end[1]) < NO_MARGIN_WITHIN
 }
 
-/// Adds the midpoint of every leg that is longer than 20 cm or turns more than 20 degrees.
-fn halve(path: &[BasePlace]) -> Vec<BasePlace> {
-    let mut fine: Vec<BasePlace> = path.first().copied().into_iter().collect();
-    for leg in path.windows(2) {
-        if step_cost(&leg[0], &leg[1]) > 0.2 {
-            fine.push(between(&leg[0], &leg[1], 0.5));
-        }
-        fine.push(leg[1]);
-    }
-    fine
-}
-
-fn cost(path: &[BasePlace]) -> f64 {
-    path.windows(2).map(|l| step_cost(&l[0], &l[1])).sum()
-}
-
 /// The pose at `fraction` of the leg.
 fn between(from: &BasePlace, to: &BasePlace, fraction: f64) -> BasePlace {
     [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * fraction)
 }
 
-/// Driving and turning at the same time cost as much as the longer of the two.
-fn step_cost(from: &BasePlace, to: &BasePlace) -> f64 {
-    let drive = libm::hypot(to[0] - from[0], to[1] - from[1]);
-    drive.max((to[2] - from[2]).abs() * TURN_COST)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spatial::trig;
 
+    const OMNIDIRECTIONAL: DriveKind = DriveKind::Omnidirectional;
     const ROOM: FloorArea = FloorArea {
         min: [-3.0, -3.0],
         max: [3.0, 3.0],
@@ -249,13 +269,72 @@ mod tests {
     ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
         let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
         let explored = &mut ExploredGrids::default();
-        find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, explored, &mut blocked)
+        find_base_path(
+            [-2.0, 0.0, 0.0],
+            goal,
+            (OMNIDIRECTIONAL, ROOM),
+            0.7,
+            explored,
+            &mut blocked,
+        )
     }
 
     #[test]
     fn a_free_straight_way_is_taken() {
         let path = find([2.0, 0.0, 0.0], |_, _, _| false);
         assert_eq!(path, Ok(vec![[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
+    }
+
+    /// As `find`, for a base that drives ahead and back only.
+    fn find_ahead(
+        goal: BasePlace,
+        wall: impl Fn(f64, f64, f64) -> bool,
+    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
+        let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
+        let drive = (DriveKind::Differential, ROOM);
+        let explored = &mut ExploredGrids::default();
+        find_base_path([-2.0, 0.0, 0.3], goal, drive, 0.7, explored, &mut blocked)
+    }
+
+    #[test]
+    fn a_differential_base_never_drives_sideways_nor_into_a_wall() {
+        let (mut found, mut legs) = (0, 0);
+        for number in 0..24 {
+            let wall = maze(number);
+            for goal in [[2.0, 1.0, 0.0], [1.8, 1.1, 2.4], [2.0, -2.0, -1.0]] {
+                let Ok(path) = find_ahead(goal, &wall) else {
+                    continue;
+                };
+                found += 1;
+                let end = path[path.len() - 1];
+                assert_eq!(end[..2], goal[..2]);
+                assert!(trig::wrap(end[2] - goal[2]).abs() < 1e-9);
+                for leg in path.windows(2) {
+                    legs += 1;
+                    let [from, to] = [leg[0], leg[1]];
+                    let (s, c) = trig::sin_cos(from[2]);
+                    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+                    assert!((dy * c - dx * s).abs() < 1e-6, "{number}: {path:?}");
+                    assert!(libm::hypot(dx, dy) < 1e-6 || to[2] == from[2]);
+                    for i in 0..=100 {
+                        let place = between(&from, &to, f64::from(i) / 100.0);
+                        assert!(!touches(&place, 0.0, &wall), "{number}: {place:?}");
+                    }
+                }
+            }
+        }
+        assert!(
+            found > 20 && legs > 2 * found,
+            "{found} paths of {legs} legs"
+        );
+    }
+
+    /// A way that only an omnidirectional base can take.
+    #[test]
+    fn a_gap_that_is_passed_sideways_is_closed_to_a_differential_base() {
+        let gap = |x: f64, y: f64, r: f64| x.abs() < 0.3 + r && (y - 1.0).abs() > 0.35 - r;
+        let result = find_ahead([2.0, 0.0, 0.0], gap);
+        assert!(matches!(result, Err(BasePathFailure::Enclosed { .. })));
     }
 
     #[test]
@@ -274,6 +353,7 @@ mod tests {
             start: path[0],
             goal: path[0],
             area: ROOM,
+            drive: OMNIDIRECTIONAL,
             reach: 0.7,
             margin: 0.0,
             blocked: &mut blocked,
@@ -334,7 +414,14 @@ mod tests {
                         *checks += 1;
                         touches(p, m, &wall).then_some("wall")
                     };
-                    find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, explored, &mut blocked)
+                    find_base_path(
+                        [-2.0, 0.0, 0.0],
+                        goal,
+                        (OMNIDIRECTIONAL, ROOM),
+                        0.7,
+                        explored,
+                        &mut blocked,
+                    )
                 };
                 let found = find(&mut explored, &mut checks[0]);
                 assert_eq!(

@@ -4,7 +4,7 @@ use super::configuration_checker::ConfigurationChecker;
 use super::joint_path::{between, blocked_between};
 use super::planning_group::PlanningGroup;
 use crate::robot::description::Arm;
-use crate::robot::{ARM_JOINTS, ArmPositions, Side};
+use crate::robot::{ArmPositions, Side};
 use crate::world::{Models, RobotConfiguration, World};
 use spatial::{Pose, pose};
 
@@ -141,36 +141,34 @@ impl CartesianTask<'_> {
         if let Some(end) = self.torso {
             let from = start.first().copied()?;
             let height = from + (end - from) * share;
-            robot
-                .joints
-                .set(self.models.description.torso.joint, height);
+            let torso = &self.models.description.torso;
+            torso.set_height(&mut robot.joints, height);
             configuration.push(height);
         }
         for line in &self.lines {
             let arm = self.models.description.arm(line.side);
             let tcp = pose::between(&line.from, &line.to, share);
-            let wrist = wrist_in_torso(self.models, &robot, arm, &tcp);
+            let wrist = wrist_in_arm_base(self.models, &robot, arm, &tcp);
             let offset = configuration.len();
-            let seed: ArmPositions = seed.get(offset..offset + ARM_JOINTS)?.try_into().ok()?;
+            let own = seed.get(offset..offset + arm.joints().len())?;
+            let seed = ArmPositions::try_from(own).ok()?;
             configuration.extend(arm.kinematics.nearest(&wrist, &seed).ok()?);
         }
         Some(configuration)
     }
 }
 
-/// The wrist pose in the frame of the torso for a tool pose in the frame of the base.
-pub(super) fn wrist_in_torso(
+/// The wrist pose in the frame of the arm's base for a tool pose in the frame of the robot's base.
+pub(super) fn wrist_in_arm_base(
     models: &Models,
     robot: &RobotConfiguration,
     arm: &Arm,
     tcp_in_base: &Pose,
 ) -> Pose {
-    let torso = models.robot.link_pose(
-        models.description.torso.link,
-        &Pose::identity(),
-        &robot.joints,
-    );
-    torso.inverse() * arm.wrist_for_tool(tcp_in_base)
+    let base = models
+        .robot
+        .link_pose(arm.base, &Pose::identity(), &robot.joints);
+    base.inverse() * arm.wrist_for_tool(tcp_in_base)
 }
 
 /// Current pose of the arm's tool in the frame of the base.

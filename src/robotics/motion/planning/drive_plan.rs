@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_8;
 
 use super::base_checker::BaseChecker;
 use super::base_path::{BasePathFailure, FloorArea, find_base_path};
+use super::drive_legs::with_legs;
 use crate::motion::failure::base_place::BasePlace;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::world::{CollisionHit, MapArea, World};
@@ -24,14 +25,23 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
     let area = floor_area(&map, &start);
     let mut checker = BaseChecker::new(world);
     let reach = checker.reach();
-    let away = checker.way_out(&start);
+    let drive = world.models().description.base.kind;
+    let away = checker.way_out(&start, drive);
     let from = away.unwrap_or(start);
     let found = world.with_explored_floor(|explored| {
-        find_base_path(from, goal, area, reach, explored, &mut |place, margin| {
-            checker.blocked(place, margin).map(Obstacle)
-        })
+        find_base_path(
+            from,
+            goal,
+            (drive, area),
+            reach,
+            explored,
+            &mut |place, margin| checker.blocked(place, margin).map(Obstacle),
+        )
     });
-    let found = found.map(|path| away.map(|_| start).into_iter().chain(path).collect());
+    let found = found.map(|path| {
+        let path: Vec<BasePlace> = away.map(|_| start).into_iter().chain(path).collect();
+        with_legs(drive, &path)
+    });
     found.map_err(|failure| match failure {
         BasePathFailure::StartOccupied(hit) => {
             MotionFailure::DriveStartOccupied { hit: hit.0.into() }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::cartesian_path::wrist_in_torso;
+use super::cartesian_path::wrist_in_arm_base;
 use crate::robot::{ArmPositions, JointKind, LinkId, Side};
 use crate::world::{HandleHold, Models, MovedPart, Part, RobotConfiguration, World};
 use spatial::{Pose, pose, trig};
@@ -136,7 +136,7 @@ pub(crate) fn follow_tools(
     let mut before = *start;
     let mut all = Vec::with_capacity(tools.len());
     for (i, tool) in tools.iter().enumerate() {
-        let wrist = wrist_in_torso(models, robot, arm, &(base * tool));
+        let wrist = wrist_in_arm_base(models, robot, arm, &(base * tool));
         let Ok(next) = arm.kinematics.nearest(&wrist, &before) else {
             break;
         };

@@ -1,12 +1,14 @@
 //! Paths without collisions: for the base over the floor, for the arms to a posture or a pose, and
 //! for a hand with what it puts down or opens.
 
+pub(crate) mod aim;
 pub(crate) mod base_checker;
 mod base_lattice;
 pub(crate) mod base_path;
 pub(crate) mod cartesian_path;
 pub(crate) mod configuration;
 pub(crate) mod configuration_checker;
+mod drive_legs;
 pub(crate) mod drive_plan;
 pub(crate) mod handle_way;
 pub mod interruption;

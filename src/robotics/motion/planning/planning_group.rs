@@ -2,7 +2,7 @@
 
 use super::joint_path::{ALL_CHAINS, PathAxis};
 use crate::robot::description::Arm;
-use crate::robot::{JointId, KinematicTree, Limits, Side};
+use crate::robot::{Joint, JointId, JointKind, KinematicTree, Limits, Side};
 use crate::world::World;
 
 /// How far (m) a hand extends beyond the wrist: its own length and what it holds.
@@ -26,8 +26,8 @@ impl PlanningGroup {
             joints: Vec::new(),
             axes: Vec::new(),
         };
-        if torso {
-            all.add(tree, body.torso.joint, ALL_CHAINS, 1.0, 0.0);
+        if let Some(lift) = body.torso.joint.filter(|_| torso) {
+            all.add(tree, lift, ALL_CHAINS, 1.0, 0.0);
         }
         for &side in sides {
             let arm = body.arm(side);
@@ -61,21 +61,40 @@ impl PlanningGroup {
     }
 }
 
-/// Upper bound (m) on the distance of any part of arm and hand from the axis of each joint.
-fn reaches(tree: &KinematicTree, arm: &Arm) -> [f64; 7] {
-    let joints = arm.kinematics.joints();
-    let length = |i: usize| tree.joint(joints[i]).origin.translation.vector.norm();
-    // From the elbow, the forearm and the hand; the roll joints turn about the link before
-    // the next bend, so its length does not count.
-    let forearm = length(5) + HAND_EXTENT;
-    let arm = length(3) + length(2) + forearm;
-    [
-        length(1) + arm,
-        arm,
-        forearm,
-        forearm,
-        HAND_EXTENT,
-        HAND_EXTENT,
-        HAND_WIDTH,
-    ]
+/// Upper bound (m) on how far any part of arm and hand moves per unit of each joint (rad or m).
+fn reaches(tree: &KinematicTree, arm: &Arm) -> Vec<f64> {
+    let joints: Vec<&Joint> = arm.joints().iter().map(|id| tree.joint(*id)).collect();
+    let length = |i: usize| {
+        let joint = joints.get(i);
+        joint.map_or(0.0, |joint| joint.origin.translation.vector.norm())
+    };
+    if arm.kinematics.is_closed_form() {
+        // From the elbow, the forearm and the hand; the roll joints turn about the link before
+        // the next bend, so its length does not count.
+        let forearm = length(5) + HAND_EXTENT;
+        let arm = length(3) + length(2) + forearm;
+        return vec![
+            length(1) + arm,
+            arm,
+            forearm,
+            forearm,
+            HAND_EXTENT,
+            HAND_EXTENT,
+            HAND_WIDTH,
+        ];
+    }
+    let mut reach = HAND_EXTENT;
+    let mut all = Vec::new();
+    for (i, joint) in joints.iter().enumerate().rev() {
+        let slides = joint.kind == JointKind::Prismatic;
+        all.push(if slides { 1.0 } else { reach });
+        reach += length(i);
+        if slides {
+            reach += joint
+                .limits
+                .map_or(0.0, |l| l.lower.abs().max(l.upper.abs()));
+        }
+    }
+    all.reverse();
+    all
 }

@@ -8,9 +8,8 @@
 use nalgebra::Translation3;
 
 use super::cartesian_path::{
-    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
+    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_arm_base,
 };
-use super::configuration::with_joints;
 use super::configuration_checker::ConfigurationChecker;
 use super::joint_path::{JointPathEffort, blocked_between};
 use super::joint_plan::JointPlan;
@@ -85,10 +84,8 @@ impl PoseGoalTask<'_> {
     }
 
     pub(super) fn torso_now(&self) -> f64 {
-        self.world
-            .robot_configuration()
-            .joints
-            .get(self.body().torso.joint)
+        let torso = &self.body().torso;
+        torso.height(&self.world.robot_configuration().joints)
     }
 
     fn torso_limits(&self) -> Limits {
@@ -114,12 +111,9 @@ impl PoseGoalTask<'_> {
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
-        let robot = with_joints(
-            self.world.robot_configuration(),
-            &[self.body().torso.joint],
-            &[height],
-        );
-        wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
+        let mut robot = self.world.robot_configuration().clone();
+        self.body().torso.set_height(&mut robot.joints, height);
+        wrist_in_arm_base(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 
     /// Tells which configurations are free. What is upright in the hands and will be stays so on the way.
@@ -139,7 +133,9 @@ impl PoseGoalTask<'_> {
         group: &PlanningGroup,
     ) -> Vec<GoalConfiguration> {
         let now = group.now(self.world);
-        let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
+        let arms = self.goals.iter();
+        let joints = arms.map(|(side, _)| self.body().arm(*side).joints().len());
+        let lead = now.len() - joints.sum::<usize>();
         let torso = if lead > 0 { vec![height] } else { Vec::new() };
         let mut all = vec![GoalConfiguration {
             cost: 0.0,
@@ -464,9 +460,10 @@ impl PoseGoalTask<'_> {
             let kinematics = &self.body().arm(*side).kinematics;
             let mut range: Option<[f64; 2]> = None;
             let mut nearest: Option<(robot::Unreachable, f64)> = None;
+            let zero = kinematics.joints().iter().map(|_| 0.0).collect();
             for height in self.heights(REASON_STEP) {
                 let wrist = self.wrist(*side, tcp, height);
-                match kinematics.nearest(&wrist, &[0.0; robot::ARM_JOINTS]) {
+                match kinematics.nearest(&wrist, &zero) {
                     Ok(_) => {
                         let [least, most] = range.unwrap_or([height; 2]);
                         range = Some([least.min(height), most.max(height)]);

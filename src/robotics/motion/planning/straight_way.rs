@@ -6,7 +6,7 @@ use super::configuration_checker::ConfigurationChecker;
 use super::planning_group::PlanningGroup;
 use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
-use crate::robot::{ARM_JOINTS, Side};
+use crate::robot::Side;
 use crate::world::World;
 use spatial::Pose;
 
@@ -71,6 +71,7 @@ pub fn straight_way(
         if starts.is_empty() {
             continue;
         }
+        let joints = world.models().description.arm(side).joints().len();
         let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &task.contacts);
         let stations: Vec<Pose> = from.iter().chain(poses).copied().collect();
         let is_free = |checker: &mut ConfigurationChecker<'_>, start: &[f64]| {
@@ -86,7 +87,7 @@ pub fn straight_way(
             }
             tried += 1;
             if follows(world, side, &group, height, &start, &stations, &mut checker) {
-                let torso_axes = start.len().saturating_sub(ARM_JOINTS);
+                let torso_axes = start.len().saturating_sub(joints);
                 return Some(WayStart {
                     torso: height,
                     arm: start.into_iter().skip(torso_axes).collect(),
@@ -107,7 +108,8 @@ fn follows(
     stations: &[Pose],
     checker: &mut ConfigurationChecker<'_>,
 ) -> bool {
-    let torso_moves = start.len() > ARM_JOINTS;
+    let joints = world.models().description.arm(side).joints().len();
+    let torso_moves = start.len() > joints;
     let mut at = start.to_vec();
     for line in stations.windows(2) {
         let [from, to] = *line else { return false };

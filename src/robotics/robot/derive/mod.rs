@@ -18,6 +18,9 @@ pub use arms::DerivedArm;
 pub use grippers::DerivedGripper;
 pub use wheels::{DerivedDrive, DerivedWheels};
 
+/// Pairs of links that a remark names.
+const MOST_PAIRS: usize = 4;
+
 /// What the links and joints of a robot seem to be for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DerivedRobot {
@@ -102,18 +105,32 @@ impl DerivedRobot {
                 let is_built = built.contains(pair) || built.contains(&(pair.1, pair.0));
                 is_built || rolls(&pair.0) || rolls(&pair.1)
             };
-            let is_free = |q: &JointPositions| touch.touching(q).iter().all(is_expected);
-            arm.park = parking::find(tree, arm, &q, is_free);
-            match &arm.park {
-                Some(park) => arm
-                    .joints
-                    .iter()
-                    .zip(park)
-                    .for_each(|(joint, at)| q.set(*joint, *at)),
-                None => remarks.push(format!(
-                    "No posture of the {} arm was found in which nothing touches.",
-                    arm.side
-                )),
+            // What else of the robot touches is no fault of the arm.
+            let first = arm.joints.first().map(|joint| tree.joint(*joint).child);
+            let is_of_arm = |link: LinkId| first.is_some_and(|first| tree.carries(first, link));
+            let hits = |q: &JointPositions| {
+                let mut pairs = touch.touching(q);
+                pairs.retain(|pair| !is_expected(pair) && (is_of_arm(pair.0) || is_of_arm(pair.1)));
+                pairs
+            };
+            let Some((park, touching)) = parking::find(tree, arm, &q, hits) else {
+                continue;
+            };
+            for (joint, position) in arm.joints.iter().zip(&park) {
+                q.set(*joint, *position);
+            }
+            arm.park = Some(park);
+            if !touching.is_empty() {
+                let pairs = touching.iter().take(MOST_PAIRS);
+                let names = pairs
+                    .map(|(a, b)| format!("{} and {}", tree.link(*a).name, tree.link(*b).name));
+                let names: Vec<String> = names.collect();
+                remarks.push(format!(
+                    "No posture of the {} arm was found in which nothing touches; in the best one {} do. \
+                     If they overlap by construction, add (touching …) records.",
+                    arm.side,
+                    names.join(", ")
+                ));
             }
         }
         Self {

@@ -16,14 +16,14 @@ const TRIED: usize = 400;
 /// Metres of reach for which a metre of height counts.
 const HEIGHT: f64 = 0.4;
 
-/// The posture of those in which nothing touches that keeps the arm nearest to the body, and low. `others`
-/// are the positions of all other joints.
+/// The posture that keeps the arm nearest to the body, and low, of those in which nothing touches, or else
+/// the least; with what does. `others` are the positions of all other joints.
 pub(super) fn find(
     tree: &KinematicTree,
     arm: &DerivedArm,
     others: &JointPositions,
-    is_free: impl Fn(&JointPositions) -> bool,
-) -> Option<ArmPositions> {
+    hits: impl Fn(&JointPositions) -> Vec<(LinkId, LinkId)>,
+) -> Option<(ArmPositions, Vec<(LinkId, LinkId)>)> {
     let kinematics = NumericKinematics::new(tree, arm.base, arm.wrist).ok()?;
     let first = *arm.joints.first()?;
     let moved: Vec<LinkId> = (tree.links())
@@ -52,11 +52,22 @@ pub(super) fn find(
         postures.push((extended(tree, &moved, &poses), posture));
     }
     postures.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let best = postures.into_iter().take(TRIED).find(|(_, posture)| {
-        set(arm, &mut q, posture);
-        is_free(&q)
-    });
-    best.map(|(_, posture)| posture)
+    let mut best: Option<(ArmPositions, Vec<(LinkId, LinkId)>)> = None;
+    for (_, posture) in postures.into_iter().take(TRIED) {
+        set(arm, &mut q, &posture);
+        let touching = hits(&q);
+        let is_better = best
+            .as_ref()
+            .is_none_or(|(_, least)| touching.len() < least.len());
+        if is_better {
+            let is_free = touching.is_empty();
+            best = Some((posture, touching));
+            if is_free {
+                break;
+            }
+        }
+    }
+    best
 }
 
 fn set(arm: &DerivedArm, q: &mut JointPositions, posture: &ArmPositions) {

@@ -96,6 +96,16 @@ pub(super) fn find(tree: &KinematicTree, remarks: &mut Vec<String>) -> DerivedWh
             driven.len()
         ));
     }
+    let has_wheels = tree
+        .links()
+        .any(|(_, link)| link.name.to_lowercase().contains("wheel"));
+    if drive == DerivedDrive::Fixed && has_wheels {
+        remarks.push(
+            "No wheel turns: the base is taken as fixed. If it drives, :drive is omnidirectional or \
+             differential, and (wheels …) names the links that roll."
+                .to_owned(),
+        );
+    }
     let axle = if is_coaxial {
         driven.first().map_or(0.0, |(at, _)| at.x)
     } else {

@@ -6,13 +6,13 @@ use crate::motion::{
     CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp,
     PoseGoal, Put, TcpPath, UnreachableReason,
 };
-use crate::robot::Side;
+use crate::robot::{ArmPositions, Side};
 use spatial::Pose;
 use spatial::pose::{angle_between, distance_between, from_xyz_rpy};
 
 const ARRIVED: Result<MotionOutcome, MotionFailure> = Ok(MotionOutcome::Arrived);
 
-fn positions(kitchen: &Kitchen, side: Side) -> [f64; 7] {
+fn positions(kitchen: &Kitchen, side: Side) -> ArmPositions {
     let arm = kitchen.world.models().description.arm(side);
     arm.positions(&kitchen.world.robot_configuration().joints)
 }
@@ -332,7 +332,7 @@ fn a_torso_goal_beyond_the_limits_is_cropped_and_then_reported() {
             failure.to_string(),
             format!("Torso goal {goal} was out of joint limits\nthe torso goes from 0 to 0.33 m")
         );
-        let joint = kitchen.world.models().description.torso.joint;
+        let joint = kitchen.world.models().description.torso.joint.unwrap();
         let height = kitchen.world.robot_configuration().joints.get(joint);
         assert!((height - reached).abs() < 1e-12);
     }

@@ -50,9 +50,8 @@ impl Kitchen {
         let mut kitchen = Self::new();
         let mut robot = kitchen.world.robot_configuration().clone();
         robot.base = from_xy_yaw(x, y, yaw_degrees.to_radians());
-        robot
-            .joints
-            .set(kitchen.world.models().description.torso.joint, torso);
+        let description = &kitchen.world.models().description;
+        description.torso.set_height(&mut robot.joints, torso);
         for arm in &kitchen.world.models().description.arms {
             arm.set_positions(&mut robot.joints, arm.posture("park").unwrap());
         }

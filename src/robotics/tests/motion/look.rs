@@ -101,8 +101,13 @@ fn a_point_behind_the_robot_twists_the_neck() {
 fn the_head_points_at_what_it_looks_at() {
     let mut kitchen = at_table(-1.6, -0.9);
     look_at(&mut kitchen, 0.65335, 0.076, 0.758);
-    let description = &kitchen.world.models().description;
-    let head = kitchen.world.link_pose(description.neck.tilt_link);
+    let head = kitchen
+        .world
+        .models()
+        .robot
+        .link_named("head_tilt_link")
+        .unwrap();
+    let head = kitchen.world.link_pose(head);
     let point =
         kitchen.world.robot_configuration().base * nalgebra::Point3::new(0.65335, 0.076, 0.758);
     let seen = head.inverse_transform_point(&point);

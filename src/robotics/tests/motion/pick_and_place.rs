@@ -109,11 +109,9 @@ fn a_bottle_near_the_robot_is_only_reached_from_behind_with_the_torso_lowered() 
             object: "bottle-1".to_owned()
         }
     );
-    let torso = kitchen
-        .world
-        .robot_configuration()
-        .joints
-        .get(kitchen.world.models().description.torso.joint);
+    let world = &kitchen.world;
+    let torso = world.models().description.torso.clone();
+    let torso = torso.height(&world.robot_configuration().joints);
     assert!(torso < 0.225, "{torso}");
 }
 

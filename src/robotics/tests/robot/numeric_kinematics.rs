@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use super::chains::{self, chain, read};
 use crate::robot::arm_positions::ArmPositions;
-use crate::robot::{ArmKinematics, KinematicTree, Miss, NumericKinematics};
+use crate::robot::closed_form::ClosedForm;
+use crate::robot::{KinematicTree, Miss, NumericKinematics};
 use descriptions::PR2_URDF;
 use nalgebra::Translation3;
 use rand_pcg::Pcg64;
@@ -72,10 +73,10 @@ fn finds_every_reachable_pose(arm: &NumericKinematics, goals: usize) {
     assert!(reached * 100 >= goals * 99, "{reached} of {goals}");
 }
 
-fn pr2_arm() -> (KinematicTree, NumericKinematics, ArmKinematics) {
+fn pr2_arm() -> (KinematicTree, NumericKinematics, ClosedForm) {
     let (tree, base, tip) = read(PR2_URDF, "torso_lift_link", "r_wrist_roll_link");
     let numeric = NumericKinematics::new(&tree, base, tip).expect("the chain can be solved");
-    let closed = ArmKinematics::new(&tree, base, tip).expect("the arm suits the closed form");
+    let closed = ClosedForm::new(&tree, base, tip).expect("the arm suits the closed form");
     (tree, numeric, closed)
 }
 
@@ -110,8 +111,8 @@ fn the_tip_is_where_the_tree_and_the_closed_form_have_it() {
     let (tree, numeric, closed) = pr2_arm();
     let [base, tip] = ["torso_lift_link", "r_wrist_roll_link"]
         .map(|name| tree.link_named(name).expect("the PR2 has an arm"));
-    assert_eq!(numeric.joints(), closed.joints().as_slice());
-    assert_eq!(numeric.limits(), closed.limits().as_slice());
+    assert_eq!(numeric.joints(), closed.joints());
+    assert_eq!(numeric.limits(), closed.limits());
     let mut postures = Postures::new();
     for _ in 0..100 {
         let posture = postures.next(&numeric);

@@ -132,7 +132,7 @@ fn the_right_arm_takes_bottle_c_from_behind_with_a_lower_torso() {
     let base = from_xy_yaw(-1.447, -0.15, -std::f64::consts::FRAC_PI_2);
     let bottle = base.inv_mul(&from_xyz_rpy(BOTTLES[2].1, [0.0; 3]));
     let mut q = tree.zero_positions();
-    q.set(pr2.torso.joint, 0.3);
+    pr2.torso.set_height(&mut q, 0.3);
     let search = pr2.torso_search(&tree, &q, Side::Right);
     for grasp in ["left-side", "right-side", "front"] {
         let poses = wrist_poses(&pr2, &grasps, &bottle, Side::Right, grasp);

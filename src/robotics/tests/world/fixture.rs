@@ -27,7 +27,7 @@ fn posture(
     name: &str,
 ) -> RobotConfiguration {
     let mut joints = models.robot.zero_positions();
-    joints.set(models.description.torso.joint, torso);
+    models.description.torso.set_height(&mut joints, torso);
     for arm in &models.description.arms {
         arm.set_positions(&mut joints, arm.posture(name).unwrap());
     }

@@ -13,8 +13,8 @@ fn looking(pan: f64, tilt: f64) -> World {
     let mut robot = carry(&models, [-1.447, -0.15, -90.0], 0.3);
     let neck = &models.description.neck;
     let mut turn = |joint: JointId, degrees: f64| robot.joints.set(joint, degrees.to_radians());
-    turn(neck.pan_joint, pan);
-    turn(neck.tilt_joint, tilt);
+    turn(neck.joints[0], pan);
+    turn(neck.joints[1], tilt);
     let mut world = World::new(models, robot);
     for (name, x, y) in [("A", -1.6, -0.9), ("B", -2.0, -0.9), ("C", -1.0, -0.75)] {
         spawn(&mut world, name, "bottle", &at(x, y, 0.8208));

@@ -25,7 +25,6 @@ use super::names::name_text;
 use cram::designator::MotionRequest;
 use lisp::image::Image;
 use robotics::motion::{Motion, ProcessModule, held_objects};
-use robotics::robot::Side;
 use robotics::world::World;
 use sweep::Draws;
 
@@ -184,8 +183,7 @@ impl Simulation {
         }
         match fault.kind {
             FaultKind::GripperSlip => {
-                let held = Side::BOTH
-                    .into_iter()
+                let held = (self.models.description.sides())
                     .flat_map(|side| held_objects(&self.world, side));
                 let mut held = held.filter(|name| fault.concerns(&self.world, name));
                 held.find_map(|name| {

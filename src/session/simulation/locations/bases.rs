@@ -3,14 +3,13 @@
 use super::properties::{raised, values};
 use super::references::References;
 use crate::simulation::Simulation;
-use crate::simulation::motions::sides;
+use crate::simulation::motions::{arms, sides};
 use crate::simulation::names::type_text;
 use cram::designator::value::{Designator, as_designator, current};
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use robotics::location::{BaseQuery, Distances, Item, Target, What};
-use robotics::robot::Side;
 use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -68,7 +67,7 @@ impl Simulation {
         };
         let mut arms = match location.property_named(image, "ARM").filter(Value::is_true) {
             Some(arm) => sides(image, &arm)?,
-            None => Side::BOTH.to_vec(),
+            None => arms(image),
         };
         let named = ["GRASP", "GRASPS"]
             .map(|key| values(image, location, key))

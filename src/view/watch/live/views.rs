@@ -45,8 +45,8 @@ fn parts(world: &World, node: impl Fn(LinkId) -> Option<u32>) -> Vec<Value> {
         }
         let neck = &description.neck;
         match () {
-            () if is_moved_by(&[neck.pan_joint, neck.tilt_joint]) => (ProcessModule::Neck, None),
-            () if is_moved_by(&[description.torso.joint]) => (ProcessModule::Torso, None),
+            () if is_moved_by(&neck.joints) => (ProcessModule::Neck, None),
+            () if is_moved_by(description.torso.joint.as_slice()) => (ProcessModule::Torso, None),
             () => (ProcessModule::Navigation, None),
         }
     };
