@@ -12,10 +12,14 @@ use super::mesh_files::SessionMeshes;
 use super::outside::Outside;
 use lisp::guard::heap::HeapLimit;
 use robotics::mesh::MeshLibrary;
-use robotics::robot::{KinematicTree, MissingNames, RobotDescription, UrdfReading, UrdfUse};
+use robotics::robot::{
+    DerivedRobot, KinematicTree, MissingNames, PostureSample, RobotDescription, UrdfReading,
+    UrdfUse,
+};
 use robotics::sexp::DataError;
 use robotics::world::noise::NoiseLevels;
 use robotics::world::object_library::{OBJECTS, ObjectLibrary};
+use robotics::world::self_touching::SelfTouching;
 use robotics::world::{KitchenDescription, Models};
 
 /// What a session starts with.
@@ -216,6 +220,20 @@ impl SessionOptions {
         let mut models = Models::new(robot, description, kitchen, furnishing, objects);
         models.remarks = remarks;
         Ok(models)
+    }
+
+    /// A description of the robot's links and joints that follows from its URDF, with comments on what
+    /// is assumed or missing.
+    ///
+    /// # Errors
+    ///
+    /// If the URDF cannot be read.
+    pub fn derived_description(&self) -> Result<String, SessionError> {
+        let tree = self
+            .tree(&self.robot, [PR2_URDF, "pr2.urdf"], UrdfUse::Robot)?
+            .tree;
+        let touching = SelfTouching::new(&tree, PostureSample::default());
+        Ok(DerivedRobot::of(&tree, &touching).text(&tree))
     }
 
     /// Reads the tree in a URDF that is given as its name and text, or in the one that is built in.

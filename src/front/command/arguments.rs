@@ -6,6 +6,7 @@ use clap::{Parser, Subcommand};
 use super::ask::AskArguments;
 use super::check::CheckArguments;
 use super::completions::CompletionsArguments;
+use super::describe_robot::DescribeRobotArguments;
 use super::grade::GradeArguments;
 use super::jupyter::JupyterCommand;
 use super::mcp::McpArguments;
@@ -72,6 +73,9 @@ pub(crate) enum Command {
     Jupyter(JupyterCommand),
     /// Find mistakes in plan files without running them
     Check(CheckArguments),
+    /// Write a description of a robot for --robot-description: what follows from its URDF, with comments
+    /// on what is assumed or missing
+    DescribeRobot(DescribeRobotArguments),
     /// Print the reference manual in Markdown
     Reference,
     /// Print the manual page, as in `planwright man | man -l -`

@@ -12,6 +12,7 @@ mod ask;
 mod cache;
 mod check;
 mod completions;
+mod describe_robot;
 mod failure;
 mod grade;
 mod heap;
@@ -108,6 +109,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check(wanted)) => check::check(options, &wanted),
+        Some(Command::DescribeRobot(wanted)) => describe_robot::describe(options, &wanted),
         Some(Command::Reference) => reference::print(),
         Some(Command::Man) => man::print(Arguments::command()),
         Some(Command::Completions(wanted)) => completions::print(Arguments::command(), &wanted),

@@ -34,12 +34,6 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
         Ok((path.display().to_string(), text))
     };
-    let read_urdf = |path: &Path| -> Result<(String, String), CommandError> {
-        let wrong = |error: String| CommandError::Open(format!("{}: {error}", path.display()));
-        let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
-        let text = urdf_text(&bytes).map_err(wrong)?;
-        Ok((path.display().to_string(), text))
-    };
     let generated = options.world.as_deref().filter(|world| is_generated(world));
     let shipped = options.robot.as_deref();
     let shipped = shipped.filter(|robot| is_shipped_robot(robot));
@@ -123,6 +117,27 @@ pub(crate) fn open_default() -> Result<Session, String> {
     crate::precompiled::provide();
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open_session(&arguments.options).map_err(|error| error.to_string())
+}
+
+/// Name and text of a URDF.
+fn read_urdf(path: &Path) -> Result<(String, String), CommandError> {
+    let wrong = |error: String| CommandError::Open(format!("{}: {error}", path.display()));
+    let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
+    let text = urdf_text(&bytes).map_err(wrong)?;
+    Ok((path.display().to_string(), text))
+}
+
+/// Options that are about nothing but the robot of a file.
+pub(in crate::command) fn robot_options(
+    options: &Options,
+    file: &Path,
+) -> Result<SessionOptions, CommandError> {
+    Ok(SessionOptions {
+        robot: Some(read_urdf(file)?),
+        package_paths: package_paths(&options.package_path)?,
+        mesh_cache: cache::directory("meshes"),
+        ..SessionOptions::default()
+    })
 }
 
 /// The folders of packages: those that are given, then those of ROS.

@@ -201,6 +201,16 @@ impl JawGap {
         }
     }
 
+    /// Whether the left jaw is on the side of the palm to which none of its axes points: then what is
+    /// called left here is to be called right.
+    pub fn is_mirrored(&self) -> bool {
+        let axis = self.grip.rotation * Vector3::y();
+        [axis.x, axis.y, axis.z]
+            .into_iter()
+            .find(|part| part.abs() > 0.5)
+            .is_some_and(|part| part < 0.0)
+    }
+
     /// Whether greater positions of the leading joint open the gripper.
     pub fn opens_up(&self) -> bool {
         self.open().0 > self.closed().0

@@ -9,6 +9,7 @@ pub mod arm_kinematics;
 pub mod arm_positions;
 mod chain_length;
 pub mod closed_form;
+pub mod derive;
 pub mod description;
 mod description_file;
 mod elbow_curve;
@@ -37,6 +38,7 @@ mod xml_elements;
 
 pub use arm_kinematics::ArmKinematics;
 pub use arm_positions::{ArmPositions, MOST_ARM_JOINTS};
+pub use derive::{DerivedRobot, TouchTest};
 pub use description::RobotDescription;
 pub(crate) use description_file::aliases;
 pub use fit::MissingNames;

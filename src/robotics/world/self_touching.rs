@@ -7,11 +7,57 @@ use parry3d_f64::query;
 
 use super::link_geometry::{LinkSolids, TreeGeometry};
 use super::solid::{Solid, from_parry_vector, to_parry};
-use crate::robot::{JointId, JointPositions, KinematicTree, LinkId, PostureSample, TouchingPairs};
+use crate::robot::{
+    JointId, JointPositions, KinematicTree, LinkId, PostureSample, TouchTest, TouchingPairs,
+};
 use spatial::Pose;
 
 /// An overlap (m) that is none: pieces of meshes bulge a little.
 const BULGE: f64 = 0.001;
+
+/// The solids of a robot, prepared for questions of what of it touches what.
+pub struct SelfTouching<'a> {
+    tree: &'a KinematicTree,
+    geometry: TreeGeometry,
+    sample: PostureSample,
+}
+
+impl<'a> SelfTouching<'a> {
+    /// Prepares the robot; `sample` says which postures are tried to find out what touches always.
+    pub fn new(tree: &'a KinematicTree, sample: PostureSample) -> Self {
+        Self {
+            tree,
+            geometry: TreeGeometry::new(tree, |_| false),
+            sample,
+        }
+    }
+}
+
+impl TouchTest for SelfTouching<'_> {
+    fn pairs(&self, stands: &dyn Fn(JointId) -> bool) -> TouchingPairs {
+        let solid = &self.geometry.solid_links;
+        let links: Vec<LinkId> = solid.iter().map(|solids| solids.link).collect();
+        // The places are those of the list from which the links are.
+        let touch = |[i, j]: [usize; 2], poses: &[Pose]| do_touch(&solid[i], &solid[j], poses);
+        TouchingPairs::sampled(self.tree, self.sample, stands, &links, touch)
+    }
+
+    fn touching(&self, q: &JointPositions) -> Vec<(LinkId, LinkId)> {
+        let solid = &self.geometry.solid_links;
+        let mut poses = Vec::new();
+        self.tree
+            .forward_kinematics(&Pose::identity(), q, &mut poses);
+        let mut touching = Vec::new();
+        for (i, one) in solid.iter().enumerate() {
+            let hit = solid
+                .iter()
+                .skip(i + 1)
+                .filter(|other| do_touch(one, other, &poses));
+            touching.extend(hit.map(|other| (one.link, other.link)));
+        }
+        touching
+    }
+}
 
 /// Tries random postures; `stands` selects joints that could move but never do.
 pub fn touching_pairs(
@@ -19,26 +65,12 @@ pub fn touching_pairs(
     sample: PostureSample,
     stands: impl Fn(JointId) -> bool,
 ) -> TouchingPairs {
-    let geometry = TreeGeometry::new(tree, |_| false);
-    let solid = &geometry.solid_links;
-    let links: Vec<LinkId> = solid.iter().map(|solids| solids.link).collect();
-    // The places are those of the list from which the links are.
-    let touch = |[i, j]: [usize; 2], poses: &[Pose]| do_touch(&solid[i], &solid[j], poses);
-    TouchingPairs::sampled(tree, sample, stands, &links, touch)
+    SelfTouching::new(tree, sample).pairs(&stands)
 }
 
 /// All pairs of links that touch in a posture, the one that comes first in the file first.
 pub fn touching_links(tree: &KinematicTree, q: &JointPositions) -> Vec<(LinkId, LinkId)> {
-    let geometry = TreeGeometry::new(tree, |_| false);
-    let mut poses = Vec::new();
-    tree.forward_kinematics(&Pose::identity(), q, &mut poses);
-    let mut touching = Vec::new();
-    for (i, one) in geometry.solid_links.iter().enumerate() {
-        let others = geometry.solid_links.iter().skip(i + 1);
-        let hit = others.filter(|other| do_touch(one, other, &poses));
-        touching.extend(hit.map(|other| (one.link, other.link)));
-    }
-    touching
+    SelfTouching::new(tree, PostureSample::default()).touching(q)
 }
 
 /// Whether two links touch, given the poses of all.
