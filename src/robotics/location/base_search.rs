@@ -12,6 +12,7 @@ use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
 use crate::motion::{BaseChecker, Effort, MIN_MARGIN, interruption};
+use crate::robot::description::DriveKind;
 use crate::world::{World, WorldError};
 use spatial::{Pose, pose};
 
@@ -141,6 +142,10 @@ impl BaseSearch {
             is_second_look,
             ..
         } = self;
+        if scene.world.models().description.base.kind == DriveKind::Fixed {
+            tally.add("the robot's base does not drive".to_owned());
+            return Ok(None);
+        }
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
         let mut counted = 0;
         loop {

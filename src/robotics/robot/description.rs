@@ -29,13 +29,16 @@ pub enum DriveKind {
     Omnidirectional,
     /// Ahead and back, and it turns on the spot.
     Differential,
+    /// Not at all.
+    Fixed,
 }
 
 impl DriveKind {
-    /// Both, with the names that descriptions give them.
-    pub(super) const NAMED: [(&'static str, Self); 2] = [
+    /// All, with the names that descriptions give them.
+    pub(super) const NAMED: [(&'static str, Self); 3] = [
         ("omnidirectional", Self::Omnidirectional),
         ("differential", Self::Differential),
+        ("fixed", Self::Fixed),
     ];
 }
 

@@ -518,7 +518,7 @@ fn drive_kind(node: Node<'_>) -> Result<DriveKind, DataError> {
     let kind = kinds
         .find(|(known, _)| *known == name)
         .map(|(_, kind)| *kind);
-    kind.ok_or_else(|| node.expected("omnidirectional or differential"))
+    kind.ok_or_else(|| node.expected("omnidirectional, differential or fixed"))
 }
 
 /// The aliases that records `(alias NAME LINK-OR-JOINT)` give to links and joints of a tree.

@@ -7,9 +7,10 @@ impl MotionFailure {
     /// Name of CRAM's failure class, by which handlers catch this failure.
     pub fn class_name(&self) -> &'static str {
         match self {
-            Self::GoalOccupied { .. } | Self::GoalOffMap { .. } | Self::Enclosed { .. } => {
-                "NAVIGATION-POSE-UNREACHABLE"
-            }
+            Self::GoalOccupied { .. }
+            | Self::GoalOffMap { .. }
+            | Self::BaseIsFixed { .. }
+            | Self::Enclosed { .. } => "NAVIGATION-POSE-UNREACHABLE",
             Self::DriveStartOccupied { .. }
             | Self::DriveBlocked { .. }
             | Self::DrivePushes { .. } => "NAVIGATION-GOAL-NOT-REACHED",

@@ -62,6 +62,12 @@ pub enum MotionFailure {
         /// The obstacles on the path with the fewest collisions.
         blockers: Vec<BodyName>,
     },
+    /// The robot has no drive, and is to go elsewhere.
+    #[error("the robot cannot go to {}: its base does not drive", place(.goal))]
+    BaseIsFixed {
+        /// Goal of the base, in the map frame.
+        goal: BasePlace,
+    },
     /// The robot is in collision and cannot drive out of it.
     #[error("the robot cannot drive: {}", touch(.hit))]
     DriveStartOccupied {

@@ -137,7 +137,9 @@ impl BaseMotion {
             <BasePlace>::try_from(place).is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
         };
         let trajectory = match base.kind {
-            DriveKind::Omnidirectional => Trajectory::rounded(&points, &limits, &mut is_free),
+            DriveKind::Omnidirectional | DriveKind::Fixed => {
+                Trajectory::rounded(&points, &limits, &mut is_free)
+            }
             // It stops between driving and turning.
             DriveKind::Differential => Trajectory::new(&points, &limits),
         };

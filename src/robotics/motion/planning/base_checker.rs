@@ -93,7 +93,9 @@ impl<'w> BaseChecker<'w> {
             [x + r * c, y + r * s, yaw]
         };
         let directions: Vec<f64> = match drive {
-            DriveKind::Omnidirectional => (0..16).map(|i| f64::from(i) * FRAC_PI_8).collect(),
+            DriveKind::Omnidirectional | DriveKind::Fixed => {
+                (0..16).map(|i| f64::from(i) * FRAC_PI_8).collect()
+            }
             DriveKind::Differential => vec![yaw, yaw + PI],
         };
         let (spacing, steps) = WAY_OUT;

@@ -140,7 +140,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let (area, goal) = (search.area, search.goal);
         // A base that drives ahead only does so along the lines of the grid.
         let origin = |[x, y, yaw]: BasePlace| match search.drive {
-            DriveKind::Omnidirectional => [x, y, yaw],
+            DriveKind::Omnidirectional | DriveKind::Fixed => [x, y, yaw],
             DriveKind::Differential => [x, y, 0.0],
         };
         let floor = Grid::new(origin(search.start), spacing, area.min, area.max, 0);
@@ -199,7 +199,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
 
     /// The path with start and goal themselves, whose headings may be between those of the grids.
     fn with_ends(&self, mut path: Vec<BasePlace>) -> Vec<BasePlace> {
-        if self.search.drive == DriveKind::Omnidirectional {
+        if self.search.drive != DriveKind::Differential {
             return path;
         }
         path.insert(0, self.search.start);
@@ -211,7 +211,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     fn ends_are_free(&mut self, path: &[BasePlace]) -> bool {
         let last = path.len().saturating_sub(2);
         let mut turns = [path.get(..2), path.get(last..)].into_iter().flatten();
-        self.search.drive == DriveKind::Omnidirectional
+        self.search.drive != DriveKind::Differential
             || turns.all(|turn| self.search.edge(&turn[0], &turn[1]).is_none())
     }
 
@@ -292,7 +292,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let moves = moves.filter_map(move |(di, dj)| {
             let length = if di == 0 || dj == 0 { 1.0 } else { DIAGONAL };
             let dearer = match drive {
-                DriveKind::Omnidirectional => 1.0,
+                DriveKind::Omnidirectional | DriveKind::Fixed => 1.0,
                 DriveKind::Differential => along(k, (di, dj))?,
             };
             Some(([i + di, j + dj, k], length * spacing * dearer))
@@ -311,7 +311,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let next = self.around_goal.cell(steps)?;
         let there = self.around_goal.place(steps);
         let cost = match self.search.drive {
-            DriveKind::Omnidirectional => cost_between(&place, &there),
+            DriveKind::Omnidirectional | DriveKind::Fixed => cost_between(&place, &there),
             DriveKind::Differential => drive_legs::cost(self.search.drive, &place, &there),
         };
         Some((next, cost))

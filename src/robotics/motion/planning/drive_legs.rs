@@ -19,7 +19,7 @@ pub(super) const BACK_COST: f64 = 0.5;
 pub(super) fn legs(drive: DriveKind, from: &BasePlace, to: &BasePlace) -> Vec<BasePlace> {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let way = libm::hypot(dx, dy);
-    if drive == DriveKind::Omnidirectional || way < NO_WAY {
+    if drive != DriveKind::Differential || way < NO_WAY {
         return vec![*to];
     }
     let ahead = trig::atan2(dy, dx);

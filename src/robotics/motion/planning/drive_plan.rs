@@ -7,8 +7,12 @@ use super::base_path::{BasePathFailure, FloorArea, find_base_path};
 use super::drive_legs::with_legs;
 use crate::motion::failure::base_place::BasePlace;
 use crate::motion::failure::motion_failure::MotionFailure;
+use crate::robot::description::DriveKind;
 use crate::world::{CollisionHit, MapArea, World};
 use spatial::{pose, trig};
+
+/// A goal this near (m, rad) is where a base that does not drive stands.
+const SAME_PLACE: f64 = 1e-3;
 
 /// Poses tried around an occupied goal: spacing (m) and number of rings.
 const NEARBY: (f64, u32) = (0.05, 16);
@@ -26,6 +30,14 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
     let mut checker = BaseChecker::new(world);
     let reach = checker.reach();
     let drive = world.models().description.base.kind;
+    if drive == DriveKind::Fixed {
+        let way = libm::hypot(goal[0] - start[0], goal[1] - start[1]);
+        let turn = trig::wrap(goal[2] - start[2]).abs();
+        return match way.max(turn) <= SAME_PLACE {
+            true => Ok(vec![start]),
+            false => Err(MotionFailure::BaseIsFixed { goal }),
+        };
+    }
     let away = checker.way_out(&start, drive);
     let from = away.unwrap_or(start);
     let found = world.with_explored_floor(|explored| {
