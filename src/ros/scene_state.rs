@@ -41,6 +41,8 @@ pub struct SceneState {
     pub base: Pose,
     /// Positions (rad or m) of the model's joints, in their order.
     pub positions: Vec<f64>,
+    /// How fast (rad/s or m/s) they have moved since the state before, if that was shortly before.
+    pub velocities: Option<Vec<f64>>,
     /// Poses of the frames that the joints move, in their parents' frames.
     pub poses: Vec<Pose>,
     /// Positions of the furniture's joints.
@@ -56,6 +58,8 @@ pub struct SceneState {
 pub struct ObjectState {
     /// Its name.
     pub name: String,
+    /// Its type, and which definition of that it was made by.
+    pub type_name: (String, u32),
     /// Its pose in the map.
     pub pose: Pose,
     /// Its shapes, in its frame.
@@ -128,10 +132,13 @@ impl SceneModel {
             .map(|object| (object.name.as_str(), object))
             .collect();
         let objects = world.objects().filter_map(|object| {
-            let known = known.get(object.name()).map(|known| &known.shapes);
-            let known = known.filter(|known| known[..] == *object.shapes());
+            let type_name = (object.type_name().to_owned(), object.edition());
+            let known = known.get(object.name());
+            let known = known.filter(|known| known.type_name == type_name);
+            let known = known.map(|known| &known.shapes);
             Some(ObjectState {
                 name: object.name().to_owned(),
+                type_name,
                 pose: world.object_pose(object.name()).ok()?,
                 shapes: known.map_or_else(|| object.shapes().into(), Arc::clone),
                 color: object.color(),
@@ -141,12 +148,13 @@ impl SceneModel {
         let poses = moving
             .clone()
             .map(|(_, parent, child)| world.link_pose(*parent).inverse() * world.link_pose(*child));
+        let positions = moving.map(|(id, ..)| models.robot.position(&configuration.joints, *id));
+        let positions: Vec<f64> = positions.collect();
         SceneState {
             time,
             base: configuration.base,
-            positions: moving
-                .map(|(id, ..)| models.robot.position(&configuration.joints, *id))
-                .collect(),
+            velocities: velocities(&positions, &before.positions, time - before.time),
+            positions,
             poses: poses.collect(),
             furniture_positions: self
                 .moving_furniture
@@ -159,6 +167,35 @@ impl SceneModel {
                 .map(|link| world.furniture_pose(*link))
                 .collect(),
             objects: objects.collect(),
+        }
+    }
+}
+
+/// The longest time (s) over which a difference is a velocity.
+const MAX_SECONDS: f64 = 0.2;
+
+fn velocities(now: &[f64], before: &[f64], seconds: f64) -> Option<Vec<f64>> {
+    let is_near = seconds > 0.0 && seconds <= MAX_SECONDS && now.len() == before.len();
+    let pairs = now.iter().zip(before);
+    is_near.then(|| {
+        pairs
+            .map(|(now, before)| (now - before) / seconds)
+            .collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene_state::*;
+
+    #[test]
+    fn velocities_are_differences_by_time() {
+        assert_eq!(
+            velocities(&[1.0, 0.0], &[0.5, 0.0], 0.125),
+            Some(vec![4.0, 0.0])
+        );
+        for (before, seconds) in [(&[0.5][..], 0.1), (&[0.5, 0.5], 0.0), (&[0.5, 0.5], 5.0)] {
+            assert_eq!(velocities(&[1.0, 0.0], before, seconds), None);
         }
     }
 }

@@ -40,6 +40,16 @@ pub(crate) struct Arguments {
     /// unless --realtime says otherwise
     #[arg(long)]
     pub(crate) view: bool,
+    /// Show the session to nodes of ROS 2, with messages of a distribution such as humble [default:
+    /// ROS_DISTRO, or jazzy]; simulated time then passes in real time unless --realtime says otherwise
+    #[arg(
+        long,
+        value_name = "DISTRIBUTION",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    pub(crate) ros2: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }
@@ -117,6 +127,18 @@ mod tests {
         };
         assert!(run.watch.view && run.watch.record.is_some());
         assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
+    }
+
+    #[test]
+    fn the_distribution_of_ros_may_be_left_out() {
+        let before = parsed(&["--ros2=humble", "run", "a.plan"]);
+        assert!(before.is_ok_and(|a| a.ros2.as_deref() == Some("humble")));
+        let run = parsed(&["run", "--ros2", "a.plan"]);
+        let Some(Command::Run(run)) = run.ok().and_then(|a| a.command) else {
+            panic!("no run");
+        };
+        assert_eq!(run.watch.ros2.as_deref(), Some(""));
+        assert_eq!(run.files.len(), 1);
     }
 
     #[test]

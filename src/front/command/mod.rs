@@ -27,6 +27,7 @@ mod pipe;
 mod prompt;
 mod reference;
 mod replay;
+mod ros2;
 mod run;
 mod stack;
 mod stop_at;
@@ -87,6 +88,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
     let watch = WatchArguments {
         view: arguments.view,
+        ros2: arguments.ros2.clone(),
         ..WatchArguments::default()
     };
     match arguments.command {
@@ -96,6 +98,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         None => pipe::evaluate_standard_input(arguments.options, &arguments.prompt, &watch),
         Some(Command::Run(mut wanted)) => {
             wanted.watch.view |= arguments.view;
+            wanted.watch.ros2 = wanted.watch.ros2.or(arguments.ros2);
             run::run(options, &wanted)
         }
         Some(Command::View(wanted)) => view_recording::view(options, &wanted),

@@ -18,24 +18,16 @@ pub fn clock(now: Duration) -> Value {
     Value::record([("clock", time(now))])
 }
 
-/// All joints with their positions, and how fast they have moved since an earlier state, which was `seconds` ago.
+/// All joints with their positions and velocities; without these, they stand still.
 pub fn joint_states(
     stamp: Duration,
     names: &[String],
     positions: &[f64],
-    before: Option<(&[f64], f64)>,
+    velocities: Option<&[f64]>,
 ) -> Value {
-    let before =
-        before.filter(|(before, seconds)| before.len() == positions.len() && *seconds > 0.0);
-    let velocities = before.map_or_else(
-        || vec![0.0; positions.len()],
-        |(before, seconds)| {
-            let pairs = positions.iter().zip(before);
-            pairs
-                .map(|(now, before)| (now - before) / seconds)
-                .collect()
-        },
-    );
+    let still = vec![0.0; positions.len()];
+    let velocities = velocities.filter(|velocities| velocities.len() == positions.len());
+    let velocities = velocities.unwrap_or(&still).iter().copied();
     Value::record([
         ("header", header(stamp, "")),
         ("name", Value::texts(names.iter().cloned())),
