@@ -13,6 +13,7 @@ use super::options::Options;
 use super::picture::PictureArguments;
 use super::prompt::PromptOptions;
 use super::replay::ReplayArguments;
+use super::robot::RobotArguments;
 use super::run::RunArguments;
 use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
@@ -75,6 +76,8 @@ pub(crate) enum Command {
     Grade(Box<GradeArguments>),
     /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output)
     Mcp(McpArguments),
+    /// Be a robot for others: carry out the goals that nodes of ROS 2 send, until Ctrl-C
+    Robot(RobotArguments),
     /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect
     Swank(SwankOptions),
     /// Use planwright in notebooks of Jupyter

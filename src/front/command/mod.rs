@@ -27,6 +27,7 @@ mod pipe;
 mod prompt;
 mod reference;
 mod replay;
+mod robot;
 mod ros2;
 mod run;
 mod stack;
@@ -108,6 +109,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Ask(wanted)) => ask::ask(options, &wanted),
         Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
         Some(Command::Mcp(wanted)) => mcp::mcp(options, &wanted),
+        Some(Command::Robot(wanted)) => robot::robot(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check(wanted)) => check::check(options, &wanted),

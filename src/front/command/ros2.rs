@@ -22,8 +22,8 @@ mod node {
     /// What a session sends; it ends with this.
     pub(crate) struct Publishing {
         // In this order they end: who speaks before what it speaks by.
-        _broadcast: Broadcast,
-        _node: Node,
+        pub(crate) broadcast: Broadcast,
+        pub(crate) node: Node,
     }
 
     /// Shows the session from now on, with the messages of a distribution, or of the environment's if the name
@@ -48,10 +48,7 @@ mod node {
             io::stderr(),
             "The session is a node of ROS 2 ({name}) in {reach}"
         );
-        Ok(Publishing {
-            _broadcast: broadcast,
-            _node: node,
-        })
+        Ok(Publishing { broadcast, node })
     }
 
     /// The distribution of a name; that of the environment, if it is one whose messages are known, for an empty

@@ -178,7 +178,7 @@ impl Gripper {
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
-    pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
+    pub fn position_for_gap(&self, gap: f64) -> f64 {
         let [along, across] = self.tip;
         let aside = (0.5 * gap - self.pad) / libm::hypot(along, across);
         self.limits

@@ -27,11 +27,34 @@ const BETWEEN_MARKERS: Duration = Duration::from_millis(100);
 /// A robot whose state is older than this (real time) does not move.
 const STILL: Duration = Duration::from_millis(100);
 
-/// The newest state, with the real time at which the session left it.
-type Newest = Arc<Mutex<(Arc<SceneState>, Instant)>>;
+/// The newest state of a session, which every thread may ask for.
+#[derive(Clone)]
+pub struct Newest(Arc<Mutex<(Arc<SceneState>, Instant)>>);
+
+impl Newest {
+    /// The state.
+    pub fn state(&self) -> Arc<SceneState> {
+        self.get().0
+    }
+
+    /// The state with the real time at which the session left it.
+    fn get(&self) -> (Arc<SceneState>, Instant) {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+
+    fn set(&self, state: SceneState) {
+        let mut newest = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *newest = (Arc::new(state), Instant::now());
+    }
+}
 
 /// A session that is sent. Ends when it is dropped.
 pub struct Broadcast {
+    model: Arc<SceneModel>,
+    newest: Newest,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -51,7 +74,7 @@ impl Broadcast {
         description: &str,
     ) -> Result<(Self, Follow), NodeError> {
         let model = Arc::new(SceneModel::new(models));
-        let newest = Arc::new(Mutex::new((Arc::default(), Instant::now())));
+        let newest = Newest(Arc::new(Mutex::new((Arc::default(), Instant::now()))));
         let topics = Topics::open(node)?;
         topics.description.send(&message::text(description))?;
         topics
@@ -60,7 +83,7 @@ impl Broadcast {
         let (stop, stopped) = channel();
         let sender = Sending {
             model: Arc::clone(&model),
-            newest: Arc::clone(&newest),
+            newest: newest.clone(),
             topics,
             markers: Markers::default(),
         };
@@ -71,6 +94,8 @@ impl Broadcast {
             cause: error.to_string(),
         })?;
         let broadcast = Self {
+            model: Arc::clone(&model),
+            newest: newest.clone(),
             stop: Some(stop),
             thread: Some(thread),
         };
@@ -80,6 +105,16 @@ impl Broadcast {
             left: None,
         };
         Ok((broadcast, follow))
+    }
+
+    /// What never changes.
+    pub fn model(&self) -> &Arc<SceneModel> {
+        &self.model
+    }
+
+    /// What the session is like.
+    pub fn newest(&self) -> &Newest {
+        &self.newest
     }
 }
 
@@ -101,12 +136,11 @@ impl Follower for Follow {
             return;
         }
         self.left = Some(now);
-        let before = Arc::clone(&self.newest.lock().unwrap_or_else(PoisonError::into_inner).0);
+        let before = self.newest.state();
         let state = self
             .model
             .state(observation.time, observation.world, &before);
-        let mut newest = self.newest.lock().unwrap_or_else(PoisonError::into_inner);
-        *newest = (Arc::new(state), now);
+        self.newest.set(state);
     }
 
     fn hear(&mut self, _time: f64, _event: &WatchEvent) {}
@@ -183,8 +217,7 @@ impl Sending {
     }
 
     fn send(&mut self) {
-        let newest = self.newest.lock();
-        let (state, left) = newest.unwrap_or_else(PoisonError::into_inner).clone();
+        let (state, left) = self.newest.get();
         if state.positions.len() != self.model.joints.len() {
             // The session has not left any state yet.
             return;

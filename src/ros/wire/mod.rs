@@ -7,6 +7,6 @@ mod payload;
 mod service;
 
 pub use action_server::{ActionServer, Wish};
-pub use broadcast::{Broadcast, Follow};
+pub use broadcast::{Broadcast, Follow, Newest};
 pub use node::{Node, NodeError, Reliability, Retention, TopicQos, TopicWriter};
 pub use service::{RequestId, Service};
