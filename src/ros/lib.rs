@@ -18,7 +18,7 @@ pub mod wire;
 
 pub use distribution::{Distribution, UnknownDistribution};
 pub use layout::{Field, FieldType, LayoutError, Layouts, Multiplicity, Scalar};
-pub use names::{action_type, service_type, topic_type};
+pub use names::{action_type, service, service_type, topic, topic_type};
 pub use reach::{Reach, ReachError};
 pub use scene_state::{ObjectState, SceneModel, SceneState};
 pub use value::Value;

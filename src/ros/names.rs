@@ -11,12 +11,12 @@ pub fn topic_type(message: &str) -> String {
 }
 
 /// The DDS topic of a topic of ROS.
-pub(crate) fn topic(name: &str) -> String {
+pub fn topic(name: &str) -> String {
     format!("rt/{}", name.trim_start_matches('/'))
 }
 
 /// The DDS topics of a service: that of requests and that of replies.
-pub(crate) fn service(name: &str) -> [String; 2] {
+pub fn service(name: &str) -> [String; 2] {
     let name = name.trim_start_matches('/');
     [format!("rq/{name}Request"), format!("rr/{name}Reply")]
 }

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 import time
 import xml.etree.ElementTree as xml
 
@@ -95,7 +96,9 @@ check("ROS_AUTOMATIC" in refused("--ros2", ROS_AUTOMATIC_DISCOVERY_RANGE="OFF"),
 check("klingon" in refused("--ros2", ROS_DISTRO="klingon"), "a distribution of the environment")
 
 # Without anybody who asks, nothing is sent: the session ends as it does with a node.
-silent = Session("--realtime=20")
+scratch = tempfile.TemporaryDirectory()
+journals = [os.path.join(scratch.name, name) for name in ("silent", "heard")]
+silent = Session("--realtime=20", "--journal", journals[0])
 silent.tell(MOVING)
 where = silent.read_to("arrived")
 silent.end()
@@ -108,7 +111,7 @@ clock = reader(participant, "rt/clock", ros.Clock, ros.best_effort(1000))
 elsewhere = reader(DomainParticipant(0), "rt/tf", ros.TFMessage, ros.reliable(10))
 incompatible = reader(participant, "rt/tf", ros.TFMessage, ros.latched())
 
-session = Session("--ros2")
+session = Session("--ros2", "--journal", journals[1])
 check(wait(joints, 20) is not None, "no joint states are heard")
 check(wait(tf, 20) is not None, "no frames are heard")
 session.tell(MOVING)
@@ -194,7 +197,7 @@ check(info is not None, "the node is not announced with its topics")
 node = info.node_entities_info_seq[0]
 check((node.node_namespace, node.node_name) == ("/", "planwright"), f"the node is {node}")
 
-# The robot arrives where it does without listeners, to the bit, and is heard there.
+# The robot arrives where it does without listeners, and is heard there.
 there = session.read_to("arrived")
 check("(-1.447" in there, f"the plan does not get there: {there}")
 check(there == where, f"listeners change the result: {where} {there}")
@@ -209,6 +212,9 @@ check(len(incompatible.take(10)) == 0, "a reader that cannot match hears the ses
 # When the session ends, so does all that it sends.
 check(session.end() == 0, "the session ends badly")
 deadline = time.monotonic() + 15
+# A journal has the bits of the world after each input, as a number that they all enter into.
+silent, loud = (open(journal, encoding="utf-8").read() for journal in journals)
+check(silent == loud and silent.count("\nended ") >= 4, "listeners change the bits of the world")
 while tf.get_matched_publications() and time.monotonic() < deadline:
     time.sleep(0.05)
 check(not tf.get_matched_publications(), "the node is still there after its end")
