@@ -1,5 +1,6 @@
 """Drives the robot that `planwright robot --ros2` is, as clients of ROS 2's actions do, and judges what comes of it."""
 
+import random
 import signal
 import subprocess
 import sys
@@ -132,6 +133,13 @@ POINT = action(
     {"nothing": uint8},
     {"pointing_angle_error": float64},
 )
+
+
+def message_of_bytes(name, length):
+    """A message of a name that is nothing but bytes."""
+    body = {"__annotations__": {"bytes": array[uint8, length]}}
+    kind = types.new_class("Garbage", (IdlStruct,), {"typename": name}, lambda all: all.update(body))
+    return dataclass(kind)
 
 
 class Client:
@@ -349,6 +357,28 @@ try:
     pan = joints.take(1000)[-1]
     pan = pan.position[list(pan.name).index("head_pan_joint")]
     check(0.3 < pan < 0.6, f"the head looks elsewhere: {pan}")
+
+    # What is no request hurts nobody: too short, without sense, with lengths that are lies.
+    strange = DomainParticipant(77)
+    random.seed(5)
+    for service, kind in (
+        ("send_goal", NAVIGATE["send_goal"]),
+        ("get_result", NAVIGATE["get_result"]),
+        ("cancel_goal", CancelRequest),
+    ):
+        for length in (1, 8, 15, 16, 17, 40, 200, 60000):
+            garbage = message_of_bytes(kind.__idl_typename__.replace(".", "::"), length)
+            topic = Topic(strange, f"rq/navigate_to_pose/_action/{service}Request", garbage)
+            writer = DataWriter(strange, topic, qos=ros.reliable(10))
+            deadline = time.monotonic() + 10
+            while not writer.get_matched_subscriptions() and time.monotonic() < deadline:
+                time.sleep(0.005)
+            check(writer.get_matched_subscriptions(), f"garbage of {length} bytes finds nobody")
+            for bytes in (random.randbytes(length), b"\xff" * length, b"\0" * length):
+                writer.write(garbage(list(bytes)))
+    time.sleep(0.5)
+    goal, accepted = drive.send(*pose(-0.2, 0.6))
+    check(accepted and drive.result(goal).status == SUCCEEDED, "after garbage, a goal is not reached")
 
     # The states are told, and of all goals the last one's is the last.
     statuses = drive.status.take(1000)[-1].status_list

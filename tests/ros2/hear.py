@@ -211,6 +211,9 @@ check(len(incompatible.take(10)) == 0, "a reader that cannot match hears the ses
 
 # When the session ends, so does all that it sends.
 check(session.end() == 0, "the session ends badly")
+told = session.process.stderr.read()
+check("listens to /tf in vain" in told and "(Durability)" in told, f"nothing is told of who cannot match: {told}")
+check(told.count("in vain") == 1, f"others listen in vain: {told}")
 deadline = time.monotonic() + 15
 # A journal has the bits of the world after each input, as a number that they all enter into.
 silent, loud = (open(journal, encoding="utf-8").read() for journal in journals)

@@ -39,7 +39,11 @@ mod node {
         let mut node = Node::open("planwright", reach, layouts).map_err(|error| wrong(&error))?;
         let robot = session.options().robot.as_ref();
         let robot = robot.map_or(PR2_URDF, |(_, urdf)| urdf.as_str());
-        let started = Broadcast::start(&mut node, session.models(), robot);
+        let remark = |remark: String| {
+            // If standard error is closed, nobody is there to be told.
+            let _ = writeln!(io::stderr(), "; Warning: {remark}");
+        };
+        let started = Broadcast::start(&mut node, session.models(), robot, remark);
         let (broadcast, follow) = started.map_err(|error| wrong(&error))?;
         session.show_to(Box::new(follow));
         let name = distribution.name();

@@ -24,6 +24,9 @@ const BETWEEN_STATES: Duration = Duration::from_millis(8);
 /// Minimum real time between two messages with all markers.
 const BETWEEN_MARKERS: Duration = Duration::from_millis(100);
 
+/// Real time between two looks for those who listen in vain.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(200);
+
 /// A robot whose state is older than this (real time) does not move.
 const STILL: Duration = Duration::from_millis(100);
 
@@ -67,11 +70,13 @@ pub struct Follow {
 }
 
 impl Broadcast {
-    /// Begins to send a session with these models. `description` is the robot's URDF.
+    /// Begins to send a session with these models. `description` is the robot's URDF; `remark` is told, once for each
+    /// topic, if somebody listens in vain.
     pub fn start(
         node: &mut Node,
         models: &Models,
         description: &str,
+        remark: impl Fn(String) + Send + 'static,
     ) -> Result<(Self, Follow), NodeError> {
         let model = Arc::new(SceneModel::new(models));
         let newest = Newest(Arc::new(Mutex::new((Arc::default(), Instant::now()))));
@@ -86,6 +91,9 @@ impl Broadcast {
             newest: newest.clone(),
             topics,
             markers: Markers::default(),
+            remark: Box::new(remark),
+            remarked: Vec::new(),
+            looked: Instant::now(),
         };
         let thread = thread::Builder::new().name("ros2".to_owned());
         let thread = thread.spawn(move || sender.run(&stopped));
@@ -183,6 +191,21 @@ impl Topics {
     }
 }
 
+impl Topics {
+    fn all(&self) -> [&TopicWriter; 8] {
+        [
+            &self.description,
+            &self.still_frames,
+            &self.frames,
+            &self.joints,
+            &self.furniture_joints,
+            &self.clock,
+            &self.objects,
+            &self.furniture,
+        ]
+    }
+}
+
 /// Which markers were sent last, and when.
 #[derive(Default)]
 struct Markers {
@@ -196,6 +219,10 @@ struct Sending {
     newest: Newest,
     topics: Topics,
     markers: Markers,
+    remark: Box<dyn Fn(String) + Send>,
+    /// The topics of which has been told that somebody listens in vain.
+    remarked: Vec<String>,
+    looked: Instant,
 }
 
 impl Sending {
@@ -203,6 +230,7 @@ impl Sending {
         let mut next = Instant::now();
         loop {
             self.send();
+            self.look_for_mismatches();
             next += PERIOD;
             let now = Instant::now();
             // What was missed by far is not made up for.
@@ -244,6 +272,28 @@ impl Sending {
         self.write(&topics.joints, &joints);
         self.write(&topics.furniture_joints, &furniture);
         self.send_markers(stamp, &state);
+    }
+
+    /// Tells of those who listen in vain.
+    fn look_for_mismatches(&mut self) {
+        if self.looked.elapsed() < BETWEEN_LOOKS {
+            return;
+        }
+        self.looked = Instant::now();
+        for topic in self.topics.all() {
+            let Some(policy) = topic.mismatch() else {
+                continue;
+            };
+            if self.remarked.iter().any(|known| known == topic.topic()) {
+                continue;
+            }
+            let name = topic.topic();
+            (self.remark)(format!(
+                "somebody listens to {name} in vain: the listener asks for more than is offered by \
+                 quality of service ({policy})"
+            ));
+            self.remarked.push(name.to_owned());
+        }
     }
 
     fn send_markers(&mut self, stamp: Duration, state: &Arc<SceneState>) {

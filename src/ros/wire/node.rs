@@ -7,8 +7,8 @@ use std::time::Duration;
 use rustdds::no_key::{DataWriter, SimpleDataReader};
 use rustdds::policy::{Durability, History};
 use rustdds::{
-    DomainParticipant, DomainParticipantBuilder, Publisher, QosPolicies, QosPolicyBuilder,
-    RTPSEntity, TopicKind,
+    DataWriterStatus, DomainParticipant, DomainParticipantBuilder, Publisher, QosPolicies,
+    QosPolicyBuilder, RTPSEntity, StatusEvented, TopicKind,
 };
 use thiserror::Error;
 
@@ -311,5 +311,22 @@ impl TopicWriter {
             cause,
         })?;
         Ok(self.writer.write(Payload::new(bytes), None).is_ok())
+    }
+
+    /// Its name.
+    pub fn topic(&self) -> &str {
+        &self.topic
+    }
+
+    /// The quality of service by which the last listener since the last call does not match, if there was one: it
+    /// gets nothing, and the protocol tells neither side's user.
+    pub fn mismatch(&self) -> Option<String> {
+        let mut mismatch = None;
+        while let Some(status) = self.writer.try_recv_status() {
+            if let DataWriterStatus::OfferedIncompatibleQos { last_policy_id, .. } = status {
+                mismatch = Some(format!("{last_policy_id:?}"));
+            }
+        }
+        mismatch
     }
 }
