@@ -350,12 +350,13 @@ fn root() -> &'static Path {
 }
 
 /// The crates that have Rust code in rooms.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "src/closest_name",
     "src/cram",
     "src/front",
     "src/lisp",
     "src/robotics",
+    "src/ros",
     "src/session",
     "src/spatial",
     "src/sweep",

@@ -57,6 +57,7 @@ use robotics::world::Models;
 use simulation::Simulation;
 use view::picture::ViewError;
 use view::picture::animation::Shot;
+use view::watch::Follower;
 use view::watch::live::Updates;
 
 pub use audience::{Audience, Filming, WatchError};
@@ -267,6 +268,14 @@ impl Session {
         let host = &mut self.evaluator.host;
         host.audience
             .open_view(&host.simulation, &self.evaluator.image)
+    }
+
+    /// Shows a follower what happens from now on, at the pace of real time unless another one has been set. The
+    /// session keeps its kitchen meanwhile.
+    pub fn show_to(&mut self, follower: Box<dyn Follower>) {
+        let host = &mut self.evaluator.host;
+        host.audience
+            .show_to(&host.simulation, &self.evaluator.image, follower);
     }
 
     /// What a page of the program's own shows of the session from now on, as the live view does. The

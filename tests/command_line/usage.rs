@@ -45,11 +45,38 @@ fn wrong_usage_exits_with_2() {
         &["view"],
         &["replay", "--view", "x"],
         &["completions", "abacus"],
+        &["robot"],
     ] {
         let (status, out, err) = output(arguments);
         assert_eq!((status, out.as_str()), (Some(2), ""), "{arguments:?}");
         assert!(err.starts_with("error: "), "{err}");
     }
+}
+
+#[test]
+#[cfg(not(feature = "ros2"))]
+fn a_program_without_ros_2_says_how_to_build_one_that_has_it() {
+    let wanted = "error: this planwright was built without ROS 2: build it by cargo build --release \
+                  --features ros2\n";
+    for arguments in [
+        &["run", "--ros2", "--eval", "1"][..],
+        &["robot", "--ros2=humble"],
+    ] {
+        let told = output(arguments);
+        assert_eq!(
+            told,
+            (Some(2), String::new(), wanted.to_owned()),
+            "{arguments:?}"
+        );
+    }
+}
+
+#[test]
+#[cfg(feature = "ros2")]
+fn what_ros_2_cannot_be_is_refused() {
+    let (status, _, err) = output(&["robot", "--ros2=humbel"]);
+    assert_eq!(status, Some(2));
+    assert!(err.contains("(did you mean humble?)"), "{err}");
 }
 
 #[test]

@@ -14,6 +14,7 @@ use super::options::Options;
 use super::picture::PictureArguments;
 use super::prompt::PromptOptions;
 use super::replay::ReplayArguments;
+use super::robot::RobotArguments;
 use super::run::RunArguments;
 use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
@@ -41,6 +42,16 @@ pub(crate) struct Arguments {
     /// unless --realtime says otherwise
     #[arg(long)]
     pub(crate) view: bool,
+    /// Show the session to nodes of ROS 2, with messages of a distribution such as humble [default:
+    /// ROS_DISTRO, or jazzy]; simulated time then passes in real time unless --realtime says otherwise
+    #[arg(
+        long,
+        value_name = "DISTRIBUTION",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    pub(crate) ros2: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }
@@ -66,6 +77,8 @@ pub(crate) enum Command {
     Grade(Box<GradeArguments>),
     /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output)
     Mcp(McpArguments),
+    /// Be a robot for others: carry out the goals that nodes of ROS 2 send, until Ctrl-C
+    Robot(RobotArguments),
     /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect
     Swank(SwankOptions),
     /// Use planwright in notebooks of Jupyter
@@ -121,6 +134,18 @@ mod tests {
         };
         assert!(run.watch.view && run.watch.record.is_some());
         assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
+    }
+
+    #[test]
+    fn the_distribution_of_ros_may_be_left_out() {
+        let before = parsed(&["--ros2=humble", "run", "a.plan"]);
+        assert!(before.is_ok_and(|a| a.ros2.as_deref() == Some("humble")));
+        let run = parsed(&["run", "--ros2", "a.plan"]);
+        let Some(Command::Run(run)) = run.ok().and_then(|a| a.command) else {
+            panic!("no run");
+        };
+        assert_eq!(run.watch.ros2.as_deref(), Some(""));
+        assert_eq!(run.files.len(), 1);
     }
 
     #[test]

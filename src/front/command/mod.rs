@@ -28,6 +28,8 @@ mod pipe;
 mod prompt;
 mod reference;
 mod replay;
+mod robot;
+mod ros2;
 mod run;
 mod stack;
 mod stop_at;
@@ -88,6 +90,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
     let watch = WatchArguments {
         view: arguments.view,
+        ros2: arguments.ros2.clone(),
         ..WatchArguments::default()
     };
     match arguments.command {
@@ -97,6 +100,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         None => pipe::evaluate_standard_input(arguments.options, &arguments.prompt, &watch),
         Some(Command::Run(mut wanted)) => {
             wanted.watch.view |= arguments.view;
+            wanted.watch.ros2 = wanted.watch.ros2.or(arguments.ros2);
             run::run(options, &wanted)
         }
         Some(Command::View(wanted)) => view_recording::view(options, &wanted),
@@ -106,6 +110,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Ask(wanted)) => ask::ask(options, &wanted),
         Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
         Some(Command::Mcp(wanted)) => mcp::mcp(options, &wanted),
+        Some(Command::Robot(wanted)) => robot::robot(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check(wanted)) => check::check(options, &wanted),

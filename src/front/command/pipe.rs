@@ -30,7 +30,7 @@ pub(crate) fn evaluate_standard_input(
         return Err(JournalError::Changed(path).into());
     }
     let mut session = open_session(&options)?;
-    let has_browser = watching::begin(&mut session, watch)?;
+    let watched = watching::begin(&mut session, watch)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     screen.set_cautious(io::stdout().is_terminal());
     let mut keeper = Keeper::new(journals.journal);
@@ -65,7 +65,8 @@ pub(crate) fn evaluate_standard_input(
     }
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen, &mut keeper, number)?;
-    watching::linger(&session, has_browser);
+    watching::linger(&session, &watched);
+    drop(watched);
     session.end_recording()?;
     session.end_with_process();
     Ok(status)

@@ -48,7 +48,7 @@ pub(crate) fn prompt(
         }
     }
     let mut session = open_session(&options)?;
-    watching::begin(&mut session, watch)?;
+    let _watched = watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());
     let status = prompt::run(
         session,

@@ -12,7 +12,7 @@ use super::open::open_session;
 use super::options::{Options, seconds};
 use super::outputs::Outputs;
 use super::paint::Paint;
-use super::watching::{self, WatchArguments, Writing};
+use super::watching::{self, WatchArguments, Watching, Writing};
 use lisp::visible::visible;
 use session::Session;
 use session::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
@@ -50,10 +50,10 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
         .file("--record", watch.record.as_ref())
         .file("--html", watch.html.as_ref())
         .check()?;
-    let mut has_browser = false;
+    let mut watched = Watching::default();
     let mut writing = Writing::default();
     let begin = |session: &mut Session| {
-        has_browser = watching::begin(session, watch)?;
+        watched = watching::begin(session, watch)?;
         writing = watching::finish_at_interrupt(session, watch);
         session.set_time_limit(time_limit.map(Duration::from_secs_f64));
         Ok(())
@@ -66,7 +66,8 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
     session.write_kept_run()?;
     recorded?;
     writing.end();
-    watching::linger(&session, has_browser);
+    watching::linger(&session, &watched);
+    drop(watched);
     session.end_with_process();
     Ok(status)
 }

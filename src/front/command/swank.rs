@@ -70,7 +70,7 @@ pub(crate) fn swank(
     })
     .map_err(|error| CommandError::Open(error.to_string()))?;
     let mut session = open_session(options)?;
-    watching::begin(&mut session, watch)?;
+    let _watched = watching::begin(&mut session, watch)?;
     let address = server.address();
     writeln!(
         io::stdout(),

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::failure::CommandError;
+use super::ros2::{self, Publishing};
 use session::Session;
 use session::dialogue::Evaluate;
 use view::watch::live::open_in_browser;
@@ -28,27 +29,56 @@ pub(crate) struct WatchArguments {
     /// any browser shows without planwright
     #[arg(long, value_name = "HTML")]
     pub(crate) html: Option<PathBuf>,
+    /// Show the session to nodes of ROS 2, with messages of a distribution such as humble [default:
+    /// ROS_DISTRO, or jazzy]; simulated time then passes in real time unless --realtime says otherwise
+    #[arg(
+        long,
+        value_name = "DISTRIBUTION",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    pub(crate) ros2: Option<String>,
+}
+
+/// What goes on while a session is watched; what it sends ends with it.
+#[derive(Default)]
+pub(crate) struct Watching {
+    /// Whether a browser was started.
+    has_browser: bool,
+    _publishing: Option<Publishing>,
 }
 
 /// How long to wait for a browser to show the page.
 const BROWSER_START: Duration = Duration::from_secs(5);
 
-/// Starts the recording, the page of the run and the live view if they are asked for, and prints the view's address
-/// on standard error. Returns whether a browser was started.
-pub(crate) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<bool, CommandError> {
+/// Starts the recording, the page of the run, the node of ROS 2 and the live view if they are asked for, and
+/// prints where the last two are on standard error.
+pub(crate) fn begin(
+    session: &mut Session,
+    watch: &WatchArguments,
+) -> Result<Watching, CommandError> {
     if let Some(path) = &watch.record {
         session.begin_recording(path)?;
     }
     if let Some(path) = &watch.html {
         session.keep_run(path)?;
     }
+    let publishing = match &watch.ros2 {
+        Some(distribution) => Some(ros2::publish(session, distribution)?),
+        None => None,
+    };
+    let mut has_browser = false;
     if watch.view {
         let address = session.open_view()?;
         // If standard error is closed, the browser may still show the page.
         let _ = writeln!(io::stderr(), "The live view is at {address}");
-        return Ok(open_in_browser(&address));
+        has_browser = open_in_browser(&address);
     }
-    Ok(false)
+    Ok(Watching {
+        has_browser,
+        _publishing: publishing,
+    })
 }
 
 /// While files are being written, lets Ctrl-C end the evaluation only, so that they can be
@@ -84,12 +114,13 @@ impl Writing {
 
 /// Waits while there are viewers, so that they can look at the end; also waits for a browser
 /// that is just starting.
-pub(crate) fn linger(session: &Session, has_browser: bool) {
+pub(crate) fn linger(session: &Session, watching: &Watching) {
     let Some(server) = session.audience().view_server() else {
         return;
     };
     let begin = Instant::now();
-    let is_starting = || has_browser && !server.had_viewer() && begin.elapsed() < BROWSER_START;
+    let is_starting =
+        || watching.has_browser && !server.had_viewer() && begin.elapsed() < BROWSER_START;
     while server.viewers() > 0 || is_starting() {
         thread::sleep(Duration::from_millis(100));
     }

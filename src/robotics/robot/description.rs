@@ -259,7 +259,7 @@ impl Gripper {
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
-    pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
+    pub fn position_for_gap(&self, gap: f64) -> f64 {
         let position = match &self.jaws {
             Jaws::Turning { tip, pad } => {
                 let [along, across] = *tip;

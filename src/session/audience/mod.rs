@@ -43,6 +43,8 @@ pub struct Audience {
     place: Place,
     recording: Option<OpenRecording>,
     kept: Option<KeptRun>,
+    /// Whether a follower from elsewhere has been shown robot and kitchen.
+    is_shown_elsewhere: bool,
     /// Pictures that have not been reported as events yet.
     pictures: Vec<Arc<Image>>,
     /// What came of the latest sweep, for front ends that can show tables.
@@ -91,7 +93,7 @@ impl Audience {
 
     /// Whether somebody has been shown the kitchen, and would have to be shown another one.
     pub(super) fn shows_kitchen(&self) -> bool {
-        self.view.is_some() || self.writes_files()
+        self.view.is_some() || self.writes_files() || self.is_shown_elsewhere
     }
 
     /// Whether nobody is shown anything.

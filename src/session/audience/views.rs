@@ -16,7 +16,7 @@ use view::watch::live::{
     History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Updates, Views, run_file,
 };
 use view::watch::recording::{Recorder, RecordingError, RecordingResult};
-use view::watch::{Cause, FrameBuilder};
+use view::watch::{Cause, Follower, FrameBuilder};
 
 /// A recording in progress.
 pub(crate) struct OpenRecording {
@@ -110,6 +110,18 @@ impl Audience {
         let updates = Updates::new(history, Some(control), &views);
         self.add_follower(simulation, image, Box::new(follower));
         updates
+    }
+
+    /// Shows a follower from elsewhere what happens from now on, at a pace.
+    pub(crate) fn show_to(
+        &mut self,
+        simulation: &Simulation,
+        image: &Image,
+        follower: Box<dyn Follower>,
+    ) {
+        self.keep_pace(self.pace_control());
+        self.add_follower(simulation, image, follower);
+        self.is_shown_elsewhere = true;
     }
 
     /// A follower that shows the session to viewers as it goes on, and the views of it.

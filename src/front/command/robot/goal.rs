@@ -1,0 +1,201 @@
+//! Goals as the actions of ROS 2 have them, as calls of functions of the plan language.
+
+use robotics::robot::Side;
+use robotics::world::Models;
+use ros::Value;
+use ros::message;
+use ros::{SceneModel, SceneState};
+use session::{Datum, FramedPose};
+use spatial::Pose;
+use std::time::Duration;
+
+/// What an action does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Deed {
+    /// The base drives.
+    Navigate,
+    /// A hand opens or closes.
+    Gripper(Side),
+    /// The head turns.
+    PointHead,
+}
+
+/// The error codes of nav2 for what has no code of its own, and for frames that are not known.
+const UNKNOWN: i64 = 9000;
+const TF_ERROR: i64 = 9002;
+
+/// The gap (m) by which a hand may miss what was asked of it.
+const GAP_TOLERANCE: f64 = 0.003;
+
+/// How a goal has ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// It has been reached.
+    Reached,
+    /// It has not, and why.
+    Failed(String),
+    /// Nothing is known of its frame.
+    NoFrame(String),
+    /// It was to end.
+    Interrupted,
+}
+
+impl Deed {
+    /// Whether a goal can be one: numbers are finite, a rotation is one.
+    pub(super) fn fits(self, goal: &Value) -> bool {
+        match self {
+            Self::Navigate => pose(goal.at(&["pose", "pose"])).is_some(),
+            Self::Gripper(_) => {
+                let gap = number(goal, &["command", "position"]);
+                gap.is_some_and(|gap| (0.0..=1.0).contains(&gap))
+            }
+            Self::PointHead => point(goal.at(&["target", "point"])).is_some(),
+        }
+    }
+
+    /// The function that carries the goal out, and its arguments.
+    pub(super) fn call(
+        self,
+        goal: &Value,
+        models: &Models,
+        scene: &SceneModel,
+        state: &SceneState,
+    ) -> Result<(&'static str, Vec<Datum>), Ended> {
+        let framed = |header: &[&str], pose: Option<Pose>| {
+            let frame = goal.at(header).and_then(Value::as_text).unwrap_or_default();
+            let pose = pose.ok_or_else(|| Ended::Failed("the goal is no pose".to_owned()))?;
+            let carrier = match frame {
+                frame if frame == scene.map || frame == scene.odometry => Pose::identity(),
+                frame if frame == scene.base => state.base,
+                frame => return Err(no_frame(frame, scene)),
+            };
+            Ok(Datum::Pose(FramedPose::from(carrier * pose)))
+        };
+        Ok(match self {
+            Self::Navigate => {
+                let pose = pose(goal.at(&["pose", "pose"]));
+                let pose = framed(&["pose", "header", "frame_id"], pose)?;
+                ("planwright-robot::navigate-to-pose", vec![pose])
+            }
+            Self::Gripper(side) => {
+                let gap = number(goal, &["command", "position"]).unwrap_or_default();
+                let gripper = &models.description.arm(side).gripper;
+                let opening = gripper.position_for_gap(gap) / gripper.joint_per_metre;
+                let side = Datum::keyword(side.name());
+                (
+                    "planwright-robot::open-gripper",
+                    vec![side, Datum::Float(opening)],
+                )
+            }
+            Self::PointHead => {
+                let point = point(goal.at(&["target", "point"]));
+                let pose = point.map(|[x, y, z]| Pose::translation(x, y, z));
+                let pose = framed(&["target", "header", "frame_id"], pose)?;
+                ("planwright-robot::point-head", vec![pose])
+            }
+        })
+    }
+
+    /// How far the goal is, after a real time.
+    pub(super) fn feedback(
+        self,
+        goal: &Value,
+        models: &Models,
+        scene: &SceneModel,
+        state: &SceneState,
+        time: [Duration; 2],
+    ) -> Option<Value> {
+        let [stamp, since] = time;
+        match self {
+            Self::Navigate => {
+                let to = pose(goal.at(&["pose", "pose"]))?;
+                let distance = (to.translation.vector - state.base.translation.vector).norm();
+                let current = Value::record([
+                    ("header", message::header(stamp, scene.map)),
+                    ("pose", message::pose(&state.base)),
+                ]);
+                Some(Value::record([
+                    ("current_pose", current),
+                    ("navigation_time", message::time(since)),
+                    ("distance_remaining", distance.into()),
+                ]))
+            }
+            Self::Gripper(side) => Some(hand(side, goal, models, scene, state)),
+            Self::PointHead => None,
+        }
+    }
+
+    /// The result of the action.
+    pub(super) fn result(
+        self,
+        goal: &Value,
+        ended: &Ended,
+        models: &Models,
+        scene: &SceneModel,
+        state: &SceneState,
+    ) -> Value {
+        match self {
+            Self::Navigate => {
+                let (code, text) = match ended {
+                    Ended::Reached => (0, ""),
+                    Ended::Failed(text) => (UNKNOWN, text.as_str()),
+                    Ended::NoFrame(text) => (TF_ERROR, text.as_str()),
+                    Ended::Interrupted => (UNKNOWN, "the goal was given up"),
+                };
+                Value::record([("error_code", code.into()), ("error_msg", text.into())])
+            }
+            Self::Gripper(side) => hand(side, goal, models, scene, state),
+            Self::PointHead => Value::record([]),
+        }
+    }
+}
+
+fn no_frame(frame: &str, scene: &SceneModel) -> Ended {
+    let known = [scene.map, &scene.odometry, &scene.base].join(", ");
+    Ended::NoFrame(format!(
+        "goals in frame {frame:?} are not understood, only in {known}"
+    ))
+}
+
+/// How a hand is.
+fn hand(
+    side: Side,
+    goal: &Value,
+    models: &Models,
+    scene: &SceneModel,
+    state: &SceneState,
+) -> Value {
+    let gripper = &models.description.arm(side).gripper;
+    let name = &models.robot.joint(gripper.joint).name;
+    let joint = scene.joints.iter().position(|joint| joint == name);
+    let position = joint.and_then(|joint| state.positions.get(joint));
+    let gap = gripper.gap(position.copied().unwrap_or_default());
+    let wanted = number(goal, &["command", "position"]).unwrap_or_default();
+    let is_there = (gap - wanted.clamp(gripper.gap(0.0), gripper.gap(gripper.limits.upper))).abs()
+        <= GAP_TOLERANCE;
+    Value::record([
+        ("position", gap.into()),
+        ("stalled", (!is_there).into()),
+        ("reached_goal", is_there.into()),
+    ])
+}
+
+fn number(value: &Value, path: &[&str]) -> Option<f64> {
+    let number = value.at(path).and_then(Value::as_float);
+    number.filter(|number| number.is_finite())
+}
+
+fn point(value: Option<&Value>) -> Option<[f64; 3]> {
+    let value = value?;
+    let part = |axis: &str| number(value, &[axis]);
+    Some([part("x")?, part("y")?, part("z")?])
+}
+
+/// A pose whose rotation is one; quaternions need not be of length one.
+fn pose(value: Option<&Value>) -> Option<Pose> {
+    let at = point(value?.get("position"))?;
+    let turn = value?.get("orientation")?;
+    let part = |axis: &str| number(turn, &[axis]);
+    let turn = [part("x")?, part("y")?, part("z")?, part("w")?];
+    spatial::pose::from_xyz_quaternion(at, turn)
+}

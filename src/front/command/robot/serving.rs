@@ -1,0 +1,323 @@
+//! Carries out goals, one after the other, while others are answered.
+//!
+//! The session stays in its thread, which carries out one goal at a time. Another thread answers clients, hands goals
+//! over, and interrupts the one under way when it is to end.
+
+use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use super::super::failure::{CommandError, Status};
+use super::super::ros2::Publishing;
+use super::goal::{Deed, Ended};
+use super::offered::OFFERED;
+use robotics::world::Models;
+use ros::action::{GoalEnd, GoalId};
+use ros::wire::{ActionServer, Newest, Wish};
+use ros::{SceneModel, Value};
+use session::{Failure, InterruptHandle, Session};
+
+/// What the goals are for the robot.
+const ACTIONS: &str = include_str!("actions.plan");
+
+/// Real time between two looks at what clients have sent.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(3);
+
+/// Real time between two messages about how far a goal is.
+const BETWEEN_FEEDBACK: Duration = Duration::from_millis(100);
+
+/// A goal: which action it is of, and its identity.
+type Key = (usize, GoalId);
+
+/// A goal to be carried out.
+struct Order {
+    key: Key,
+    deed: Deed,
+    goal: Value,
+}
+
+/// What both threads know.
+#[derive(Default)]
+struct Shared {
+    /// The goal that is carried out.
+    running: Option<Key>,
+    /// Goals that are to end.
+    unwanted: Vec<Key>,
+}
+
+type Both = Arc<Mutex<Shared>>;
+
+fn lock(both: &Both) -> MutexGuard<'_, Shared> {
+    both.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Carries out goals until Ctrl-C.
+pub(super) fn serve(
+    mut session: Session,
+    mut publishing: Publishing,
+) -> Result<Status, CommandError> {
+    let wrong = |error: &dyn ToString| CommandError::Open(error.to_string());
+    let defined = session.run("actions.plan", ACTIONS);
+    defined.map_err(|failure| wrong(&failure))?;
+    let node = &mut publishing.node;
+    let servers = OFFERED.map(|offered| ActionServer::open(node, offered.name, offered.action));
+    let servers = servers.into_iter().collect::<Result<Vec<_>, _>>();
+    let servers = servers.map_err(|error| wrong(&error))?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let (flag, interrupter) = (Arc::clone(&stop), session.interrupter());
+    let handled = ctrlc::set_handler(move || {
+        flag.store(true, Ordering::Relaxed);
+        interrupter.interrupt();
+    });
+    handled.map_err(|error| wrong(&error))?;
+    let both = Both::default();
+    let (orders, ordered) = channel();
+    let (ends, ended) = channel();
+    let broadcast = &publishing.broadcast;
+    let (scene, newest) = (Arc::clone(broadcast.model()), broadcast.newest().clone());
+    let models = Arc::clone(session.models());
+    let desk = Desk {
+        servers,
+        both: Arc::clone(&both),
+        orders,
+        ended,
+        under_way: Vec::new(),
+        interrupter: session.interrupter(),
+        models: Arc::clone(&models),
+        scene: Arc::clone(&scene),
+        newest: newest.clone(),
+        stop: Arc::clone(&stop),
+    };
+    let desk = thread::Builder::new()
+        .name("actions".to_owned())
+        .spawn(move || desk.run())?;
+    for offered in OFFERED {
+        writeln!(io::stdout(), "{} ({})", offered.name, offered.action)?;
+    }
+    io::stdout().flush()?;
+    while !stop.load(Ordering::Relaxed) {
+        match ordered.recv_timeout(Duration::from_millis(50)) {
+            Ok(order) => {
+                let end = carry_out(&mut session, &both, &order, &models, &scene, &newest);
+                drop(ends.send((order.key, end)));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+    }
+    stop.store(true, Ordering::Relaxed);
+    // A thread that has failed has said why.
+    drop(desk.join());
+    drop(publishing);
+    session.end_with_process();
+    Ok(Status::Good)
+}
+
+/// Carries out a goal, unless it is to end already.
+fn carry_out(
+    session: &mut Session,
+    both: &Both,
+    order: &Order,
+    models: &Models,
+    scene: &SceneModel,
+    newest: &Newest,
+) -> Ended {
+    {
+        let mut shared = lock(both);
+        if shared.unwanted.contains(&order.key) {
+            return Ended::Interrupted;
+        }
+        shared.running = Some(order.key);
+    }
+    let state = newest.state();
+    let ended = match order.deed.call(&order.goal, models, scene, &state) {
+        Err(ended) => ended,
+        Ok((function, arguments)) => match session.call(function, &arguments) {
+            Ok(_) => Ended::Reached,
+            Err(Failure::Interrupted) => Ended::Interrupted,
+            Err(failure) => Ended::Failed(match failure.unhandled() {
+                Some(condition) => condition.abort.report.trim_end().to_owned(),
+                None => failure.to_string(),
+            }),
+        },
+    };
+    lock(both).running = None;
+    if ended != Ended::Reached {
+        // What was under way brakes; whoever hears of the end finds a robot that stands.
+        drop(session.call("planwright-robot::come-to-rest", &[]));
+    }
+    ended
+}
+
+/// A goal that has been accepted and has not ended.
+struct UnderWay {
+    key: Key,
+    goal: Value,
+    begun: Option<Instant>,
+    /// Why it is to end, and whether its evaluation has been interrupted.
+    ending: Option<(Why, bool)>,
+    told: Option<Instant>,
+}
+
+/// Why a goal is to end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Why {
+    /// A client wants that.
+    Canceled,
+    /// There is another goal of the same action.
+    Replaced,
+}
+
+/// Answers clients.
+struct Desk {
+    servers: Vec<ActionServer>,
+    both: Both,
+    orders: Sender<Order>,
+    ended: Receiver<(Key, Ended)>,
+    under_way: Vec<UnderWay>,
+    interrupter: InterruptHandle,
+    models: Arc<Models>,
+    scene: Arc<SceneModel>,
+    newest: Newest,
+    stop: Arc<AtomicBool>,
+}
+
+impl Desk {
+    fn run(mut self) {
+        while !self.stop.load(Ordering::Relaxed) {
+            self.hear();
+            self.begin();
+            self.interrupt();
+            self.end();
+            self.tell();
+            thread::sleep(BETWEEN_LOOKS);
+        }
+    }
+
+    /// Takes what clients want.
+    fn hear(&mut self) {
+        for (action, offered) in OFFERED.into_iter().enumerate() {
+            let Some(server) = self.servers.get_mut(action) else {
+                continue;
+            };
+            for wish in server.poll(|goal| offered.deed.fits(goal)) {
+                match wish {
+                    Wish::Begin(id, goal) => {
+                        for older in self.under_way.iter_mut().filter(|it| it.key.0 == action) {
+                            give_up(&self.both, older, Why::Replaced);
+                        }
+                        let key = (action, id);
+                        self.under_way.push(UnderWay {
+                            key,
+                            goal: goal.clone(),
+                            begun: None,
+                            ending: None,
+                            told: None,
+                        });
+                        let order = Order {
+                            key,
+                            deed: offered.deed,
+                            goal,
+                        };
+                        // Without the session there is nobody left to tell.
+                        drop(self.orders.send(order));
+                    }
+                    Wish::Cancel(id) => {
+                        let key = (action, id);
+                        for goal in self.under_way.iter_mut().filter(|it| it.key == key) {
+                            give_up(&self.both, goal, Why::Canceled);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Tells that a goal is carried out from now on.
+    fn begin(&mut self) {
+        let running = lock(&self.both).running;
+        for goal in &mut self.under_way {
+            if Some(goal.key) == running && goal.begun.is_none() {
+                goal.begun = Some(Instant::now());
+                if let Some(server) = self.servers.get_mut(goal.key.0) {
+                    server.begin(&goal.key.1);
+                }
+            }
+        }
+    }
+
+    /// Interrupts the evaluation of a goal that is to end, once.
+    fn interrupt(&mut self) {
+        for goal in &mut self.under_way {
+            let Some((_, interrupted @ false)) = &mut goal.ending else {
+                continue;
+            };
+            // While this is locked, the session does not go on to another goal.
+            let shared = lock(&self.both);
+            if shared.running == Some(goal.key) {
+                // False while the evaluation is about to begin.
+                *interrupted = self.interrupter.interrupt();
+            }
+        }
+    }
+
+    /// Tells how goals have ended.
+    fn end(&mut self) {
+        while let Ok((key, ended)) = self.ended.try_recv() {
+            let Some(at) = self.under_way.iter().position(|goal| goal.key == key) else {
+                continue;
+            };
+            let goal = self.under_way.remove(at);
+            lock(&self.both).unwanted.retain(|known| *known != key);
+            let why = goal.ending.map(|(why, _)| why);
+            let end = match (&ended, why) {
+                (Ended::Reached, _) => GoalEnd::Succeeded,
+                (Ended::Interrupted, Some(Why::Canceled)) => GoalEnd::Canceled,
+                _ => GoalEnd::Aborted,
+            };
+            let deed = OFFERED.get(key.0).map(|offered| offered.deed);
+            let (Some(server), Some(deed)) = (self.servers.get_mut(key.0), deed) else {
+                continue;
+            };
+            let state = self.newest.state();
+            let result = deed.result(&goal.goal, &ended, &self.models, &self.scene, &state);
+            server.end(&key.1, end, result);
+        }
+    }
+
+    /// Tells how far goals are.
+    fn tell(&mut self) {
+        let now = Instant::now();
+        for goal in &mut self.under_way {
+            let Some(begun) = goal.begun else {
+                continue;
+            };
+            let is_early = |told: Instant| now.duration_since(told) < BETWEEN_FEEDBACK;
+            if goal.told.is_some_and(is_early) {
+                continue;
+            }
+            goal.told = Some(now);
+            let deed = OFFERED.get(goal.key.0).map(|offered| offered.deed);
+            let stamp = SystemTime::now().duration_since(UNIX_EPOCH);
+            let time = [stamp.unwrap_or_default(), now.duration_since(begun)];
+            let state = self.newest.state();
+            let feedback = deed.and_then(|deed| {
+                deed.feedback(&goal.goal, &self.models, &self.scene, &state, time)
+            });
+            if let (Some(server), Some(feedback)) = (self.servers.get(goal.key.0), feedback) {
+                server.feedback(&goal.key.1, feedback);
+            }
+        }
+    }
+}
+
+/// Lets a goal end. The first reason counts.
+fn give_up(both: &Both, goal: &mut UnderWay, why: Why) {
+    if goal.ending.is_none() {
+        goal.ending = Some((why, false));
+        lock(both).unwanted.push(goal.key);
+    }
+}
