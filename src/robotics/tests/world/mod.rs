@@ -3,6 +3,7 @@
 mod carrying;
 mod collisions;
 mod contents;
+mod derived_robots;
 mod falling;
 pub(crate) mod fixture;
 mod kitchen_surfaces;
