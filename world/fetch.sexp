@@ -36,7 +36,7 @@
      :postures
      ((tucked 1.32 1.40 -0.2 1.72 0.0 1.66 0.0)
       (park 1.4388 1.4149 -0.0575 2.1741 -1.3594 1.9996 -1.0748)
-(carry-top -0.9586 -0.8466 1.843 2.0795 -0.711 1.3599 1.1473)
+      (carry-top -0.9586 -0.8466 1.843 2.0795 -0.711 1.3599 1.1473)
       (carry-side-gripper-vertical 1.4388 1.4149 -0.0575 2.1741 -1.3594 1.9996 -1.0748)))
 
 ; Each finger has a joint of its own; both move by the same way. The gap is measured.

@@ -176,8 +176,8 @@ pub enum SessionError {
     /// A robot was given without a description, and the built-in one does not fit it.
     #[error(
         "{robot} lacks {missing}, which the built-in description of the PR2 names: say with \
-         --robot-description FILE which links and joints are the base, the torso lift, the neck, \
-         a camera, two arms of seven joints and their grippers"
+         --robot-description FILE what its links and joints are for; planwright describe-robot \
+         {robot} writes such a file"
     )]
     Undescribed {
         /// The robot's file.

@@ -10,6 +10,7 @@ mod interrupts;
 mod mcp;
 mod outputs;
 mod pseudo_terminal;
+mod robots;
 #[cfg(unix)]
 mod swank;
 mod sweep;

@@ -37,9 +37,8 @@ fn a_robot_without_its_description_is_told_what_it_lacks() {
     assert_eq!(
         refusal(None),
         "my.urdf lacks the link torso_lift_link and the joint head_pan_joint, which the built-in \
-         description of the PR2 names: say with --robot-description FILE which links and joints \
-         are the base, the torso lift, the neck, a camera, two arms of seven joints and their \
-         grippers"
+         description of the PR2 names: say with --robot-description FILE what its links and \
+         joints are for; planwright describe-robot my.urdf writes such a file"
     );
 }
 

@@ -65,8 +65,7 @@ pub(crate) fn evaluate_standard_input(
     }
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen, &mut keeper, number)?;
-    watching::linger(&session, &watched);
-    drop(watched);
+    watching::linger(&session, watched);
     session.end_recording()?;
     session.end_with_process();
     Ok(status)

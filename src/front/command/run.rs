@@ -66,8 +66,7 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
     session.write_kept_run()?;
     recorded?;
     writing.end();
-    watching::linger(&session, &watched);
-    drop(watched);
+    watching::linger(&session, watched);
     session.end_with_process();
     Ok(status)
 }

@@ -113,8 +113,8 @@ impl Writing {
 }
 
 /// Waits while there are viewers, so that they can look at the end; also waits for a browser
-/// that is just starting.
-pub(crate) fn linger(session: &Session, watching: &Watching) {
+/// that is just starting. Then nothing more is sent.
+pub(crate) fn linger(session: &Session, watching: Watching) {
     let Some(server) = session.audience().view_server() else {
         return;
     };

@@ -10,7 +10,7 @@ use super::{
     Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
     Side,
 };
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use spatial::{Pose, trig};
 
 /// Greatest velocity and acceleration of an axis (rad or m, and s).
@@ -142,8 +142,10 @@ pub struct Arm {
     pub wrist: LinkId,
     /// The frame between the fingers, as the URDF gives it.
     pub tool: LinkId,
-    /// From the wrist to where grasps place the tool (m), along the wrist's x axis.
+    /// From the wrist to where grasps place the tool (m), ahead of the hand.
     pub(crate) tool_offset: f64,
+    /// Where that is (m), in the frame of the wrist.
+    pub(super) tool_at: Vector3<f64>,
     /// Orientation of the tool (x forward) in the frame in which grasps are given (z
     /// forward, x across the palm).
     pub tool_axes: UnitQuaternion<f64>,
@@ -197,12 +199,14 @@ impl Arm {
 
     /// The wrist pose that brings the tool to `tool`, in the same frame.
     pub fn wrist_for_tool(&self, tool: &Pose) -> Pose {
-        tool * Translation3::new(-self.tool_offset, 0.0, 0.0)
+        // Without a negative zero, which would be another bit.
+        let back = self.tool_at.map(|at| if at == 0.0 { 0.0 } else { -at });
+        tool * Translation3::from(back)
     }
 
     /// The tool pose when the wrist is at `wrist`, in the same frame.
     pub fn tool_for_wrist(&self, wrist: &Pose) -> Pose {
-        wrist * Translation3::new(self.tool_offset, 0.0, 0.0)
+        wrist * Translation3::from(self.tool_at)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Reading a robot description from s-expressions.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::description::{
     Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
@@ -365,13 +365,16 @@ impl<'a> Reader<'a> {
             let closest = closest_name(start_name, names);
             record.node().unknown("posture", start_name, closest)
         })?;
+        let tool_offset = record.required("tool-offset")?.number()?;
+        let (tool_axes, ahead) = rotation(record.required("tool-axes")?)?;
         Ok(Arm {
             side,
             base: base_link,
             wrist: wrist_link,
             tool: self.link(record.required("tool")?)?,
-            tool_offset: record.required("tool-offset")?.number()?,
-            tool_axes: rotation(record.required("tool-axes")?)?,
+            tool_offset,
+            tool_at: ahead * tool_offset,
+            tool_axes,
             start: *start,
             payload: optional_positive(record, "payload")?,
             kinematics,
@@ -568,7 +571,8 @@ fn speed(record: &Record<'_>, velocity: &str, acceleration: &str) -> Result<Spee
 }
 
 /// A rotation, given as the rows of its matrix.
-fn rotation(node: Node<'_>) -> Result<UnitQuaternion<f64>, DataError> {
+/// A rotation, and its third row.
+fn rotation(node: Node<'_>) -> Result<(UnitQuaternion<f64>, Vector3<f64>), DataError> {
     let wrong = || node.expected("the three rows of a rotation matrix");
     let rows = node.list().map_err(|_| wrong())?;
     let rows: Vec<[f64; 3]> = rows
@@ -582,7 +586,7 @@ fn rotation(node: Node<'_>) -> Result<UnitQuaternion<f64>, DataError> {
         return Err(wrong());
     }
     let rotation = Rotation3::from_matrix_unchecked(matrix);
-    Ok(UnitQuaternion::from_rotation_matrix(&rotation))
+    Ok((UnitQuaternion::from_rotation_matrix(&rotation), c.into()))
 }
 
 /// Length and width (m) of a pad.

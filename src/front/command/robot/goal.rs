@@ -80,7 +80,7 @@ impl Deed {
             Self::Gripper(side) => {
                 let gap = number(goal, &["command", "position"]).unwrap_or_default();
                 let gripper = &models.description.arm(side).gripper;
-                let opening = gripper.position_for_gap(gap) / gripper.joint_per_metre;
+                let opening = gripper.opening_at(gripper.position_for_gap(gap));
                 let side = Datum::keyword(side.name());
                 (
                     "planwright-robot::open-gripper",

@@ -96,7 +96,7 @@ fn nothing_touches_in_the_postures() {
         .collect();
     let fingers = ["r_gripper_finger_link", "l_gripper_finger_link"];
     let postures = postures();
-    assert_eq!(postures.len(), 3);
+    assert_eq!(postures.len(), 4);
     for (name, posture) in &postures {
         for (position, limits) in posture.iter().zip(arm(&tree).limits()) {
             assert!(

@@ -122,7 +122,7 @@ proptest! {
     fn the_solution_is_near_the_seed_when_the_seed_is_one(arm in 0..2_usize, shares in shares()) {
         let seed = PR2.positions(arm, &shares);
         let wrist = PR2.wrist(arm, &seed);
-        let solution = PR2.arms[arm].1.nearest(&wrist, &seed.into()).expect("the seed is a solution");
+        let solution = PR2.arms[arm].1.nearest(&wrist, &seed).expect("the seed is a solution");
         for (found, seed) in solution.iter().zip(seed) {
             prop_assert!((found - seed).abs() < 0.05, "{solution:?} instead of {seed:?}");
         }

@@ -1,0 +1,103 @@
+//! Robots of one's own: descriptions that are derived, and robots by name.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const BRINGS_A_BOTTLE: &str = "
+(in-package :pp-tut)
+(init-projection)
+(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+(with-simulated-robot
+  (let ((?spot (make-pose \"map\" '((-0.8 2 0.96) (0 0 0 1)))))
+    (perform (an action (type transporting) (object (an object (type bottle)))
+                        (target (a location (pose ?spot)))))))
+(format t \"~%It stands on ~a.~%\" (pp-plans::support-of 'bottle-1))";
+
+/// A folder that is removed with the value.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let name = format!("planwright-robots-{}-{name}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path).expect("a folder");
+        Folder(path)
+    }
+
+    fn file(&self, name: &str, text: &[u8]) -> PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, text).expect("a file");
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn planwright(arguments: &[&Path]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(arguments)
+        .output()
+        .expect("the program runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_robot_fetches_with_nothing_but_what_was_derived_from_its_urdf() {
+    let folder = Folder::new("derived");
+    let urdf = Path::new("world/fetch.urdf");
+    let derived = planwright(&[Path::new("describe-robot"), urdf]);
+    assert!(derived.status.success(), "{}", text(&derived.stderr));
+    let description = folder.file("derived.sexp", &derived.stdout);
+    let plan = folder.file("plan.plan", BRINGS_A_BOTTLE.as_bytes());
+    let run = planwright(&[
+        Path::new("run"),
+        &plan,
+        Path::new("--robot"),
+        urdf,
+        Path::new("--robot-description"),
+        &description,
+    ]);
+    let said = text(&run.stdout);
+    assert!(
+        said.contains("It stands on kitchen_island_surface."),
+        "{said}{}",
+        text(&run.stderr)
+    );
+}
+
+#[test]
+fn what_cannot_be_derived_is_refused_or_said() {
+    let none = planwright(&[Path::new("describe-robot"), Path::new("no-such.urdf")]);
+    assert_eq!(none.status.code(), Some(1));
+    let said = text(&none.stderr);
+    assert!(said.starts_with("error: no-such.urdf: "), "{said}");
+    let folder = Folder::new("bare");
+    let bare = folder.file(
+        "bare.urdf",
+        b"<robot name=\"bare\"><link name=\"rock\"/></robot>",
+    );
+    let bare = planwright(&[Path::new("describe-robot"), &bare]);
+    assert!(bare.status.success(), "{}", text(&bare.stderr));
+    let said = text(&bare.stdout);
+    assert!(said.contains("No gripper was found"), "{said}");
+}
+
+#[test]
+fn a_name_that_no_robot_has_is_a_file_that_is_not_there() {
+    let none = planwright(&[
+        Path::new("--robot"),
+        Path::new("fitch"),
+        Path::new("run"),
+        Path::new("plans/tutorial/move-bottle.plan"),
+    ]);
+    assert_eq!(none.status.code(), Some(1));
+    let said = text(&none.stderr);
+    assert!(said.contains("fitch: "), "{said}");
+}
