@@ -75,7 +75,7 @@ fn a_robot_fetches_with_nothing_but_what_was_derived_from_its_urdf() {
 #[test]
 fn what_cannot_be_derived_is_refused_or_said() {
     let none = planwright(&[Path::new("describe-robot"), Path::new("no-such.urdf")]);
-    assert_eq!(none.status.code(), Some(1));
+    assert_eq!(none.status.code(), Some(2));
     let said = text(&none.stderr);
     assert!(said.starts_with("error: no-such.urdf: "), "{said}");
     let folder = Folder::new("bare");
@@ -97,7 +97,7 @@ fn a_name_that_no_robot_has_is_a_file_that_is_not_there() {
         Path::new("run"),
         Path::new("plans/tutorial/move-bottle.plan"),
     ]);
-    assert_eq!(none.status.code(), Some(1));
+    assert_eq!(none.status.code(), Some(2));
     let said = text(&none.stderr);
     assert!(said.contains("fitch: "), "{said}");
 }

@@ -67,7 +67,7 @@ impl DerivedRobot {
         let (torso, mut arms) = arms::find(tree, grippers, &mut remarks);
         let cameras = cameras(tree, &arms, &mut remarks);
         let neck = neck(tree, torso, &arms, &cameras);
-        let base_frame = tree.link_named("base_footprint").unwrap_or(tree.root());
+        let base_frame = tree.root();
         let is_body = |link: &LinkId| !tree.link(*link).collisions.is_empty();
         let base_body = rigid_links(tree, base_frame).into_iter().find(is_body);
         let used = |joint: JointId| {
