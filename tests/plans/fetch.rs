@@ -1,6 +1,8 @@
 //! Fetch: a robot with one arm, whose inverse kinematics is numeric, and a base that drives ahead only.
 
 use super::cook::Cook;
+use descriptions::FETCH_DESCRIPTION;
+use nalgebra::Point3;
 use session::SessionOptions;
 use spatial::pose::{distance_between, from_xyz_rpy};
 
@@ -127,4 +129,81 @@ fn fetch_does_the_same_twice_to_the_bit() {
         cook.session.simulation().world().hash()
     };
     assert_eq!(hash(), hash());
+}
+
+/// Fetch with another description: without a record, or with another one in its place.
+fn described(head: &str, instead: &str) -> SessionOptions {
+    let begin = FETCH_DESCRIPTION.find(head).expect("it has the record");
+    let end = begin + FETCH_DESCRIPTION[begin..].find("\n\n").expect("it ends");
+    let text = [
+        &FETCH_DESCRIPTION[..begin],
+        instead,
+        &FETCH_DESCRIPTION[end..],
+    ]
+    .concat();
+    SessionOptions {
+        robot_description: Some(("fetch.sexp".to_owned(), text)),
+        ..fetch()
+    }
+}
+
+const LOOKS_AT: &str = "(with-simulated-robot
+    (let ((?there (make-pose \"map\" '((1.2 0.4 0.6) (0 0 0 1)))))
+      (perform (an action (type looking) (target (a location (pose ?there)))))))";
+
+#[test]
+fn a_neck_of_any_joints_aims_the_axis_of_the_camera() {
+    let neck = "(neck :joints (head_pan_joint head_tilt_joint))";
+    let mut cook = Cook::with(&described("(neck ", neck));
+    cook.done(LOOKS_AT);
+    let world = cook.session.simulation().world();
+    let camera = world
+        .models()
+        .robot
+        .link_named("head_camera_rgb_optical_frame");
+    let camera = world.link_pose(camera.expect("it has a camera"));
+    let seen = camera.inverse_transform_point(&Point3::new(1.2, 0.4, 0.6));
+    assert!(seen.z > 0.5, "{seen}");
+    assert!(seen.x.abs() < 1e-6 && seen.y.abs() < 1e-6, "{seen}");
+}
+
+#[test]
+fn a_camera_that_does_not_turn_looks_only_at_what_is_in_its_picture() {
+    let mut cook = Cook::with(&described("(neck ", ""));
+    let report = cook.fails(
+        "PTU",
+        "(let ((?behind (make-pose \"map\" '((-2 0 1) (0 0 0 1)))))
+           (perform (a motion (type looking) (target (a location (pose ?behind))))))",
+    );
+    assert!(report.contains("its camera does not turn"), "{report}");
+    let ahead = "(make-pose \"map\" '((3 0 1.1) (0 0 0 1)))";
+    cook.done(&format!(
+        "(with-simulated-robot
+           (let ((?ahead {ahead}))
+             (perform (a motion (type looking) (target (a location (pose ?ahead)))))))"
+    ));
+}
+
+#[test]
+fn a_robot_without_a_lift_picks_up_from_where_its_arm_is() {
+    let mut options = described("(torso ", "");
+    let (name, text) = options.robot_description.take().expect("it is given");
+    let text = text
+        .replace(
+            "(speed torso_lift_joint :velocity 0.1 :acceleration 0.4)",
+            "",
+        )
+        .replace("(idle-joints ", "(idle-joints torso_lift_joint ");
+    options.robot_description = Some((name, text));
+    let mut cook = Cook::with(&options);
+    cook.done(BOTTLE);
+    cook.done(
+        "(with-simulated-robot (perform (an action (type fetching) (object (an object (type bottle))))))",
+    );
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+    assert_eq!(
+        cook.done("(list (rob-int::torso-joint) (rob-int::torso-height))")
+            .trim(),
+        "(NIL 0.0d0)"
+    );
 }

@@ -1,6 +1,5 @@
 """Drives the robot that `planwright robot --ros2` is, as clients of ROS 2's actions do, and judges what comes of it."""
 
-import os
 import random
 import signal
 import subprocess
@@ -18,21 +17,9 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
+from checks import check, timely
 
 PROGRAM, DISTRIBUTION, REPETITIONS = sys.argv[1], sys.argv[2], int(sys.argv[3])
-
-
-def check(condition, what):
-    if not condition:
-        sys.exit(f"FAILED: {what}")
-
-
-def timely(condition, what):
-    """What a machine that is busy with other things may miss is only told, if that is asked for."""
-    if not condition and os.environ.get("PATIENT"):
-        print(f"not in time: {what}")
-    else:
-        check(condition, what)
 
 
 # What Cyclone's middleware puts before requests and replies: whose it is, and a number of 64 bits.

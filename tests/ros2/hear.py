@@ -12,6 +12,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
+from checks import check, timely
 
 PROGRAM, SECONDS = sys.argv[1], float(sys.argv[2])
 DOMAIN = 77
@@ -27,19 +28,6 @@ MOVING = """
     (perform (a motion (type moving-torso) (joint-angle 0.3)))))
 (format t "~&arrived ~s~%" (get-robot-transformation))
 """
-
-
-def check(condition, what):
-    if not condition:
-        sys.exit(f"FAILED: {what}")
-
-
-def timely(condition, what):
-    """What a machine that is busy with other things may miss is only told, if that is asked for."""
-    if not condition and os.environ.get("PATIENT"):
-        print(f"not in time: {what}")
-    else:
-        check(condition, what)
 
 
 def reader(participant, topic, kind, qos):

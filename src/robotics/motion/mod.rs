@@ -44,7 +44,7 @@ pub use jobs::look::{Look, LookDirection, LookTarget};
 pub use jobs::move_joints::MoveJoints;
 pub use jobs::move_tcp::{MoveTcp, PoseGoal, TcpPath};
 pub use jobs::put::Put;
-pub use planning::aim::neck_positions;
+pub use planning::aim::{is_in_picture, neck_positions};
 pub use planning::base_checker::BaseChecker;
 pub(crate) use planning::base_path::MIN_MARGIN;
 pub use planning::drive_plan::plan_drive;

@@ -14,7 +14,7 @@ use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
-use robotics::motion::neck_positions;
+use robotics::motion::{is_in_picture, neck_positions};
 use robotics::robot::{JointId, KinematicTree};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -127,8 +127,12 @@ fn hand_opening(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
 
 fn gaze_error(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let target = simulation.pose_in_map(image, &args[0])?;
-    let wanted = neck_positions(&simulation.world, &Point3::from(target.translation.vector));
+    let target = Point3::from(target.translation.vector);
     let neck = &simulation.models.description.neck;
+    if neck.joints.is_empty() && !is_in_picture(&simulation.world, &target) {
+        return done(Value::Double(std::f64::consts::PI));
+    }
+    let wanted = neck_positions(&simulation.world, &target);
     let joints = &simulation.world.robot_configuration().joints;
     let now = neck.joints.iter().map(|joint| joints.get(*joint));
     let errors = wanted

@@ -16,7 +16,9 @@ impl MotionFailure {
             | Self::DrivePushes { .. } => "NAVIGATION-GOAL-NOT-REACHED",
             Self::TorsoGoalOutOfLimits { .. } => "TORSO-GOAL-NOT-REACHED",
             Self::TorsoBlocked { .. } => "TORSO-GOAL-UNREACHABLE",
-            Self::NeckLimit { .. } | Self::NeckBlocked { .. } => "PTU-GOAL-NOT-REACHED",
+            Self::NeckLimit { .. } | Self::NeckBlocked { .. } | Self::NeckMissing => {
+                "PTU-GOAL-NOT-REACHED"
+            }
             Self::ObjectNotFound { .. } => "PERCEPTION-OBJECT-NOT-FOUND",
             Self::NothingGripped { .. }
             | Self::WrongObject { .. }

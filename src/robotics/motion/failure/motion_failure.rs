@@ -62,6 +62,11 @@ pub enum MotionFailure {
         /// The obstacles on the path with the fewest collisions.
         blockers: Vec<BodyName>,
     },
+    /// The robot has no neck, and is to look at what its camera has not in its picture.
+    #[error(
+        "the robot cannot look there: its camera does not turn, and the point is not in its picture"
+    )]
+    NeckMissing,
     /// The robot has no drive, and is to go elsewhere.
     #[error("the robot cannot go to {}: its base does not drive", place(.goal))]
     BaseIsFixed {

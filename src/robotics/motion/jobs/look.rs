@@ -9,7 +9,7 @@ use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use crate::motion::failure::joint_limit::violation;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
-use crate::motion::planning::aim::neck_positions;
+use crate::motion::planning::aim::{is_in_picture, neck_positions};
 use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
@@ -127,6 +127,11 @@ impl JointGoal for LookGoal {
             check_finite(Self::MODULE, point.coords.as_slice())?;
         }
         let joints = world.models().description.neck.joints.clone();
+        if let Some(point) = point.filter(|_| joints.is_empty())
+            && !is_in_picture(world, &point)
+        {
+            return Err(MotionFailure::NeckMissing);
+        }
         let wanted = match point {
             None => vec![0.0; joints.len()],
             Some(point) => neck_positions(world, &point),

@@ -30,6 +30,17 @@ pub fn neck_positions(world: &World, point: &Point3<f64>) -> Vec<f64> {
     }
 }
 
+/// Whether the camera has a point of the map frame (m) in its picture, whatever is in the way.
+pub fn is_in_picture(world: &World, point: &Point3<f64>) -> bool {
+    let camera = world.models().description.camera();
+    let seen = world.link_pose(camera.frame).inverse_transform_point(point);
+    let (sin, cos) = trig::sin_cos(0.5 * camera.vertical_view);
+    // Half the picture's height, then its width, at the distance of the point (m).
+    let half = seen.z * sin / cos;
+    let wide = half * camera.width as f64 / camera.height as f64;
+    seen.z > 0.0 && seen.y.abs() <= half && seen.x.abs() <= wide
+}
+
 /// Angles (rad) of pan and tilt: the x axis of the tilted link passes through the point if the point is level
 /// with it.
 fn pan_and_tilt(
@@ -55,11 +66,10 @@ fn search(world: &World, joints: &[JointId], camera: LinkId, point: &Point3<f64>
     let tree = &world.models().robot;
     let robot = world.robot_configuration();
     let aim = |q: &JointPositions| off(&tree.link_pose(camera, &robot.base, q), point);
-    let others = joints.iter().map(|joint| (tree.joint(*joint), *joint));
-    let zero: Vec<f64> = others
-        .map(|(joint, _)| joint.limits.map_or(0.0, |limits| limits.clamp(0.0)))
+    let limits = joints.iter().map(|joint| tree.joint(*joint).limits);
+    let zero: &Vec<f64> = &limits
+        .map(|limits| limits.map_or(0.0, |limits| limits.clamp(0.0)))
         .collect();
-    let zero = &zero;
     let starts = STARTS.iter().flat_map(|away| {
         (0..joints.len()).map(move |i| {
             let mut start = zero.clone();
@@ -68,8 +78,10 @@ fn search(world: &World, joints: &[JointId], camera: LinkId, point: &Point3<f64>
         })
     });
     let mut best = (f64::INFINITY, zero.clone());
-    for start in std::iter::once(zero.clone()).chain(starts) {
-        let mut at = start;
+    for mut at in std::iter::once(zero.clone()).chain(starts) {
+        if best.0 < EXACT {
+            break;
+        }
         for _ in 0..STEPS {
             let q = with_joints(robot, joints, &at).joints;
             let error = aim(&q);
@@ -77,7 +89,7 @@ fn search(world: &World, joints: &[JointId], camera: LinkId, point: &Point3<f64>
                 best = (error.norm(), at.clone());
             }
             if error.norm() < EXACT {
-                return at;
+                break;
             }
             let columns: Vec<Vector2<f64>> = (0..at.len())
                 .map(|i| {

@@ -267,33 +267,32 @@ mod tests {
         goal: BasePlace,
         wall: impl Fn(f64, f64, f64) -> bool,
     ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
+        find_by(OMNIDIRECTIONAL, [-2.0, 0.0, 0.0], goal, wall)
+    }
+
+    /// A path for a base that drives ahead and back only.
+    fn find_ahead(
+        goal: BasePlace,
+        wall: impl Fn(f64, f64, f64) -> bool,
+    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
+        find_by(DriveKind::Differential, [-2.0, 0.0, 0.3], goal, wall)
+    }
+
+    fn find_by(
+        drive: DriveKind,
+        start: BasePlace,
+        goal: BasePlace,
+        wall: impl Fn(f64, f64, f64) -> bool,
+    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
         let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
         let explored = &mut ExploredGrids::default();
-        find_base_path(
-            [-2.0, 0.0, 0.0],
-            goal,
-            (OMNIDIRECTIONAL, ROOM),
-            0.7,
-            explored,
-            &mut blocked,
-        )
+        find_base_path(start, goal, (drive, ROOM), 0.7, explored, &mut blocked)
     }
 
     #[test]
     fn a_free_straight_way_is_taken() {
         let path = find([2.0, 0.0, 0.0], |_, _, _| false);
         assert_eq!(path, Ok(vec![[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
-    }
-
-    /// As `find`, for a base that drives ahead and back only.
-    fn find_ahead(
-        goal: BasePlace,
-        wall: impl Fn(f64, f64, f64) -> bool,
-    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
-        let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
-        let drive = (DriveKind::Differential, ROOM);
-        let explored = &mut ExploredGrids::default();
-        find_base_path([-2.0, 0.0, 0.3], goal, drive, 0.7, explored, &mut blocked)
     }
 
     #[test]
