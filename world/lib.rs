@@ -12,6 +12,12 @@ pub const FETCH_URDF: &str = include_str!("fetch.urdf");
 /// The roles of Fetch's links and joints.
 pub const FETCH_DESCRIPTION: &str = include_str!("fetch.sexp");
 
+/// The HSR: links, joints and shapes.
+pub const HSR_URDF: &str = include_str!("hsr.urdf");
+
+/// The roles of the HSR's links and joints.
+pub const HSR_DESCRIPTION: &str = include_str!("hsr.sexp");
+
 /// A robot that comes with planwright.
 #[derive(Clone, Copy, Debug)]
 pub struct Robot {
@@ -34,6 +40,11 @@ pub const ROBOTS: &[Robot] = &[
         name: "fetch",
         urdf: FETCH_URDF,
         description: FETCH_DESCRIPTION,
+    },
+    Robot {
+        name: "hsr",
+        urdf: HSR_URDF,
+        description: HSR_DESCRIPTION,
     },
 ];
 

@@ -50,6 +50,8 @@ pub(super) struct BaseSearch {
     /// Number of postures that have been checked in each part, in the first one since it has found one.
     postures: [u32; 3],
     walk: Walk,
+    /// Base poses near the one that the walk has come to, if the arms need such.
+    beside: VecDeque<Pose>,
     /// Base poses that are to be examined again.
     again: VecDeque<Pose>,
     /// Whether all others of the walk have been tried.
@@ -112,6 +114,7 @@ impl BaseSearch {
             postures: [0; 3],
             walk: Walk::first(query, map.cells.clone(), draw),
             map,
+            beside: VecDeque::new(),
             again: VecDeque::new(),
             is_second_look: false,
         }))
@@ -138,6 +141,7 @@ impl BaseSearch {
             checks,
             postures,
             walk,
+            beside,
             again,
             is_second_look,
             ..
@@ -146,6 +150,8 @@ impl BaseSearch {
             tally.add("the robot's base does not drive".to_owned());
             return Ok(None);
         }
+        let arms = &scene.world.models().description.arms;
+        let has_planar_arm = arms.iter().any(|arm| arm.kinematics.plane().is_some());
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
         let mut counted = 0;
         loop {
@@ -184,9 +190,19 @@ impl BaseSearch {
                 }
                 continue;
             }
-            let Some(base) = walk.next(draw) else {
-                *is_second_look = true;
-                continue;
+            let base = match beside.pop_front() {
+                Some(base) => base,
+                None => {
+                    let Some(base) = walk.next(draw) else {
+                        *is_second_look = true;
+                        continue;
+                    };
+                    if has_planar_arm {
+                        beside.extend(test.reach.bases_near(&base));
+                        continue;
+                    }
+                    base
+                }
             };
             if offered.has(&base) {
                 continue;

@@ -164,6 +164,17 @@ impl<'a> Reach<'a> {
         is_near.then_some(()).ok_or(NoReach::TooFar)
     }
 
+    /// The base poses near one (map frame) from which the target may be reached: that one, unless the arms
+    /// have to be turned towards it.
+    pub(super) fn bases_near(&self, base: &Pose) -> Vec<Pose> {
+        match self {
+            Self::Grasp(chooser, _) => chooser.bases_near(base),
+            Self::Put(put) => put.bases_near(base),
+            Self::Open(chooser) => chooser.bases_near(base),
+            Self::Point(..) | Self::Nothing => vec![*base],
+        }
+    }
+
     /// Number of postures of the arms that have been checked for collisions, as far as they are counted.
     pub(super) fn postures(&self) -> u32 {
         match self {

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 use super::closed_form::ClosedForm;
 use super::{
-    ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId, NumericKinematics,
+    ArmPlane, ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId, NumericKinematics,
     Unreachable,
 };
 use spatial::{Pose, trig};
@@ -45,6 +45,14 @@ impl ArmKinematics {
     /// to be unreachable.
     pub fn is_closed_form(&self) -> bool {
         matches!(self.solver, Solver::ClosedForm(_))
+    }
+
+    /// The plane in which an arm of fewer than six joints moves its hand freely, if there is one.
+    pub fn plane(&self) -> Option<&ArmPlane> {
+        match &self.solver {
+            Solver::ClosedForm(_) => None,
+            Solver::Numeric(solver) => solver.plane(),
+        }
     }
 
     /// The joints from the shoulder to the wrist.

@@ -189,6 +189,17 @@ impl JointChain {
         })
     }
 
+    /// The frame behind each moving joint, and the pose of the tip, all in the frame of the base.
+    pub(super) fn frames(&self, positions: &[f64]) -> (Vec<Pose>, Pose) {
+        let mut pose = Pose::identity();
+        let frames = self.segments.iter().map(|segment| {
+            pose = segment.after(&pose, segment.position(positions));
+            pose
+        });
+        let frames = frames.collect();
+        (frames, pose * self.tail)
+    }
+
     /// Pose of the tip in the frame of the base. Joints without a position are at 0.
     pub(super) fn forward(&self, positions: &[f64]) -> Pose {
         let mut pose = Pose::identity();

@@ -6,6 +6,7 @@
 
 pub(crate) mod arm_chain;
 pub mod arm_kinematics;
+pub mod arm_plane;
 pub mod arm_positions;
 mod chain_length;
 pub mod closed_form;
@@ -37,6 +38,7 @@ mod urdf_text;
 mod xml_elements;
 
 pub use arm_kinematics::ArmKinematics;
+pub use arm_plane::ArmPlane;
 pub use arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 pub use derive::{DerivedRobot, TouchTest};
 pub use description::RobotDescription;

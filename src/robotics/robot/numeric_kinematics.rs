@@ -3,12 +3,16 @@
 //! For arms without a closed form. What is found is a solution; what is not found may still exist, unless
 //! the goal is farther away than the chain is long. Everything is determined by goal and seed: the starts
 //! are drawn once, when the chain is read.
+//!
+//! A chain of fewer than six joints meets hardly any pose exactly. It brings its tip to the place, and its
+//! orientation is within 2 degrees of the wanted one.
 
 use std::f64::consts::PI;
 use std::fmt;
 
 use serde::Serialize;
 
+use super::arm_plane::{ArmPlane, GENERAL};
 use super::arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 use super::chain_length::ChainLength;
 use super::joint_chain::{ChainPositions, Columns, JointChain, JointChainError};
@@ -18,6 +22,14 @@ use spatial::{Pose, trig};
 /// Greatest distance (m) and angle (rad) of a solution from the goal.
 const DISTANCE: f64 = 1e-6;
 const ANGLE: f64 = 1e-5;
+/// The same for a chain that cannot meet poses in general.
+const LOOSE_DISTANCE: f64 = 1e-4;
+const LOOSE_ANGLE: f64 = 0.035;
+/// From what distance (m) and angle (rad) of the goal such a chain approaches the place first, how much (m)
+/// a radian counts then, and the steps of that.
+const SETTLING: (f64, f64) = (0.03, 0.2);
+const LEVER: f64 = 0.01;
+const SETTLING_STEPS: usize = 12;
 /// Starts of a search, the seed among them.
 const TRIES: usize = 100;
 /// Starts after which a goal is taken as out of reach where only that is asked.
@@ -129,17 +141,13 @@ struct Descent {
     error: f64,
 }
 
-impl Descent {
-    fn is_solution(&self) -> bool {
-        self.distance < DISTANCE && self.angle < ANGLE
-    }
-}
-
 /// Inverse kinematics of one chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumericKinematics {
     chain: JointChain,
     length: ChainLength,
+    /// Where a chain of fewer than six joints moves its tip freely, if there is such a plane.
+    plane: Option<ArmPlane>,
     /// Least and greatest position of each joint; infinite for continuous ones.
     bounds: [[f64; 2]; MOST_ARM_JOINTS],
     /// The middle of the limits, or 0.
@@ -177,6 +185,7 @@ impl NumericKinematics {
             middle: bounds.map(|bound| drawn(bound, 0.5)),
             postures: postures.collect(),
             length: ChainLength::of(&chain),
+            plane: ArmPlane::of(&chain),
             bounds,
             chain,
         })
@@ -190,6 +199,11 @@ impl NumericKinematics {
     /// The limits (rad or m) that solutions respect; `None` for continuous joints.
     pub fn limits(&self) -> &[Option<Limits>] {
         &self.chain.limits
+    }
+
+    /// The plane in which a chain of fewer than six joints moves its tip freely, if there is one.
+    pub fn plane(&self) -> Option<&ArmPlane> {
+        self.plane.as_ref()
     }
 
     /// Pose of the tip in the frame of the base. Joints without a position are at 0.
@@ -213,7 +227,7 @@ impl NumericKinematics {
         let mut compared = 0;
         for start in self.starts(goal, seed).take(TRIES) {
             let found = self.descend(goal, &start);
-            if found.is_solution() {
+            if self.is_solution(&found) {
                 let positions = self.turned_to(&found.positions, &seed);
                 let away = self.greatest_move(&positions, &seed);
                 if best.is_none_or(|(least, _)| away < least) {
@@ -255,7 +269,7 @@ impl NumericKinematics {
             let end = self.descend(goal, &start);
             let turned = self.turned_to(&end.positions, &[0.0; MOST_ARM_JOINTS]);
             let is_known = |known: &ChainPositions| self.greatest_move(known, &turned) < apart;
-            if end.is_solution() && !found.iter().any(is_known) {
+            if self.is_solution(&end) && !found.iter().any(is_known) {
                 found.push(turned);
             }
         }
@@ -263,10 +277,27 @@ impl NumericKinematics {
     }
 
     /// Whether a solution is found, without much trying; no solution is proof only of
-    /// [`Miss::TooFar`].
+    /// [`Miss::TooFar`]. Where there is a plane, only what lies in it counts: elsewhere the hand could not
+    /// move straight.
     pub fn reaches(&self, goal: &Pose) -> bool {
+        if self.plane.as_ref().is_some_and(|plane| !plane.holds(goal)) {
+            return false;
+        }
         let mut starts = self.starts(goal, self.middle).take(QUICK_TRIES);
-        self.check(goal).is_ok() && starts.any(|start| self.descend(goal, &start).is_solution())
+        self.check(goal).is_ok() && starts.any(|start| self.is_solution(&self.descend(goal, &start)))
+    }
+
+    /// Whether the chain has enough joints for poses in general.
+    fn is_general(&self) -> bool {
+        self.chain.joints.len() >= GENERAL
+    }
+
+    fn is_solution(&self, found: &Descent) -> bool {
+        let (distance, angle) = match self.is_general() {
+            true => (DISTANCE, ANGLE),
+            false => (LOOSE_DISTANCE, LOOSE_ANGLE),
+        };
+        found.distance < distance && found.angle < angle
     }
 
     /// What can be said of a goal without a search.
@@ -331,7 +362,7 @@ impl NumericKinematics {
         };
         let mut slow = 0;
         for _ in 0..STEPS {
-            let was_solution = best.is_solution();
+            let was_solution = self.is_general() && self.is_solution(&best);
             let (tip, columns) = self.chain.forward_and_columns(&at);
             let (twist, distance, angle) = difference(goal, &tip);
             let error = distance * distance + angle * angle;
@@ -357,7 +388,44 @@ impl NumericKinematics {
             };
             self.advance(&mut at, &step);
         }
-        best
+        match self.is_general() {
+            true => best,
+            false => self.settled(goal, best),
+        }
+    }
+
+    /// Goes on to where the tip is at the place of the goal, and its orientation as near as that permits.
+    fn settled(&self, goal: &Pose, from: Descent) -> Descent {
+        let (distance, angle) = SETTLING;
+        if from.error < EXACT || from.distance > distance || from.angle > angle {
+            return from;
+        }
+        let mut at = from.positions;
+        let mut end = from;
+        for _ in 0..SETTLING_STEPS {
+            let (tip, mut columns) = self.chain.forward_and_columns(&at);
+            let (mut twist, distance, angle) = difference(goal, &tip);
+            end = Descent {
+                positions: at,
+                distance,
+                angle,
+                error: distance * distance + angle * angle,
+            };
+            for row in columns.iter_mut().chain([&mut twist]) {
+                for turn in row.iter_mut().skip(3) {
+                    *turn *= LEVER;
+                }
+            }
+            let error = distance * distance + (LEVER * angle) * (LEVER * angle);
+            let Some(step) = self.step(&columns, &twist, error * LEVER * LEVER, &at) else {
+                break;
+            };
+            if step.iter().all(|move_of_joint| move_of_joint.abs() < 1e-9) {
+                break;
+            }
+            self.advance(&mut at, &step);
+        }
+        end
     }
 
     /// Moves the joints by the step, or a part of it if it is great, within the limits.
@@ -444,7 +512,7 @@ impl NumericKinematics {
         }
         let pulled = self.descend(goal, &at);
         let nearer = self.turned_to(&pulled.positions, seed);
-        match pulled.is_solution() && self.greatest_move(&nearer, seed) < away {
+        match self.is_solution(&pulled) && self.greatest_move(&nearer, seed) < away {
             true => nearer,
             false => *solution,
         }

@@ -14,6 +14,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::aligned_bases::AlignedBases;
 use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
 use super::overhead::Overhead;
 use super::shoulder::Shoulder;
@@ -178,6 +179,23 @@ impl<'w> GraspChooser<'w> {
         let object = base.inverse_transform_point(&self.question.in_map.translation.vector.into());
         let mut arms = self.question.arms.iter();
         arms.any(|side| self.shoulders[side.index()].reaches(&object.coords, self.span))
+    }
+
+    /// The base poses near one (map frame) from which grasps may work: that one, unless the arms have
+    /// to be turned towards what they grasp.
+    pub fn bases_near(&self, base: &Pose) -> Vec<Pose> {
+        let mut aligned = AlignedBases::new(self.world, base);
+        for (index, candidate) in self.candidates.all.iter().enumerate() {
+            if self.known_obstacle(index).is_some() {
+                continue;
+            }
+            let arm = self.world.models().description.arm(candidate.side);
+            let turned = self.question.in_map * about_z(candidate.turn);
+            if let Ok(poses) = candidate.definition.tool_poses(&turned, &arm.tool_axes) {
+                aligned.add(candidate.side, &poses.grasp);
+            }
+        }
+        aligned.bases()
     }
 
     /// The nearest grasp that works with the base at a pose in the map frame, or everything that

@@ -7,6 +7,7 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
+use super::aligned_bases::AlignedBases;
 use super::grasp_reach::Effort;
 use super::shoulder::Shoulder;
 use crate::motion::failure::no_handle_grasp::{HandleObstacle, NoHandleGrasp};
@@ -157,6 +158,20 @@ impl<'w> HandleChooser<'w> {
                 shoulder.reaches(&point.coords, arm.tool_offset + SHIFTS[1])
             })
         })
+    }
+
+    /// The base poses near one (map frame) from which the handle may be taken: that one, unless the arms
+    /// have to be turned towards it.
+    pub fn bases_near(&self, base: &Pose) -> Vec<Pose> {
+        let mut aligned = AlignedBases::new(self.world, base);
+        for (side, ..) in &self.hands {
+            for grasp in &self.grasps {
+                if let Some(tool) = self.stations(grasp).get(1) {
+                    aligned.add(*side, tool);
+                }
+            }
+        }
+        aligned.bases()
     }
 
     /// The first arm and grasp that work with the base at a pose in the map frame.

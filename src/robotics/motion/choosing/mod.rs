@@ -1,6 +1,7 @@
 //! Choices without moving: which grasp, which way to take a handle, and what is within reach from
 //! where.
 
+mod aligned_bases;
 pub(crate) mod carrying_posture;
 pub(crate) mod grasp_chooser;
 pub(crate) mod grasp_reach;

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Translation3, Vector3};
 
+use super::aligned_bases::AlignedBases;
 use super::grasp_chooser::{TURNS, about_z};
 use super::grasp_reach::{Effort, GraspReach, Station};
 use super::overhead::Overhead;
@@ -137,6 +138,7 @@ impl HeldGrip {
 
 /// Tells from which base poses an object could be put down at a place.
 pub struct PutReach<'w> {
+    world: &'w World,
     grip: &'w HeldGrip,
     target: Pose,
     reach: GraspReach<'w>,
@@ -155,6 +157,7 @@ impl<'w> PutReach<'w> {
         Ok(Self {
             span: wrist.translation.vector.norm(),
             overhead: Overhead::of(world, &grip.object, &target)?,
+            world,
             grip,
             target,
             reach: GraspReach::new(world, Some(&grip.object), true),
@@ -171,6 +174,17 @@ impl<'w> PutReach<'w> {
     pub fn is_near(&self, base: &Pose) -> bool {
         let place = base.inverse_transform_point(&self.target.translation.vector.into());
         self.shoulder.reaches(&place.coords, self.span)
+    }
+
+    /// The base poses near one (map frame) from which the object may be put down: that one, unless the
+    /// arm has to be turned towards the place.
+    pub fn bases_near(&self, base: &Pose) -> Vec<Pose> {
+        let mut aligned = AlignedBases::new(self.world, base);
+        for heading in self.grip.headings() {
+            let [_, tool, ..] = self.grip.poses(&(self.target * about_z(heading)));
+            aligned.add(self.grip.side, &tool);
+        }
+        aligned.bases()
     }
 
     /// The nearest heading (rad, relative to the one that is wanted) at which the object can be put

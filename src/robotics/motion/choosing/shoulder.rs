@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::robot::{JointKind, Side};
+use crate::robot::{Joint, JointKind, Side};
 use crate::world::World;
 use spatial::Pose;
 
@@ -31,29 +31,29 @@ impl Shoulder {
             .into_iter()
             .skip(begin.unwrap_or(0))
             .map(|id| tree.joint(id));
+        let slide = |joint: &Joint| match joint.limits {
+            Some(limits) if joint.kind == JointKind::Prismatic => {
+                limits.lower.abs().max(limits.upper.abs())
+            }
+            _ => 0.0,
+        };
         // An arm has at least one joint.
-        let (parent, origin) = chain.next().map_or((arm.base, Pose::identity()), |joint| {
+        let now = torso.height(joints);
+        let first = chain.next();
+        let (parent, origin) = first.map_or((arm.base, Pose::identity()), |joint| {
             (joint.parent, joint.origin)
         });
         let start = tree.relative_pose(models.description.base.frame, parent, joints);
         let at = (start.unwrap_or_default() * origin).translation;
-        let lengths = chain.map(|joint| {
-            let slides = match joint.limits {
-                Some(limits) if joint.kind == JointKind::Prismatic => {
-                    limits.lower.abs().max(limits.upper.abs())
-                }
-                _ => 0.0,
-            };
-            joint.origin.translation.vector.norm() + slides
-        });
-        let now = torso.height(joints);
+        let lengths = chain.map(|joint| joint.origin.translation.vector.norm() + slide(joint));
+        let length: f64 = lengths.sum();
         Self {
             at: at.vector.into(),
             range: match torso_moves {
                 true => [torso.limits.lower - now, torso.limits.upper - now],
                 false => [0.0, 0.0],
             },
-            length: lengths.sum(),
+            length: length + first.map_or(0.0, slide),
         }
     }
 
