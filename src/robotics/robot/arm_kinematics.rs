@@ -6,7 +6,7 @@
 //! kinematic tree. A pose of the wrist is the pose of the arm's tip link in the frame of the arm's
 //! base link; nothing here knows of tools, collisions or other arms.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::closed_form::ClosedForm;
 use super::{
@@ -45,6 +45,27 @@ impl ArmKinematics {
     /// to be unreachable.
     pub fn is_closed_form(&self) -> bool {
         matches!(self.solver, Solver::ClosedForm(_))
+    }
+
+    /// The same, for a hand whose tool is at a point (m, frame of the wrist): an arm of fewer than six joints
+    /// brings that to its place.
+    #[must_use]
+    pub fn with_tool_at(self, point: Vector3<f64>) -> Self {
+        Self {
+            solver: match self.solver {
+                Solver::Numeric(solver) => Solver::Numeric(solver.meeting_at(point)),
+                closed_form @ Solver::ClosedForm(_) => closed_form,
+            },
+        }
+    }
+
+    /// How far (m, rad) from a pose a solution may be: next to nothing, but for an arm of fewer than six
+    /// joints.
+    pub fn tolerance(&self) -> (f64, f64) {
+        match &self.solver {
+            Solver::ClosedForm(_) => (0.0, 0.0),
+            Solver::Numeric(solver) => solver.tolerance(),
+        }
     }
 
     /// The plane in which an arm of fewer than six joints moves its hand freely, if there is one.

@@ -377,7 +377,7 @@ impl<'a> Reader<'a> {
             tool_axes,
             start: *start,
             payload: optional_positive(record, "payload")?,
-            kinematics,
+            kinematics: kinematics.with_tool_at(ahead * tool_offset),
             postures,
             gripper: self.gripper(side)?,
         })

@@ -10,6 +10,7 @@
 use std::f64::consts::PI;
 use std::fmt;
 
+use nalgebra::{Translation3, Vector3};
 use serde::Serialize;
 
 use super::arm_plane::{ArmPlane, GENERAL};
@@ -148,6 +149,8 @@ pub struct NumericKinematics {
     length: ChainLength,
     /// Where a chain of fewer than six joints moves its tip freely, if there is such a plane.
     plane: Option<ArmPlane>,
+    /// The point of the tip that such a chain brings to the place (m, frame of the tip).
+    point: Vector3<f64>,
     /// Least and greatest position of each joint; infinite for continuous ones.
     bounds: [[f64; 2]; MOST_ARM_JOINTS],
     /// The middle of the limits, or 0.
@@ -186,6 +189,7 @@ impl NumericKinematics {
             postures: postures.collect(),
             length: ChainLength::of(&chain),
             plane: ArmPlane::of(&chain),
+            point: Vector3::zeros(),
             bounds,
             chain,
         })
@@ -199,6 +203,21 @@ impl NumericKinematics {
     /// The limits (rad or m) that solutions respect; `None` for continuous joints.
     pub fn limits(&self) -> &[Option<Limits>] {
         &self.chain.limits
+    }
+
+    /// The chain whose tip's point (m, frame of the tip) counts where it cannot meet a pose exactly.
+    #[must_use]
+    pub fn meeting_at(mut self, point: Vector3<f64>) -> Self {
+        self.point = point;
+        self
+    }
+
+    /// How far (m, rad) from a goal a solution may be.
+    pub fn tolerance(&self) -> (f64, f64) {
+        match self.is_general() {
+            true => (DISTANCE, ANGLE),
+            false => (LOOSE_DISTANCE, LOOSE_ANGLE),
+        }
     }
 
     /// The plane in which a chain of fewer than six joints moves its tip freely, if there is one.
@@ -293,10 +312,7 @@ impl NumericKinematics {
     }
 
     fn is_solution(&self, found: &Descent) -> bool {
-        let (distance, angle) = match self.is_general() {
-            true => (DISTANCE, ANGLE),
-            false => (LOOSE_DISTANCE, LOOSE_ANGLE),
-        };
+        let (distance, angle) = self.tolerance();
         found.distance < distance && found.angle < angle
     }
 
@@ -402,8 +418,16 @@ impl NumericKinematics {
         }
         let mut at = from.positions;
         let mut end = from;
+        let goal = &(goal * Translation3::from(self.point));
         for _ in 0..SETTLING_STEPS {
             let (tip, mut columns) = self.chain.forward_and_columns(&at);
+            let arm = tip.rotation * self.point;
+            for column in &mut columns {
+                let [x, y, z, a, b, c] = *column;
+                let shift = Vector3::new(a, b, c).cross(&arm);
+                *column = [x + shift.x, y + shift.y, z + shift.z, a, b, c];
+            }
+            let tip = tip * Translation3::from(self.point);
             let (mut twist, distance, angle) = difference(goal, &tip);
             end = Descent {
                 positions: at,

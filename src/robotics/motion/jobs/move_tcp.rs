@@ -165,7 +165,9 @@ impl JointGoal for HandGoal {
             let goal = in_base(goal, &base);
             let distance = distance_between(&hand, &goal);
             let angle = angle_between(&hand, &goal);
-            if distance <= MISSED.0 && angle <= MISSED.1 {
+            let arm = world.models().description.arm(side);
+            let tolerance = arm.kinematics.tolerance();
+            if distance <= MISSED.0 + tolerance.0 && angle <= MISSED.1 + tolerance.1 {
                 continue;
             }
             return Arrival::Missed(MotionFailure::HandGoalMissed {
