@@ -115,7 +115,7 @@ fn another_robot_takes_the_place_of_the_first_and_goes_again() {
     assert_eq!(said.trim().lines().last(), Some("(:PR2 NIL)"));
     assert!(cook.session.simulation().world().object("BOTTLE-1").is_ok());
     let (report, _) = cook.say("(use-robot :fitch)").expect_err("there is none");
-    assert!(report.contains("it has :PR2 and :FETCH"), "{report}");
+    assert!(report.contains("it has :PR2, :FETCH, :HSR"), "{report}");
 }
 
 #[test]

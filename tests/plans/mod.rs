@@ -14,6 +14,7 @@ mod exercises;
 mod fetch;
 mod generated_kitchens;
 mod grasping;
+mod hsr;
 mod kinds_of_worlds;
 mod location_measurements;
 mod location_solutions;

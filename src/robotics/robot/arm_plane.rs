@@ -7,7 +7,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::joint_chain::JointChain;
+use super::arm_positions::MOST_ARM_JOINTS;
+use super::joint_chain::{ChainPositions, ChainSegment, JointChain};
 use spatial::{Pose, pose, trig};
 
 /// Number of joints from which on an arm reaches poses in general.
@@ -33,6 +34,8 @@ pub struct ArmPlane {
     axis: Vector3<f64>,
     /// A point of the axis in the frame of the tip (m).
     point: Point3<f64>,
+    /// Whether each joint of the chain stays at 0 while the hand is in the plane.
+    stays: [bool; MOST_ARM_JOINTS],
 }
 
 impl ArmPlane {
@@ -42,7 +45,7 @@ impl ArmPlane {
         if chain.joints.len() >= GENERAL {
             return None;
         }
-        let (frames, tip) = chain.frames(&[0.0; super::arm_positions::MOST_ARM_JOINTS]);
+        let (frames, tip) = chain.frames(&[0.0; MOST_ARM_JOINTS]);
         let axes: Vec<Vector3<f64>> = (frames.iter().zip(&chain.segments))
             .map(|(frame, segment)| frame.rotation * segment.axis)
             .collect();
@@ -51,22 +54,30 @@ impl ArmPlane {
         if roll.slides {
             return None;
         }
-        let takes_part = |normal: &Vector3<f64>| {
-            let part = (others.iter().zip(other_axes)).filter(|(segment, axis)| {
-                match segment.slides {
-                    true => axis.dot(normal).abs() < EXACT,
-                    false => axis.cross(normal).norm() < EXACT,
-                }
-            });
-            part.count()
+        let takes_part = |segment: &ChainSegment, axis: &Vector3<f64>, normal: &Vector3<f64>| {
+            match segment.slides {
+                true => axis.dot(normal).abs() < EXACT,
+                false => axis.cross(normal).norm() < EXACT,
+            }
+        };
+        let count = |normal: &Vector3<f64>| {
+            let all = others.iter().zip(other_axes);
+            all.filter(|(segment, axis)| takes_part(segment, axis, normal))
+                .count()
         };
         let across = (others.iter().zip(other_axes))
             .filter(|(segment, axis)| !segment.slides && axis.z.abs() < EXACT)
             .filter(|(_, axis)| axis.dot(roll_axis).abs() < EXACT)
-            .map(|(_, axis)| (takes_part(axis), *axis))
+            .map(|(_, axis)| (count(axis), *axis))
             .filter(|(count, _)| *count >= LEAST);
         // The first of those with the most joints.
         let (_, normal) = across.reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+        let mut stays = [false; MOST_ARM_JOINTS];
+        for (segment, axis) in others.iter().zip(other_axes) {
+            if let Some(stays) = stays.get_mut(segment.leader) {
+                *stays |= !takes_part(segment, axis, &normal);
+            }
+        }
         let last = frames.last()?;
         let back = tip.inverse();
         Some(Self {
@@ -74,7 +85,18 @@ impl ArmPlane {
             axis: back.rotation * roll_axis,
             point: back * Point3::from(last.translation.vector),
             normal,
+            stays,
         })
+    }
+
+    /// The positions with those joints at 0 that would move the hand out of the plane.
+    pub(super) fn in_plane(&self, mut positions: ChainPositions) -> ChainPositions {
+        for (position, stays) in positions.iter_mut().zip(self.stays) {
+            if stays {
+                *position = 0.0;
+            }
+        }
+        positions
     }
 
     /// Whether the tip at a pose in the frame of the arm's base is in the plane, or as good as in it.

@@ -26,6 +26,8 @@ const ANGLE: f64 = 1e-5;
 /// The same for a chain that cannot meet poses in general.
 const LOOSE_DISTANCE: f64 = 1e-4;
 const LOOSE_ANGLE: f64 = 0.035;
+/// Starts from which such a chain is to meet a pose exactly, before it meets it nearly.
+const EXACT_TRIES: usize = 20;
 /// From what distance (m) and angle (rad) of the goal such a chain approaches the place first, how much (m)
 /// a radian counts then, and the steps of that.
 const SETTLING: (f64, f64) = (0.03, 0.2);
@@ -180,15 +182,21 @@ impl NumericKinematics {
             [true, true] => bound[0] + share * (bound[1] - bound[0]),
             _ => PI * (2.0 * share - 1.0),
         };
-        let postures = (0..POSTURES).map(|_| {
+        let plane = ArmPlane::of(&chain);
+        let postures = (0..POSTURES).map(|i| {
             let posture = bounds.map(|bound| drawn(bound, shares.next()));
+            let posture = match &plane {
+                Some(plane) if i % 4 > 0 => plane.in_plane(posture),
+                _ => posture,
+            };
             (posture, chain.forward(&posture))
         });
+        let postures = postures.collect();
         Ok(Self {
             middle: bounds.map(|bound| drawn(bound, 0.5)),
-            postures: postures.collect(),
+            postures,
             length: ChainLength::of(&chain),
-            plane: ArmPlane::of(&chain),
+            plane,
             point: Vector3::zeros(),
             bounds,
             chain,
@@ -244,6 +252,13 @@ impl NumericKinematics {
         let mut best: Option<(f64, ChainPositions)> = None;
         let mut closest: Option<Descent> = None;
         let mut compared = 0;
+        if !self.is_general() {
+            let mut ends = (self.starts(goal, seed).take(EXACT_TRIES))
+                .map(|start| self.descend(goal, &start));
+            if let Some(exact) = ends.find(|end| end.distance < DISTANCE && end.angle < ANGLE) {
+                return Ok(self.cut(&self.turned_to(&exact.positions, &seed)));
+            }
+        }
         for start in self.starts(goal, seed).take(TRIES) {
             let found = self.descend(goal, &start);
             if self.is_solution(&found) {

@@ -18,7 +18,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(super) static TABLE: &[Builtin] = &[control(
     "USE-ROBOT",
     "robot",
-    "Puts another robot into the kitchen, at its start and without objects: :PR2 or :FETCH. Returns its name. Robots of one's own are given when planwright starts, by --robot.",
+    "Puts another robot into the kitchen, at its start and without objects: :PR2, :FETCH or :HSR. Returns its name. Robots of one's own are given when planwright starts, by --robot.",
     &["(use-robot :fetch) => :FETCH", "(use-robot :pr2) => :PR2"],
     edit!(use_robot),
 )];
@@ -28,11 +28,12 @@ fn use_robot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Re
     let Some(robot) = named.as_deref().and_then(robot_named) else {
         let names = ROBOTS
             .iter()
-            .map(|robot| format!(":{}", robot.name.to_uppercase()));
+            .map(|robot| format!(":{}", robot.name.to_uppercase()))
+            .collect::<Vec<_>>();
         return Err(Raise::simple(format!(
             "{} is no robot that planwright has: it has {}. Others are given by --robot when it starts.",
             print::to_string(image, &args[0], true),
-            names.collect::<Vec<_>>().join(" and ")
+            names.join(", ")
         )));
     };
     if host.audience.shows_kitchen() {

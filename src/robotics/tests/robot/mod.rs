@@ -5,6 +5,7 @@ mod description;
 mod fetch;
 mod forward_kinematics;
 mod garbled_files;
+mod hsr;
 mod inverse_kinematics;
 mod jaw_gap;
 mod kitchen;
