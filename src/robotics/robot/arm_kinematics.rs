@@ -10,8 +10,8 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::closed_form::ClosedForm;
 use super::{
-    ArmPlane, ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId, NumericKinematics,
-    Unreachable,
+    ArmPlane, ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId,
+    NumericKinematics, Unreachable,
 };
 use spatial::{Pose, trig};
 

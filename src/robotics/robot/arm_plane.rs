@@ -54,12 +54,13 @@ impl ArmPlane {
         if roll.slides {
             return None;
         }
-        let takes_part = |segment: &ChainSegment, axis: &Vector3<f64>, normal: &Vector3<f64>| {
-            match segment.slides {
+        let takes_part =
+            |segment: &ChainSegment, axis: &Vector3<f64>, normal: &Vector3<f64>| match segment
+                .slides
+            {
                 true => axis.dot(normal).abs() < EXACT,
                 false => axis.cross(normal).norm() < EXACT,
-            }
-        };
+            };
         let count = |normal: &Vector3<f64>| {
             let all = others.iter().zip(other_axes);
             all.filter(|(segment, axis)| takes_part(segment, axis, normal))

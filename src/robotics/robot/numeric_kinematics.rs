@@ -253,8 +253,8 @@ impl NumericKinematics {
         let mut closest: Option<Descent> = None;
         let mut compared = 0;
         if !self.is_general() {
-            let mut ends = (self.starts(goal, seed).take(EXACT_TRIES))
-                .map(|start| self.descend(goal, &start));
+            let mut ends =
+                (self.starts(goal, seed).take(EXACT_TRIES)).map(|start| self.descend(goal, &start));
             if let Some(exact) = ends.find(|end| end.distance < DISTANCE && end.angle < ANGLE) {
                 return Ok(self.cut(&self.turned_to(&exact.positions, &seed)));
             }
@@ -318,7 +318,8 @@ impl NumericKinematics {
             return false;
         }
         let mut starts = self.starts(goal, self.middle).take(QUICK_TRIES);
-        self.check(goal).is_ok() && starts.any(|start| self.is_solution(&self.descend(goal, &start)))
+        self.check(goal).is_ok()
+            && starts.any(|start| self.is_solution(&self.descend(goal, &start)))
     }
 
     /// Whether the chain has enough joints for poses in general.

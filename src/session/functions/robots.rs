@@ -5,7 +5,7 @@ use crate::host::call::{done, edit};
 use crate::simulation::names::name_text;
 use cram::Reply;
 use descriptions::{ROBOTS, robot_named};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::{Builtin, control, pure};
 use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
@@ -15,13 +15,30 @@ use robotics::robot::{KinematicTree, RobotDescription};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[control(
-    "USE-ROBOT",
-    "robot",
-    "Puts another robot into the kitchen, at its start and without objects: :PR2, :FETCH or :HSR. Returns its name. Robots of one's own are given when planwright starts, by --robot.",
-    &["(use-robot :fetch) => :FETCH", "(use-robot :pr2) => :PR2"],
-    edit!(use_robot),
-)];
+pub(super) static TABLE: &[Builtin] = &[
+    pure(
+        "LIST-ROBOTS",
+        "",
+        "The robots that come with planwright, the usual one first.",
+        &["(list-robots) => (:PR2 :FETCH :HSR)"],
+        list_robots,
+    ),
+    control(
+        "USE-ROBOT",
+        "robot",
+        "Puts another robot into the kitchen, at its start and without objects: :PR2, :FETCH or :HSR. Returns its name. Robots of one's own are given when planwright starts, by --robot.",
+        &["(use-robot :fetch) => :FETCH", "(use-robot :pr2) => :PR2"],
+        edit!(use_robot),
+    ),
+];
+
+fn list_robots(image: &mut Image, _: &[Value]) -> Result<Value> {
+    let names: Vec<Value> = ROBOTS
+        .iter()
+        .map(|robot| image.keyword(&robot.name.to_uppercase()).into())
+        .collect();
+    Ok(Value::list(names))
+}
 
 fn use_robot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let named = name_text(image, &args[0]);

@@ -24,6 +24,7 @@ use crate::command::options::Options;
 use crate::command::outputs::Outputs;
 use crate::sweep_report;
 use compare::compare;
+use descriptions::ROBOTS;
 use file::sweep_file;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
@@ -79,7 +80,46 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
             }
         }
         (None, Some(folder)) => work(&options, wanted, folder, threads),
-        (None, None) => Err(CommandError::Sweep("a file was expected".to_owned())),
+        (None, None) => Err(no_file()),
+    }
+}
+
+fn no_file() -> CommandError {
+    CommandError::Sweep("a file was expected".to_owned())
+}
+
+/// The options of what is compared with: another robot, if one is wanted.
+fn other_options(options: &Options, wanted: &SweepOptions) -> Options {
+    let mut others = options.clone();
+    if let Some(robot) = &wanted.compare_robot {
+        others.robot = Some(robot.clone());
+        others.robot_description = wanted.compare_robot_description.clone();
+    }
+    others
+}
+
+/// What reports call the two that are compared: their files if these are two, and their robots if those
+/// are.
+fn names_of_compared(
+    options: [&Options; 2],
+    wanted: &SweepOptions,
+    files: [&str; 2],
+) -> [String; 2] {
+    let robots = options.map(|options| match &options.robot {
+        Some(robot) => robot.display().to_string(),
+        None => ROBOTS[0].name.to_owned(),
+    });
+    let [first, second] = files;
+    match (&wanted.compare, &wanted.compare_robot) {
+        (_, None) => [first.to_owned(), second.to_owned()],
+        (None, Some(_)) => robots,
+        (Some(_), Some(_)) => {
+            let [one, other] = &robots;
+            [
+                format!("{first} with {one}"),
+                format!("{second} with {other}"),
+            ]
+        }
     }
 }
 
@@ -88,7 +128,13 @@ fn check_outputs(options: &Options, wanted: &SweepOptions) -> Result<(), Command
     let jobs = [&wanted.into, &wanted.resume, &wanted.report, &wanted.status];
     let jobs = jobs.into_iter().flatten();
     let of_jobs: Vec<PathBuf> = jobs.flat_map(|folder| job::files(folder)).collect();
-    let files = [&wanted.file, &wanted.compare].into_iter().flatten();
+    let files = [
+        &wanted.file,
+        &wanted.compare,
+        &wanted.compare_robot,
+        &wanted.compare_robot_description,
+    ];
+    let files = files.into_iter().flatten();
     let heat_map = wanted.heat_map.as_ref().map(|heat_map| &heat_map.path);
     Outputs::reading(files.chain(options.files()).chain(&of_jobs))
         .file("--csv", wanted.csv.as_ref())
@@ -124,14 +170,17 @@ fn in_memory(
     }
     interrupt::expect();
     let count = wanted.worlds.map_or(known.worlds, |count| count.get());
-    if let Some(path) = &wanted.compare {
-        let other = sweep_file(path)?;
-        let other_name = other.name.clone();
-        let (others, known) = Worlds::open(options, other, wanted.name.as_deref())?;
+    if wanted.is_comparison() {
+        let path = wanted.compare.as_ref().or(wanted.file.as_ref());
+        let other = sweep_file(path.ok_or_else(no_file)?)?;
+        let other_options = other_options(options, wanted);
+        let files = [file_name.as_str(), &other.name];
+        let [first, second] = names_of_compared([options, &other_options], wanted, files);
+        let (others, known) = Worlds::open(&other_options, other, wanted.name.as_deref())?;
         let others = others.within(wanted.time_limit);
         let plans = [
-            (&worlds, file_name, title),
-            (&others, other_name, self::title(options, &known)),
+            (&worlds, first, title),
+            (&others, second, self::title(options, &known)),
         ];
         let compared = compare(plans, count, threads, wanted.until_decided);
         compared.tell()?;

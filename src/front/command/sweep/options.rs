@@ -48,8 +48,15 @@ pub(crate) struct SweepOptions {
     /// Run the sweep of another file in the same worlds: which plan is better?
     #[arg(long, value_name = "OTHER", requires = "file", conflicts_with_all = ["into", "until_width"])]
     pub(crate) compare: Option<PathBuf>,
+    /// Run the sweep with another robot in the same worlds, one that comes with planwright or a URDF:
+    /// which robot succeeds more often? With --compare, the other plan runs with it
+    #[arg(long, value_name = "ROBOT", requires = "file", conflicts_with_all = ["into", "until_width"])]
+    pub(crate) compare_robot: Option<PathBuf>,
+    /// With --compare-robot: what the links and joints of a robot of one's own are for
+    #[arg(long, value_name = "FILE", requires = "compare_robot")]
+    pub(crate) compare_robot_description: Option<PathBuf>,
     /// With --compare: stop at 200, 400, 800 … worlds if it is decided which plan is better
-    #[arg(long, requires = "compare")]
+    #[arg(long)]
     pub(crate) until_decided: bool,
     /// Record worlds that fail into MCAP files in a folder
     #[arg(long, value_name = "FOLDER", requires = "file")]
@@ -102,4 +109,11 @@ pub(crate) struct SweepOptions {
     /// With --engine: arguments for the engine, such as --partition=short
     #[arg(last = true, value_name = "ENGINE-ARGUMENTS", requires = "engine")]
     pub(crate) engine_arguments: Vec<String>,
+}
+
+impl SweepOptions {
+    /// Whether another plan or another robot runs in the same worlds.
+    pub(crate) fn is_comparison(&self) -> bool {
+        self.compare.is_some() || self.compare_robot.is_some()
+    }
 }

@@ -119,7 +119,10 @@ fn what_is_far_beside_the_plane_is_not_reached() {
     let beside = Pose::from_parts(goal.translation, turned.rotation * goal.rotation);
     assert!(!arm.reaches(&beside));
     // Nor is it bent: six numbers take six joints.
-    assert!(arm.nearest(&beside, &ArmPositions::from_iter([0.0; 5])).is_err());
+    assert!(
+        arm.nearest(&beside, &ArmPositions::from_iter([0.0; 5]))
+            .is_err()
+    );
 }
 
 #[test]
@@ -127,10 +130,17 @@ fn the_base_turns_and_moves_aside_until_the_hand_is_in_the_plane() {
     let arm = arm();
     let plane = arm.plane().expect("five joints have one");
     let mut random = Pcg64::seed_from_u64(5);
-    let mut share = |range: f64| range * (2.0 * f64::from(random.next_u32()) / f64::from(u32::MAX) - 1.0);
+    let mut share =
+        |range: f64| range * (2.0 * f64::from(random.next_u32()) / f64::from(u32::MAX) - 1.0);
     for _ in 0..200 {
         // A pose that the arm has from a base, and another base near that.
-        let hand = arm.forward(&[0.3 + share(0.2), -0.9 + share(0.3), 0.0, -0.9 + share(0.3), share(1.5)]);
+        let hand = arm.forward(&[
+            0.3 + share(0.2),
+            -0.9 + share(0.3),
+            0.0,
+            -0.9 + share(0.3),
+            share(1.5),
+        ]);
         let base = from_xy_yaw(share(2.0), share(2.0), share(3.0));
         let tip = base * hand;
         let near = base * from_xy_yaw(0.0, share(0.03), share(0.1));
