@@ -14,6 +14,8 @@ use super::failure::CommandError;
 use super::heap;
 use super::options::{LogLevel, Options};
 use super::stack::COMPILER_STACK;
+use closest_name::closest_name;
+use descriptions::ROBOTS;
 use lisp::files::{bytes_of, text_of};
 use lisp::guard::set_stack_budget;
 use lisp::visible::visible;
@@ -41,7 +43,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         seed: options.seed,
         robot: match shipped {
             Some(_) => None,
-            None => options.robot.as_deref().map(read_urdf).transpose()?,
+            None => options.robot.as_deref().map(read_robot).transpose()?,
         },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: match generated {
@@ -125,6 +127,24 @@ fn read_urdf(path: &Path) -> Result<(String, String), CommandError> {
     let bytes = bytes_of(path).map_err(|error| wrong(error.to_string()))?;
     let text = urdf_text(&bytes).map_err(wrong)?;
     Ok((path.display().to_string(), text))
+}
+
+/// As [`read_urdf`], of a robot; what cannot be read may be the misspelt name of one that comes with
+/// planwright.
+fn read_robot(path: &Path) -> Result<(String, String), CommandError> {
+    let names = || ROBOTS.iter().map(|robot| robot.name);
+    read_urdf(path).map_err(|error| match error {
+        CommandError::Open(text) if path.extension().is_none() && !path.exists() => {
+            let closest = closest_name(&path.to_string_lossy(), names());
+            let hint = closest.map_or_else(String::new, |name| format!("; did you mean {name}?"));
+            let names: Vec<&str> = names().collect();
+            CommandError::Open(format!(
+                "{text}; the robots of planwright are {}{hint}",
+                names.join(", ")
+            ))
+        }
+        other => other,
+    })
 }
 
 /// Options that are about nothing but the robot of a file.
