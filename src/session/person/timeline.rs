@@ -62,7 +62,7 @@ impl Timeline {
     }
 
     /// The simulated times (s) of the moments, in order.
-    pub(crate) fn times(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn times(&self) -> impl DoubleEndedIterator<Item = f64> {
         self.moments.iter().map(|(time, _)| *time)
     }
 
