@@ -52,7 +52,9 @@ impl Extension for Vocabulary {
 
 /// A name as it is compared; frames may begin with a slash.
 fn plain(name: &str) -> String {
-    name.trim_start_matches('/').to_uppercase().replace('_', "-")
+    name.trim_start_matches('/')
+        .to_uppercase()
+        .replace('_', "-")
 }
 
 impl Vocabulary {

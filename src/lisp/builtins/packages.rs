@@ -380,7 +380,9 @@ fn unuse_package(image: &mut Image, packages: &Value, package: Option<&Value>) -
 fn open_package(image: &mut Image, name: String) -> Outcome {
     let known = image.packages.find(&name);
     let Some(id) = known.or_else(|| image.packages.make(&name, &[])) else {
-        return Err(Raise::simple(format!("No package {name} can be made: there are too many.")));
+        return Err(Raise::simple(format!(
+            "No package {name} can be made: there are too many."
+        )));
     };
     image.packages.get_mut(id).is_open = true;
     Ok(Value::Package(id))

@@ -4,8 +4,8 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use indexmap::IndexMap;
-use mcap::MessageStream;
 use mcap::read::Options;
+use mcap::{McapError, MessageStream};
 use serde_json::{Map, Value, json};
 
 use super::RecordingError;
@@ -41,6 +41,8 @@ fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
                 is_cut_off = true;
                 break;
             }
+            // Whole chunks have been unpacked before.
+            Err(McapError::UnsupportedCompression(_)) => return Err(RecordingError::CutOff),
             Err(error) => return Err(error.into()),
         };
         let Some(channel) = Channel::of_topic(&message.channel.topic) else {
@@ -104,6 +106,21 @@ fn object_name(frame: &str) -> String {
     frame.trim_start_matches("object/").to_lowercase()
 }
 
+/// The name of a task as users give it: `pick-up` for `[PICK-UP]-401`, `top-level` for a plan at top level.
+fn task_name(name: &str) -> String {
+    let inside = name
+        .strip_prefix('[')
+        .and_then(|name| name.rsplit_once(']'));
+    let name = inside.map_or(name, |(name, _)| name);
+    match name {
+        "" => "top-level".to_owned(),
+        name => name
+            .strip_prefix("TOP-LEVEL-")
+            .unwrap_or(name)
+            .to_lowercase(),
+    }
+}
+
 /// A text, or nothing if it is empty.
 fn text(text: &str) -> Value {
     match text {
@@ -150,7 +167,7 @@ impl Rows {
 
     fn begin(&mut self, time: f64, task: &Task) {
         let number = self.tasks.len();
-        let name = task.name.to_lowercase();
+        let name = task_name(&task.name);
         let parent = self.tasks.get_index_of(&task.parent);
         let (nth, outer) = match self.tasks.get_mut(&task.parent) {
             Some(parent) => {
@@ -279,5 +296,30 @@ impl Rows {
         let lines = |rows: Vec<Value>| rows.iter().map(|row| format!("{row}\n")).collect();
         let relations = relations.into_iter();
         relations.map(|(name, rows)| (name, lines(rows))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tasks_have_the_names_that_users_give() {
+        for (name, shown) in [
+            ("[PICK-UP]-401", "pick-up"),
+            ("[TOP-LEVEL-TOP-LEVEL]-391", "top-level"),
+            ("[TOP-LEVEL]-392", "top-level"),
+            ("PICKING-UP", "picking-up"),
+            ("", "top-level"),
+        ] {
+            assert_eq!(task_name(name), shown, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_recording_is_refused() {
+        for bytes in [&b""[..], b"hello", b"\x89MCAP0\r\n", &[0; 4096]] {
+            assert!(read_episode(bytes).is_err(), "{bytes:?}");
+        }
     }
 }
