@@ -1,8 +1,6 @@
 //! What goes on beside the plans while simulated time passes, such as a world that is written in the
 //! language: functions that are called at regular times.
 
-use lisp::evaluator::nested::call_nested;
-use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 
@@ -28,6 +26,19 @@ impl Companion {
         }
     }
 
+    /// The function that is called.
+    pub(crate) fn function(&self) -> Value {
+        self.function.clone()
+    }
+
+    /// The same, to be called a period from now.
+    pub(crate) fn again(self, now: f64) -> Companion {
+        Companion {
+            next: now + self.period,
+            ..self
+        }
+    }
+
     /// Whether both call the same function.
     pub(crate) fn is_like(&self, other: &Companion) -> bool {
         self.function.is_eql(&other.function)
@@ -48,23 +59,12 @@ pub(crate) fn next_call(plan: &Plan) -> Option<f64> {
     times.min_by(f64::total_cmp)
 }
 
-/// Calls the companions whose time has come, in the order in which they came; were there any?
-pub(crate) fn call_due(image: &mut Image) -> bool {
-    let plan = Plan::of(image);
+/// The companions whose time has come, in the order in which they came; they are put aside until
+/// [`Plan::add_companion`] puts them back.
+pub(crate) fn take_due(plan: &Plan) -> Vec<Companion> {
     let now = plan.now();
-    let mut called = false;
-    for mut companion in plan.companions.take() {
-        if companion.next > now {
-            plan.companions.borrow_mut().push(companion);
-            continue;
-        }
-        called = true;
-        companion.next = now + companion.period;
-        let goes_on = call_nested(image, companion.function.clone(), Vec::new());
-        // It goes on after an interrupt, too.
-        if goes_on.map_or(true, |value| !value.is_nil()) {
-            plan.add_companion(companion);
-        }
-    }
-    called
+    let all = plan.companions.take();
+    let (due, later): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| c.next <= now);
+    *plan.companions.borrow_mut() = later;
+    due
 }

@@ -209,7 +209,7 @@ fn what_was_performed_in_the_worlds_of_a_sweep_is_kept_in_order() {
         "--count",
     ]);
     assert!(
-        answers.starts_with("run  s          count  share\n  0  succeeded      2"),
+        answers.starts_with("run  s          count  share\n  0  succeeded      1"),
         "{answers}"
     );
     let _ = std::fs::remove_dir_all(&folder);

@@ -1,6 +1,6 @@
 //! Questions to how the world was: HOLDS with a time, events and contacts, and what is refused.
 
-use super::said;
+use super::{said, said_and_printed};
 use session::{Session, SessionOptions};
 
 /// A session in which the robot has picked up a bottle, a hand of which is opened afterwards.
@@ -118,7 +118,7 @@ fn what_is_no_time_is_refused() {
             "There is no occasion NONSENSE",
         ),
     ] {
-        let said = said(&mut session, question);
+        let said = said_and_printed(&mut session, question);
         assert!(said.contains(part), "{question}: {said}");
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::said;
+use super::{said, said_and_printed};
 use session::dialogue::{Evaluate, Event};
 use session::{Session, SessionOptions};
 
@@ -494,7 +494,7 @@ fn systems_that_are_not_here_are_told_and_do_not_stop_others() {
         ],
     );
     let mut session = folder.session();
-    let told = said(&mut session, "(asdf:load-system :my-demo)");
+    let told = said_and_printed(&mut session, "(asdf:load-system :my-demo)");
     for part in [
         "The system actionlib, on which my-demo depends, is not here: there is no action server to call",
         "The system cram-giskard, on which my-demo depends, is not here",

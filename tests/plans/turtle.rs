@@ -1,6 +1,6 @@
 //! The turtle: a world beside the robot's, in simulated time.
 
-use super::said;
+use super::{said, said_and_printed};
 use session::{Session, SessionOptions};
 
 #[test]
@@ -41,14 +41,14 @@ fn the_turtle_moves_while_time_passes_and_only_then() {
     ] {
         assert_eq!(said(&mut session, form), shown, "{form}");
     }
-    let wall = said(
+    let wall = said_and_printed(
         &mut session,
         "(progn (drive 9 0) (wait-duration 2) (place))",
     );
     assert!(wall.contains("Oh no! I hit the wall!"), "{wall}");
     assert!(wall.ends_with("(11.09 5.54 0.0)"), "{wall}");
     // An error in a callback is told, and the turtle goes on.
-    let told = said(
+    let told = said_and_printed(
         &mut session,
         "(progn (subscribe \"turtle1/pose\" \"\" (lambda (m) (with-fields (x) m (when (> 9 x) (error \"Too far.\")))))
                 (drive -9 0) (wait-duration 1) (place))",

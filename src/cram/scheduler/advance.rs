@@ -75,7 +75,7 @@ impl<C: 'static> Scheduler<C> {
             host.advance(image, now, until)
         };
         let passed = self.take_in(plan, advance);
-        if companion::call_due(image) {
+        if self.call_companions(image, host) {
             return Passed::Something;
         }
         passed

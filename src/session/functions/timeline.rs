@@ -22,6 +22,13 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(moments),
     ),
     control(
+        "%MOMENT-SERIALS",
+        "",
+        "Numbers by which the moments of %MOMENTS can be told apart for ever.",
+        &["(= (length (btr::%moment-serials)) (length (btr::%moments))) => T"],
+        host!(serials),
+    ),
+    control(
         "%GO-TO-MOMENT",
         "number",
         "In a trial: the world is as it was at a moment, counted from 0.",
@@ -39,6 +46,12 @@ pub(super) static TABLE: &[Builtin] = &[
 
 fn moments(person: &mut Person, _: &mut Image, _: &[Value]) -> Result<Reply> {
     done(Value::list(person.timeline.times().map(Value::Double)))
+}
+
+fn serials(person: &mut Person, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let serials = person.timeline.serials();
+    let serials = serials.map(|serial| Value::Int(i64::try_from(serial).unwrap_or(i64::MAX)));
+    done(Value::list(serials))
 }
 
 fn keep_moments(person: &mut Person, _: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -12,11 +12,23 @@ const MAX_MOMENTS: usize = 500;
 /// The simulated time (s) between two moments while something moves.
 const INTERVAL: f64 = 1.0;
 
+/// A moment that is remembered.
+struct Moment {
+    /// In simulated seconds.
+    time: f64,
+    /// Which one it is of all that have been noted, in copies of the session, too.
+    serial: u64,
+    /// The state that the world was in from then on.
+    snapshot: Snapshot,
+}
+
 /// The moments that are remembered.
 #[derive(Default)]
 pub(crate) struct Timeline {
-    /// Simulated times (s) with the state that the world was in from then on, the oldest first.
-    moments: VecDeque<(f64, Snapshot)>,
+    /// The oldest first.
+    moments: VecDeque<Moment>,
+    /// How many have been noted.
+    noted: u64,
     /// Whether none are noted.
     is_off: bool,
 }
@@ -26,6 +38,7 @@ impl Timeline {
     pub(super) fn emptied(&self) -> Timeline {
         Timeline {
             moments: VecDeque::new(),
+            noted: self.noted,
             is_off: self.is_off,
         }
     }
@@ -44,30 +57,40 @@ impl Timeline {
             return;
         }
         let now = simulation.now();
-        if self.moments.back().is_some_and(|(time, _)| *time >= now) {
+        if self.moments.back().is_some_and(|moment| moment.time >= now) {
             self.moments.pop_back();
         }
         if self.moments.len() == MAX_MOMENTS {
             self.moments.pop_front();
         }
-        self.moments.push_back((now, Snapshot::take(simulation)));
+        self.noted += 1;
+        self.moments.push_back(Moment {
+            time: now,
+            serial: self.noted,
+            snapshot: Snapshot::take(simulation),
+        });
     }
 
     /// Notes the present state if the last moment is long ago.
     pub(crate) fn note_now_and_then(&mut self, simulation: &Simulation) {
         let last = self.moments.back();
-        if last.is_none_or(|(time, _)| simulation.now() - time >= INTERVAL) {
+        if last.is_none_or(|moment| simulation.now() - moment.time >= INTERVAL) {
             self.note(simulation);
         }
     }
 
     /// The simulated times (s) of the moments, in order.
     pub(crate) fn times(&self) -> impl DoubleEndedIterator<Item = f64> {
-        self.moments.iter().map(|(time, _)| *time)
+        self.moments.iter().map(|moment| moment.time)
+    }
+
+    /// Numbers by which moments can be told apart for ever, in order.
+    pub(crate) fn serials(&self) -> impl DoubleEndedIterator<Item = u64> {
+        self.moments.iter().map(|moment| moment.serial)
     }
 
     /// The state that the world was in from a moment on.
     pub(crate) fn moment(&self, number: usize) -> Option<&Snapshot> {
-        self.moments.get(number).map(|(_, snapshot)| snapshot)
+        self.moments.get(number).map(|moment| &moment.snapshot)
     }
 }

@@ -34,6 +34,7 @@ fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
     let mut rows = Rows::default();
     let mut is_ours = false;
     let mut is_cut_off = false;
+    let mut last_shown = Vec::new();
     for message in MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into())? {
         let message = match message {
             Ok(message) => message,
@@ -51,6 +52,13 @@ fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
         is_ours = true;
         if !matches!(channel, Channel::Tasks | Channel::Shown | Channel::Log) {
             continue;
+        }
+        if channel == Channel::Shown {
+            let shown = without_time(&message.data);
+            if shown == last_shown {
+                continue;
+            }
+            last_shown = shown.to_vec();
         }
         let data: Value = match message.channel.message_encoding.as_str() {
             "json" => serde_json::from_slice(&message.data)?,
@@ -75,6 +83,16 @@ fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
         relations: rows.relations(),
         is_cut_off,
     })
+}
+
+/// A message in Protobuf without the time stamp at its beginning.
+fn without_time(data: &[u8]) -> &[u8] {
+    match data {
+        [0x0a, length, ..] if *length < 0x80 => {
+            data.get(2 + usize::from(*length)..).unwrap_or(data)
+        }
+        _ => data,
+    }
 }
 
 /// A task, as far as it is known.
