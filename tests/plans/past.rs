@@ -114,7 +114,7 @@ fn what_is_no_time_is_refused() {
         ),
         ("(coe:holds 'nonsense '(at 2))", "is not an occasion"),
         (
-            "(coe:holds '(cpoe:nonsense ?x) '(at 2))",
+            "(coe:holds '(cpoe::nonsense ?x) '(at 2))",
             "There is no occasion NONSENSE",
         ),
     ] {
