@@ -6,11 +6,11 @@ use std::collections::VecDeque;
 use super::snapshots::Snapshot;
 use crate::simulation::Simulation;
 
-/// Maximum number of moments that are kept; the oldest is forgotten first.
-const MAX_MOMENTS: usize = 500;
+/// Maximum number of moments that are kept, about 400 kB each; the oldest is forgotten first.
+const MAX_MOMENTS: usize = 150;
 
 /// The simulated time (s) between two moments while something moves.
-const INTERVAL: f64 = 1.0;
+const INTERVAL: f64 = 2.0;
 
 /// A moment that is remembered.
 struct Moment {
