@@ -6,6 +6,7 @@
 //! request to its [`Host`].
 
 pub mod builtins;
+mod companion;
 pub mod designator;
 mod failure_table;
 mod fluent;

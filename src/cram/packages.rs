@@ -134,7 +134,8 @@ pub static PACKAGES: &[PackageRow] = &[
          TASK-DURATION TASK-PLACE TOP-LEVEL-TASK TASK-OF-TOP-LEVEL PERFORM-TASK-OF-TOP-LEVEL \
          TASK-SPECIFIC-ACTION TASK-NAVIGATING-ACTION TASK-FETCHING-ACTION TASK-DELIVERING-ACTION \
          TASK-PICKING-UP-ACTION TASK-PLACING-ACTION TASK-TRANSPORTING-ACTION \
-         TASK-NEXT-ACTION-SIBLING TASK-PREVIOUS-ACTION-SIBLING",
+         TASK-NEXT-ACTION-SIBLING TASK-PREVIOUS-ACTION-SIBLING \
+         OCCURS DURATION-INCLUDES AT DURING",
     ),
     row(
         "CRAM-PLAN-OCCASIONS-EVENTS",
@@ -224,6 +225,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row("CL-BULLET-VIS", &["BT-VIS"], ""),
     row("CL-URDF", &[], ""),
     row("SB-EXT", &[], ""),
+    row("SB-KERNEL", &[], ""),
     row("LISP-UNIT", &[], ""),
     row("GISKARD", &[], ""),
     row("CRAM-CLOUD-LOGGER", &["CCL"], ""),
@@ -231,6 +233,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row("ACTIONLIB", &[], ""),
     row("CRAM-SIMPLE-ACTIONLIB-CLIENT", &["ACTIONLIB-CLIENT"], ""),
     row("CRAM-MOVEIT", &[], ""),
+    row("TURTLESIM", &[], ""),
     row("TURTLESIM-MSG", &[], ""),
     row("TURTLESIM-SRV", &[], ""),
     row("STD_SRVS-SRV", &[], ""),
@@ -503,6 +506,12 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     ),
     ("CRAM-PROLOG", "COMMON-LISP", "AND OR NOT", false),
     (
+        "CRAM-OCCASIONS-EVENTS",
+        "CRAM-EXECUTION-TRACE",
+        "THROUGHOUT",
+        true,
+    ),
+    (
         "CRAM-MANIPULATION-INTERFACES",
         "CRAM-OBJECT-INTERFACES",
         "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
@@ -537,9 +546,11 @@ pub const STAND_INS: &[&str] = &[
     "JSON-PROLOG",
     "LISP-UNIT",
     "SB-EXT",
+    "SB-KERNEL",
     "SENSOR_MSGS-MSG",
     "STD_MSGS-MSG",
     "STD_SRVS-SRV",
+    "TURTLESIM",
     "TURTLESIM-MSG",
     "TURTLESIM-SRV",
 ];

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
+use super::companion::Companion;
 use super::fluent::Waiter;
 use super::journal::{Change, Journal};
 use super::names::Names;
@@ -29,6 +30,8 @@ pub struct Plan {
     /// Special variables that every task binds, in order of definition: to their value in the task
     /// that starts it, or to what a function computes from that.
     pub(crate) task_variables: RefCell<Vec<(Sym, Option<Value>)>>,
+    /// What is called again and again while time passes.
+    pub(crate) companions: RefCell<Vec<Companion>>,
     /// Task trees of named top-level plans.
     pub trees: RefCell<IndexMap<Sym, Rc<TreeNode>>>,
     /// Changes in the states of tasks.
@@ -45,6 +48,8 @@ impl Extension for Plan {
         if !self.trees.borrow().is_empty() {
             copier.refuse("the task tree of a plan");
         }
+        let companions = self.companions.borrow();
+        let companions = companions.iter().map(|c| c.copied(copier)).collect();
         let variables = self.task_variables.borrow();
         let variables = variables.iter();
         let variables = variables.map(|(name, function)| (*name, function.copied(copier)));
@@ -53,6 +58,7 @@ impl Extension for Plan {
             now: self.now.clone(),
             woken: RefCell::default(),
             task_variables: RefCell::new(variables.collect()),
+            companions: RefCell::new(companions),
             trees: RefCell::default(),
             journal: Journal::default(),
             numbers: self.numbers.clone(),
@@ -72,6 +78,7 @@ impl Plan {
             now: Cell::new(0.0),
             woken: RefCell::default(),
             task_variables: RefCell::default(),
+            companions: RefCell::default(),
             trees: RefCell::default(),
             journal: Journal::default(),
             numbers: Cell::new(FIRST_NUMBER),
@@ -109,6 +116,18 @@ impl Plan {
 
     pub(super) fn set_now(&self, now: f64) {
         self.now.set(now);
+    }
+
+    /// Lets a function be called every so many simulated seconds, unless it is called already.
+    pub(crate) fn accompany(&self, period: f64, function: Value) {
+        self.add_companion(Companion::new(self.now(), period, function));
+    }
+
+    pub(crate) fn add_companion(&self, companion: Companion) {
+        let mut companions = self.companions.borrow_mut();
+        if !companions.iter().any(|known| known.is_like(&companion)) {
+            companions.push(companion);
+        }
     }
 
     /// Begins to record changes in the states of tasks until they are fetched.

@@ -58,6 +58,23 @@ impl<M: Fn() -> Result<Session, String>> Worlds<M> {
         })
     }
 
+    /// Runs the plan in a world and returns what came of it, and what was performed: the names of relations with
+    /// their rows, as lines of JSON.
+    pub fn run_told(&mut self, world: u64) -> (Record, Vec<(String, String)>) {
+        let run = || match self.next() {
+            Ok(mut session) => {
+                let (name, seed, limit) = (&self.name, self.seed, self.time_limit);
+                let record = session.run_sweep_world(name, seed, world, &[], MAX_POLLS, limit);
+                (record, session.performed_in(world))
+            }
+            Err(report) => (defective(world, report), Vec::new()),
+        };
+        defect::caught(run).unwrap_or_else(|defect| {
+            self.loaded = Loaded::NotYet;
+            (defective(world, defect.to_string()), Vec::new())
+        })
+    }
+
     /// A session in which the file has been loaded, and nothing else done.
     fn next(&mut self) -> Result<Session, String> {
         if let Loaded::NotYet = self.loaded {

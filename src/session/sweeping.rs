@@ -13,6 +13,7 @@ use lisp::image::Image;
 use lisp::image::extension::Extension;
 use lisp::value::Value;
 use lisp::value::copy::Copier;
+use lisp::value::known;
 use sweep::pairs::Pairs;
 use sweep::{Drawn, Draws, Ending, Record};
 
@@ -220,6 +221,19 @@ impl Session {
             .borrow()
             .simplest
             .clone()
+    }
+
+    /// What was performed in the run of a world: the names of relations with their rows, as lines of JSON.
+    pub(crate) fn performed_in(&mut self, world: u64) -> Vec<(String, String)> {
+        let form = format!("(coe::run-lines {world})");
+        self.evaluate("sweep", &form, &mut |_| {});
+        let value = self.evaluator.image.special(known::TIMES).clone();
+        let texts = value.iter_list().filter_map(|text| text.as_text());
+        let texts: Vec<String> = texts.collect();
+        let pairs = texts.chunks_exact(2);
+        pairs
+            .map(|pair| (pair[0].clone(), pair[1].clone()))
+            .collect()
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes

@@ -145,3 +145,72 @@ fn what_cannot_be_asked_is_told() {
         "{error}"
     );
 }
+
+#[test]
+fn recordings_answer_goals_and_damaged_ones_say_what_is_wrong() {
+    let path = std::env::temp_dir().join(format!("planwright-ask-{}.mcap", std::process::id()));
+    let plan = File::new(
+        "record.plan",
+        "(in-package :pp-tut) (with-simulated-robot (perform (an action (type moving-torso) (joint-angle upper-limit))))",
+    );
+    let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["run", "--record"])
+        .arg(&path)
+        .arg(&plan.0)
+        .output()
+        .expect("the program runs");
+    assert!(done.status.success(), "{done:?}");
+    let recording = File(path);
+    assert_eq!(
+        recording.answers(&["(fact task :kind :performed :type ?type :status ?status)"]),
+        "type          status\nmoving-torso  succeeded\nmoving-torso  succeeded\n"
+    );
+    let bytes = std::fs::read(&recording.0).expect("the recording is there");
+    std::fs::write(&recording.0, &bytes[..bytes.len() / 3]).expect("it can be written");
+    let (status, text) = recording.ask(&["(fact task :type ?type)"]);
+    assert_eq!(status, Some(2), "{text}");
+    assert!(text.contains("cut off"), "{text}");
+    std::fs::write(&recording.0, "no recording").expect("it can be written");
+    let (status, text) = recording.ask(&["(fact task :type ?type)"]);
+    assert_eq!(status, Some(2), "{text}");
+    assert!(text.contains("is not an MCAP file"), "{text}");
+}
+
+#[test]
+fn what_was_performed_in_the_worlds_of_a_sweep_is_kept_in_order() {
+    let sweep = File::new(
+        "episodes.plan",
+        "(in-package :pp-tut)
+         (defsweep torso (:worlds 4)
+           \"The torso at any height.\"
+           (vary (height (uniform 0.05 0.3)))
+           (run (with-simulated-robot
+                  (let ((?height height))
+                    (perform (an action (type moving-torso) (joint-angle ?height)))))))",
+    );
+    let folder = std::env::temp_dir().join(format!("planwright-episodes-{}", std::process::id()));
+    let mut texts = Vec::new();
+    for threads in ["1", "3"] {
+        let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
+            .args(["sweep", "--threads", threads, "--worlds", "4", "--episodes"])
+            .arg(&folder)
+            .arg(&sweep.0)
+            .output()
+            .expect("the program runs");
+        assert!(done.status.code().is_some_and(|code| code < 2), "{done:?}");
+        texts.push(std::fs::read_to_string(folder.join("task.jsonl")).expect("tasks are there"));
+    }
+    assert_eq!(texts[0], texts[1]);
+    let told = File(folder.clone());
+    let answers = told.answers(&[
+        "(and (fact run :run ?run) (fact task :run ?run :type :moving-torso :kind :performed :status ?s))",
+        "--show",
+        "?run ?s",
+        "--count",
+    ]);
+    assert!(
+        answers.starts_with("run  s          count  share\n  0  succeeded      1"),
+        "{answers}"
+    );
+    let _ = std::fs::remove_dir_all(&folder);
+}

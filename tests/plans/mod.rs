@@ -27,6 +27,7 @@ mod out_of_containers;
 pub(crate) mod overlaps;
 mod packages;
 mod parking;
+mod past;
 mod published_code;
 mod putting_down;
 mod refusals;
@@ -41,12 +42,25 @@ mod systems;
 mod things_on_things;
 mod trace;
 mod transporting;
+mod turtle;
 mod types;
 mod upright;
 mod whole_plan;
 
 use session::Session;
 use session::dialogue::{Evaluate, Event};
+
+/// What a text prints and returns, or the report of what ended it.
+fn said_and_printed(session: &mut Session, text: &str) -> String {
+    let mut said = String::new();
+    session.evaluate("test", text, &mut |event| match event {
+        Event::Output(text) => said.push_str(&text),
+        Event::Values(values) => said.push_str(&values.join(" ; ")),
+        Event::Aborted(abort) => said.push_str(&abort.report),
+        _ => {}
+    });
+    said
+}
 
 /// The last value of a text, or the report of what went wrong.
 fn said(session: &mut Session, text: &str) -> String {

@@ -10,6 +10,12 @@ use session::{Session, SessionOptions};
 /// Words of forms that mean something only inside them, and what rules and plans define for
 /// the program to ask.
 const WORDS: &[&str] = &[
+    // Times of HOLDS.
+    "AT",
+    "DURING",
+    // Process modules of CRAM, which WITH-PROCESS-MODULES-RUNNING may name.
+    "MOVE-BASE",
+    "WAIT-PM",
     // Inside WITH-FAILURE-HANDLING, WITH-RETRY-COUNTERS, policies and goals.
     "DO-RETRY",
     "GET-COUNTER",
@@ -93,6 +99,7 @@ fn means_something(image: &Image, functors: &[&str], sym: Sym) -> bool {
         || functors.contains(&name)
         || facts.knows(sym)
         || facts.handler(sym).is_some()
+        || data.symbol_macro.is_some()
         || WORDS.contains(&name)
 }
 

@@ -369,3 +369,70 @@ fn edits_by_goals_can_be_taken_back_and_keep_to_limits() {
         .contains("the kinds are")
     );
 }
+
+#[test]
+fn rules_that_ground_a_motion_are_tried_one_by_one() {
+    let mut session = session();
+    let mut ask = |text: &str| said(&mut session, text);
+    ask("(defvar *asked* '())
+         (defun note (what) (push what *asked*) what)
+         (prolog:def-fact-group hopping (desig:motion-grounding)
+           (prolog:<- (desig:motion-grounding ?m (hop ?how))
+             (desig:desig-prop ?m (:type :hopping))
+             (prolog:lisp-fun note :first ?how))
+           (prolog:<- (desig:motion-grounding ?m (hop ?how))
+             (desig:desig-prop ?m (:type :hopping))
+             (prolog:lisp-fun note :second ?how))
+           (prolog:<- (desig:motion-grounding ?m (hop ?how))
+             (desig:desig-prop ?m (:type :hopping))
+             (prolog:lisp-fun error \"Too far.\" ?how)))
+         (defvar *motion* (desig:a motion (type hopping)))");
+    assert_eq!(
+        ask("(list (desig:reference *motion*) *asked*)"),
+        "((HOP :FIRST) (:FIRST))"
+    );
+    assert_eq!(
+        ask("(desig:reference (desig:next-solution *motion*))"),
+        "(HOP :SECOND)"
+    );
+    let third = ask("(desig:next-solution (desig:next-solution *motion*))");
+    assert!(third.contains("Too far."), "{third}");
+}
+
+#[test]
+fn methods_of_users_say_where_things_are_and_belong() {
+    let mut session = session();
+    let mut ask = |text: &str| said(&mut session, text);
+    ask(
+        "(defmethod man-int:get-object-likely-location :heuristics 20
+             ((type (eql :cup)) environment human (context (eql :tea)))
+           (desig:a location (on (desig:an object (urdf-name sink-area-surface) (part-of kitchen)))))",
+    );
+    let place = ask("(man-int::likely-location-for :cup :tea)");
+    assert!(place.contains("SINK-AREA-SURFACE"), "{place}");
+    assert_eq!(ask("(man-int::likely-location-for :bowl :tea)"), "NIL");
+}
+
+#[test]
+fn what_another_kitchen_has_is_named() {
+    let mut session = session();
+    let mut ask = |text: &str| said(&mut session, text);
+    let told = ask(
+        "(setf (btr:joint-state (btr:get-environment-object) \"sink_area_dish_washer_tray_main\") 0.0)",
+    );
+    assert!(
+        told.contains("The kitchen has no joint sink_area_dish_washer_tray_main"),
+        "{told}"
+    );
+    let wrong = ask("(setf (btr:joint-state (btr:get-environment-object) \"no_such_joint\") 0.5)");
+    assert!(wrong.contains("no moving joint no_such_joint"), "{wrong}");
+    let elsewhere = ask(
+        "(btr-belief:vary-kitchen-urdf '((\"kitchen_island_footprint_joint\" ((-1.363 0.59 0) (0 0 0 1)))
+                                         (\"dining_area_footprint_joint\" ((-3.38 0.28 0) (0 0 0 1)))))",
+    );
+    assert!(
+        elsewhere.contains("it has no dining_area_footprint"),
+        "{elsewhere}"
+    );
+    assert!(!elsewhere.contains("kitchen_island"), "{elsewhere}");
+}

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::said;
+use super::{said, said_and_printed};
 use session::dialogue::{Evaluate, Event};
 use session::{Session, SessionOptions};
 
@@ -469,4 +469,49 @@ fn the_tests_of_a_system_are_run_as_its_description_says() {
     );
     let none = said(&mut session, "(asdf:test-system \"cram_language\")");
     assert!(none.contains("is built in; its tests are not"), "{none}");
+}
+
+#[test]
+fn systems_that_are_not_here_are_told_and_do_not_stop_others() {
+    let folder = Folder::new(
+        "absent",
+        &[
+            (
+                "my-demo.asd",
+                "(defsystem my-demo :depends-on (roslisp cram-language actionlib tmc_msgs-msg cl-tf cram-giskard)
+                   :components ((:file \"package\") (:file \"demo\" :depends-on (\"package\"))))",
+            ),
+            (
+                "package.lisp",
+                "(defpackage :my-demo (:use :cpl :roslisp))",
+            ),
+            (
+                "demo.lisp",
+                "(in-package :my-demo)
+                 (defun voice () (make-message 'tmc_msgs-msg:voice :sentence \"Hello\"))
+                 (defun reach () (actionlib:call-goal 1 2))",
+            ),
+        ],
+    );
+    let mut session = folder.session();
+    let told = said_and_printed(&mut session, "(asdf:load-system :my-demo)");
+    for part in [
+        "The system actionlib, on which my-demo depends, is not here: there is no action server to call",
+        "The system cram-giskard, on which my-demo depends, is not here",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    assert!(told.ends_with('T'), "{told}");
+    let voice = said(
+        &mut session,
+        "(roslisp:msg-slot-value (my-demo::voice) :sentence)",
+    );
+    assert_eq!(voice, "\"Hello\"");
+    let refused = said(&mut session, "(my-demo::reach)");
+    assert!(refused.contains("there is no action server"), "{refused}");
+    let alone = said(&mut session, "(asdf:load-system :cram-moveit)");
+    assert!(
+        alone.contains("The system cram-moveit is not here"),
+        "{alone}"
+    );
 }

@@ -4,6 +4,7 @@ mod arithmetic;
 mod code_search;
 pub mod combinators;
 mod common;
+mod companions;
 mod failures;
 mod fluents;
 mod handlers;
@@ -32,6 +33,7 @@ pub static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
 pub static SYSTEM: &[&[Builtin]] = &[
     code_search::SYSTEM_TABLE,
     combinators::SYSTEM_TABLE,
+    companions::SYSTEM_TABLE,
     handlers::SYSTEM_TABLE,
     policies::SYSTEM_TABLE,
     tasks::SYSTEM_TABLE,

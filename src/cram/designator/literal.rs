@@ -6,6 +6,8 @@ use super::literal_values;
 use super::schema;
 use super::schema::TypeRow;
 use super::value::Class;
+use crate::packages;
+use crate::prolog::facts;
 use closest_name::closest_name;
 use lisp::image::Image;
 use lisp::image::notes::NoteKind;
@@ -55,7 +57,17 @@ fn name(image: &Image, sym: Sym) -> String {
     image.name(sym).to_uppercase()
 }
 
-fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
+/// Whether a rule of a plan grounds actions or motions of a type.
+fn is_grounded(image: &mut Image, class: Class, name: &str) -> bool {
+    let functor = match class {
+        Class::Motion => "MOTION-GROUNDING",
+        _ => "ACTION-GROUNDING",
+    };
+    let functor = packages::symbol(image, "CRAM-DESIGNATORS", functor);
+    facts::of(image).is_about(image, functor, name)
+}
+
+fn of_type(image: &mut Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
     let kind = class.name().to_lowercase();
     let given = written.iter().find(|(key, _)| key == "TYPE");
     let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
@@ -63,6 +75,9 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
     };
     let rows = schema::rows(image, class, &given);
     if rows.is_empty() {
+        if is_grounded(image, class, &given) {
+            return Vec::new();
+        }
         let near = schema::nearest_type(image, class, &given);
         let text = asking(
             format!("There is no {kind} of type {given}"),

@@ -217,13 +217,13 @@ async fn run_action(calls: &Calls, designator: &Value) -> Result<Value> {
 
 /// The plan of an unresolved action, and its arguments: from a rule, or else from the table.
 async fn resolve_action(calls: &Calls, designator: &Value) -> Result<PlanCall> {
-    let found = groundings(calls, designator).await?;
+    let found = groundings(calls, designator, 1).await?;
     let action = designator.clone();
     if let Value::Cons(found) = &found {
         if let Some(target) = value::as_designator(&action) {
             value::note_changed(&action);
             *target.data.borrow_mut() = Some(found.car());
-            *target.solutions.borrow_mut() = Some(found.cdr());
+            *target.solutions.borrow_mut() = Some(Value::Int(1));
         }
         let command = found.car();
         return Ok(commanded(calls, command.car_or_nil(), command.cdr_or_nil()).await);

@@ -66,7 +66,7 @@ pub async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
     match class {
         Class::Location => location::reference(calls, designator).await,
         Class::Action | Class::Motion => {
-            let found = groundings(calls, designator).await?;
+            let found = groundings(calls, designator, 1).await?;
             let subject = designator.clone();
             calls
                 .with(move |machine| resolved(machine.image, &subject, &found))
@@ -91,8 +91,9 @@ fn unknown(image: &mut Image, designator: &Value, class: Class) -> Box<Raise> {
     failure::designator_error(image, designator, &text, &Unresolved::new(why))
 }
 
-/// The list of groundings that rules give for an action or a motion.
-pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
+/// The list of the first groundings that rules give for an action or a motion. Of those after them nothing is
+/// known: they are not searched for.
+pub(crate) async fn groundings(calls: &Calls, designator: &Value, most: usize) -> Result<Value> {
     let is_action = value::as_class(designator, Class::Action).is_some();
     let name = if is_action {
         "ACTION-GROUNDING"
@@ -102,7 +103,7 @@ pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Valu
     let functor = calls
         .with(|machine| packages::symbol(machine.image, "CRAM-DESIGNATORS", name))
         .await;
-    solutions_of(calls, functor, None, designator).await
+    some_solutions_of(calls, functor, None, designator, most).await
 }
 
 /// The list of values given by rules `(functor designator ?value)`, restricted to those for which
@@ -113,12 +114,23 @@ pub(crate) async fn solutions_of(
     condition: Option<Sym>,
     designator: &Value,
 ) -> Result<Value> {
+    some_solutions_of(calls, functor, condition, designator, MAX_GROUNDINGS).await
+}
+
+/// The list of the first of these values.
+async fn some_solutions_of(
+    calls: &Calls,
+    functor: Sym,
+    condition: Option<Sym>,
+    designator: &Value,
+    most: usize,
+) -> Result<Value> {
     let subject = designator.clone();
     let query = calls.with(move |machine| query(machine.image, functor, condition, subject));
     let Some((engine, variable)) = query.await? else {
         return Ok(Value::NIL);
     };
-    let solutions = solve(calls, engine, MAX_GROUNDINGS).await?;
+    let solutions = solve(calls, engine, most).await?;
     let values: Vec<Value> = solutions
         .iter_list()
         .filter_map(|bindings| {
@@ -157,7 +169,7 @@ fn resolved(image: &mut Image, designator: &Value, found: &Value) -> Result<Valu
     if let Value::Cons(cons) = found {
         value::note_changed(designator);
         *target.data.borrow_mut() = Some(cons.car());
-        *target.solutions.borrow_mut() = Some(cons.cdr());
+        *target.solutions.borrow_mut() = Some(Value::Int(1));
         return Ok(cons.car());
     }
     match ground::ground(image, target) {
@@ -199,30 +211,50 @@ async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
         Class::Object | Class::Human => Ok(Value::NIL),
         Class::Action | Class::Motion => {
             reference(calls, designator).await?;
+            let taken = value::as_designator(designator).and_then(taken);
+            let found = match taken {
+                Some(taken) if taken < MAX_GROUNDINGS => {
+                    groundings(calls, designator, taken + 1).await?
+                }
+                _ => Value::NIL,
+            };
+            let next = found.iter_list().nth(taken.unwrap_or(0));
             let subject = designator.clone();
             calls
-                .with(move |machine| next_grounding(machine.image, &subject))
+                .with(move |machine| next_grounding(machine.image, &subject, next))
                 .await
         }
     }
 }
 
-/// The next solution of an action or a motion, from the groundings that were found with the first.
-fn next_grounding(image: &mut Image, designator: &Value) -> Result<Value> {
+/// How many groundings have been used up to a designator; `None` if it has none, or has a successor already.
+fn taken(target: &Designator) -> Option<usize> {
+    if target.successor.borrow().is_some() {
+        return None;
+    }
+    match &*target.solutions.borrow() {
+        Some(Value::Int(taken)) => usize::try_from(*taken).ok(),
+        _ => None,
+    }
+}
+
+/// The designator for the next solution of an action or a motion.
+fn next_grounding(image: &mut Image, designator: &Value, next: Option<Value>) -> Result<Value> {
     let target = value::designator(image, designator)?;
     if let Some(next) = target.successor.borrow().clone() {
         return Ok(next);
     }
-    let rest = target.solutions.borrow().clone().unwrap_or(Value::NIL);
-    let Value::Cons(rest) = rest else {
+    let Some(next) = next else {
         return Ok(Value::NIL);
     };
+    let taken = taken(target).unwrap_or(0) + 1;
     let other = same_description(image, target);
     value::equate(designator, &other);
     if let Some(new) = value::as_designator(&other) {
         value::note_changed(&other);
-        *new.data.borrow_mut() = Some(rest.car());
-        *new.solutions.borrow_mut() = Some(rest.cdr());
+        *new.data.borrow_mut() = Some(next);
+        let taken = i64::try_from(taken).unwrap_or(i64::MAX);
+        *new.solutions.borrow_mut() = Some(Value::Int(taken));
     }
     Ok(other)
 }

@@ -108,7 +108,8 @@ pub struct Designator {
     pub data: RefCell<Option<Value>>,
     /// Whether `data` comes from perception or another effect rather than from the description.
     pub(crate) is_effective: Cell<bool>,
-    /// Further solutions after `data`: a list, or `NIL`.
+    /// Of a location, further solutions after `data`: a list, or `NIL`. Of an action or a motion, how many
+    /// groundings have been used.
     pub solutions: RefCell<Option<Value>>,
     /// What a search for solutions remembers; the first designator of a chain has it.
     pub memory: RefCell<Option<Value>>,

@@ -50,9 +50,11 @@ impl Extension for Vocabulary {
     }
 }
 
-/// A name as it is compared.
+/// A name as it is compared; frames may begin with a slash.
 fn plain(name: &str) -> String {
-    name.to_uppercase().replace('_', "-")
+    name.trim_start_matches('/')
+        .to_uppercase()
+        .replace('_', "-")
 }
 
 impl Vocabulary {

@@ -25,6 +25,7 @@ static UTILITY_FILES: &[File] = &[
     library_file!("src/cram/library", "proofs.lisp"),
     library_file!("src/cram/library", "locations.lisp"),
     library_file!("src/cram/library", "systems.lisp"),
+    library_file!("src/cram/library", "absent-systems.lisp"),
     library_file!("src/cram/library", "system-files.lisp"),
     library_file!("src/cram/library", "system-tests.lisp"),
     library_file!("src/cram/library", "system-definitions.lisp"),

@@ -38,16 +38,20 @@ SLIME.")
 
 (defun %load-any-system (system force)
   "Loads a system, built in or not."
-  (cond ((system:built-in-files system)
-         (%load-built-in-files system force))
-        ((%own-files-of system)
+  (cond ((%own-files-of system)
          (%load-system (%own-files-of system) force nil))
+        ((system:built-in-files system)
+         (%load-built-in-files system force))
         ((system:load-built-in-system system))
+        ((%in-place-of (%system-name system))
+         (error "The system ~a is not here: ~a." (%system-name system)
+                (%in-place-of (%system-name system))))
+        ((%provide-messages (%system-name system)))
         (t (%load-system (%system-name system) force nil))))
 
 (defun %own-files-of (system)
-  "The name under which the registry has a system of which only the package is built in; else NIL."
-  (when (system:without-files-p system)
+  "The name under which the registry has a system of which only the package, or a demo, is built in; else NIL."
+  (when (or (system:without-files-p system) (system:built-in-files system))
     (find-if #'%system-file
              (list (%system-name system)
                    (substitute #\- #\_ (%system-name system))
@@ -235,13 +239,22 @@ SLIME.")
                   (%*loading-systems* (cons name %*loading-systems*)))
              (declare (special %*loading-systems*))
              (dolist (needed (%dependencies options file))
-               (cond ((system:built-in-system-p needed)
-                      (%load-built-in-files needed nil))
-                     (t
-                      (%check-possible needed name)
-                      (%load-system needed nil name))))
+               (%load-needed needed name))
              (mapc #'%load-file (%files-of options file)))
            (pushnew name %*loaded-systems* :test #'string=)))))
+
+(defun %load-needed (system dependent)
+  "Loads a system on which another one depends. Of what is not here, it says so, and goes on."
+  (cond ((%own-files-of system)
+         (%load-system (%own-files-of system) nil dependent))
+        ((system:built-in-system-p system)
+         (%load-built-in-files system nil))
+        ((%in-place-of system)
+         (%tell-absent system dependent))
+        ((%provide-messages system))
+        (t
+         (%check-possible system dependent)
+         (%load-system system nil dependent))))
 
 (defun %load-built-in-files (system force)
   "Loads the files of a built-in system that has some, unless they are there already."

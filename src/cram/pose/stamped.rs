@@ -416,17 +416,17 @@ fn replaced(original: &Value, placement: Placement) -> Value {
     value::pose(placement)
 }
 
-/// The pose moved along the axes of its frame (m).
+/// The pose moved along the axes of its frame (m). `:x`, `:y` and `:z` are the same as `:x-offset`, ….
 ///
 /// `(cram-tf:translate-pose (cl-tf:make-pose-stamped "map" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :x-offset 1)` => `#<"map" ((2.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "pose &key x-offset y-offset z-offset")]
+#[builtin(_, "pose &key x-offset y-offset z-offset x y z")]
 fn translate_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
     let mut placement = argument::placement(image, &args[0])?;
-    let names = ["X-OFFSET", "Y-OFFSET", "Z-OFFSET"].map(|n| image.keyword(n));
+    let names = ["X-OFFSET", "Y-OFFSET", "Z-OFFSET", "X", "Y", "Z"].map(|n| image.keyword(n));
     let offsets = keywords::parse(image, &args[1..], names)?;
-    for (x, offset) in placement.position.0.iter_mut().zip(offsets) {
+    for (at, offset) in offsets.iter().enumerate() {
         if let Some(offset) = offset {
-            *x += argument::real(&offset)?;
+            placement.position.0[at % 3] += argument::real(offset)?;
         }
     }
     Ok(replaced(&args[0], placement))

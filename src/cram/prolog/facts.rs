@@ -104,6 +104,25 @@ impl Facts {
         closest_name(wanted, names).map(str::to_owned)
     }
 
+    /// Whether a clause of a functor is about a symbol of a name: whether it stands anywhere in its goals.
+    pub(crate) fn is_about(&self, image: &Image, functor: Sym, name: &str) -> bool {
+        let clauses = self.clauses(functor).unwrap_or_default();
+        clauses.iter().any(|clause| {
+            let mut pending = vec![clause.body.clone()];
+            while let Some(form) = pending.pop() {
+                match &form {
+                    Value::Cons(_) => pending.extend(form.iter_list()),
+                    other => {
+                        if other.as_symbol().is_some_and(|sym| image.name(sym) == name) {
+                            return true;
+                        }
+                    }
+                }
+            }
+            false
+        })
+    }
+
     /// Whether any fact group has a clause for the functor.
     pub fn knows(&self, functor: Sym) -> bool {
         self.clauses(functor).is_some()

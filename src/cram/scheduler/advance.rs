@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::Scheduler;
 use super::live::{Answer, Slot, Wait};
+use crate::companion;
 use crate::host::{Advance, Host};
 use crate::state::Plan;
 use lisp::image::Image;
@@ -58,7 +59,9 @@ impl<C: 'static> Scheduler<C> {
         if self.time_stands_still {
             return Passed::Nothing;
         }
-        let until = self.next_alarm();
+        let alarm = self.next_alarm();
+        let until = alarm.into_iter().chain(companion::next_call(plan));
+        let until = until.min_by(f64::total_cmp);
         let now = plan.now();
         let advance = if self.tickets.is_empty() {
             let Some(until) = until else {
@@ -71,7 +74,11 @@ impl<C: 'static> Scheduler<C> {
         } else {
             host.advance(image, now, until)
         };
-        self.take_in(plan, advance)
+        let passed = self.take_in(plan, advance);
+        if self.call_companions(image, host) {
+            return Passed::Something;
+        }
+        passed
     }
 
     /// Lets time pass until what has been cancelled or paused has come to a stop, so that nobody

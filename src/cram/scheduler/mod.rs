@@ -13,6 +13,7 @@ mod advance;
 mod answer;
 mod asked;
 mod beside;
+mod companions;
 mod debug;
 mod dying;
 mod finish;

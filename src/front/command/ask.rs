@@ -14,7 +14,8 @@ use session::dialogue::{Outcome, Screen, evaluate_keeping_abort};
 /// What to ask.
 #[derive(Args, Debug)]
 pub(crate) struct AskArguments {
-    /// Records of a sweep (a file, or the folder of --into), or the folder of an exported episode
+    /// Records of a sweep (a file, or the folder of --into or --episodes), a recording (an MCAP file), or the
+    /// folder of an exported episode
     #[arg(value_name = "SOURCE")]
     source: PathBuf,
     /// A goal of Prolog, such as '(fact run :outcome :failure :class ?class)'; without one, tells which
@@ -35,7 +36,13 @@ pub(crate) struct AskArguments {
 /// Reads the facts and prints the answers.
 pub(crate) fn ask(options: &Options, wanted: &AskArguments) -> Result<Status, CommandError> {
     let source = std::path::absolute(&wanted.source)?;
-    let read = format!("(pw:read-facts {})", quoted(&source.to_string_lossy()));
+    let source = quoted(&source.to_string_lossy());
+    // Rules of files that are loaded may ask for more than the goal shows.
+    let goal = wanted.goal.as_ref().filter(|_| options.setup.is_empty());
+    let read = match goal {
+        Some(goal) => format!("(pw:read-facts {source} (coe::asked {}))", quoted(goal)),
+        None => format!("(pw:read-facts {source})"),
+    };
     let question = match &wanted.goal {
         None => "(coe::print-relations)".to_owned(),
         Some(goal) => {

@@ -372,6 +372,25 @@ fn unuse_package(image: &mut Image, packages: &Value, package: Option<&Value>) -
     Ok(Value::T)
 }
 
+/// Lets every name that is read in a package be one of its external symbols, and makes the package if there is
+/// none: a package of names from elsewhere, of which nobody has a list.
+///
+/// `(progn (system:open-package "ELSEWHERE") (values (read-from-string "elsewhere:any")))` => `ELSEWHERE:ANY`
+#[builtin]
+fn open_package(image: &mut Image, name: String) -> Outcome {
+    let known = image.packages.find(&name);
+    let Some(id) = known.or_else(|| image.packages.make(&name, &[])) else {
+        return Err(Raise::simple(format!(
+            "No package {name} can be made: there are too many."
+        )));
+    };
+    image.packages.get_mut(id).is_open = true;
+    Ok(Value::Package(id))
+}
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![open_package];
+
 /// Packages.
 pub(crate) static TABLE: &[Builtin] = builtins![
     packagep,

@@ -79,6 +79,7 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     hash_tables::SYSTEM_TABLE,
     loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
+    packages::SYSTEM_TABLE,
     stream_parts::SYSTEM_TABLE,
     metaobjects::SYSTEM_TABLE,
     reading::SYSTEM_TABLE,

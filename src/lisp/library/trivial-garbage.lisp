@@ -32,13 +32,15 @@
   (tg:weak-pointer-p 1) => NIL"
   (system::%weak-pointer-p object))
 
+(defvar system::%*told-of-weakness* nil "Was said that hash tables keep what is in them?")
+
 (defun make-weak-hash-table (&rest options &key weakness (weakness-matters t) &allow-other-keys)
-  "A hash table that keeps its keys and values: an error, unless :WEAKNESS-MATTERS is NIL.
+  "A hash table that keeps its keys and values; says so, once, unless :WEAKNESS-MATTERS is NIL.
   Examples:
-  (hash-table-p (tg:make-weak-hash-table :weakness :key :weakness-matters nil)) => T
-  (handler-case (tg:make-weak-hash-table :weakness :key) (error () 'cannot)) => CANNOT"
-  (when (and weakness weakness-matters)
-    (error "There are no weak hash tables; one whose :WEAKNESS-MATTERS is NIL keeps what is in it."))
+  (hash-table-p (tg:make-weak-hash-table :weakness :key :weakness-matters nil)) => T"
+  (when (and weakness weakness-matters (not system::%*told-of-weakness*))
+    (setf system::%*told-of-weakness* t)
+    (warn "There are no weak hash tables: this one keeps what is in it."))
   (apply #'make-hash-table
          (loop for (key value) on options by #'cddr
                unless (member key '(:weakness :weakness-matters))

@@ -159,6 +159,7 @@ pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKi
     }
     match image.packages.find_symbol(package, &name.name) {
         Some((sym, Access::External)) => Ok(sym),
+        _ if image.packages.get(package).is_open => Ok(image.export_symbol(package, &name.name)),
         Some(_) => Err(ReadErrorKind::NotExternal {
             name: name.name.clone(),
             package: image.packages.get(package).name.to_string(),

@@ -35,6 +35,8 @@ pub struct Package {
     pub(crate) shadowing: Vec<Rc<str>>,
     /// A sentence about the package.
     pub doc: Option<Rc<str>>,
+    /// Whether every name that is read in it is one of its external symbols.
+    pub is_open: bool,
 }
 
 /// All packages of an image. Copies share the packages until one changes them.

@@ -33,6 +33,7 @@ mod straight_ways;
 mod sweep_things;
 mod sweeps;
 mod tables;
+mod timeline;
 pub mod tour;
 mod tutorial;
 mod watching;

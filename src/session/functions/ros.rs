@@ -106,12 +106,25 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Systems that are built in and have no package of their name.
-const OTHER_SYSTEMS: [&str; 7] = [
+const OTHER_SYSTEMS: [&str; 19] = [
     "alexandria",
+    "cl_tf",
+    "cl_tf2",
+    "cl_urdf",
     "closer_mop",
+    // Locations are sampled and tested in the world itself, without costmaps.
+    "cram_btr_spatial_relations_costmap",
+    "cram_btr_visibility_costmap",
     "cram_common_failures",
+    "cram_fetch_deliver_plans",
     "cram_language",
+    "cram_occupancy_grid_costmap",
     "cram_pr2_description",
+    "cram_pr2_environment_manipulation",
+    "cram_pr2_projection_reasoning",
+    "cram_robot_pose_gaussian_costmap",
+    "cram_urdf_environment_manipulation",
+    "lisp_unit",
     "trivial_garbage",
     "trivial_gray_streams",
 ];

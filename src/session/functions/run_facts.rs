@@ -11,6 +11,7 @@ use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use sweep::relations::{Cell, Relation};
+use view::watch::recording::read_episode;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -22,6 +23,20 @@ pub(super) static TABLE: &[Builtin] = &[
         "Adds the lines of a text to a relation, each an object of JSON, or a record of a sweep. Returns how many lines there were.",
         &[],
         host!(add_facts),
+    ),
+    control(
+        "%ADD-FACTS-OF-FILE",
+        "relation file",
+        "Adds the lines of a file to a relation, as %ADD-FACTS adds those of a text.",
+        &[],
+        host!(add_facts_of_file),
+    ),
+    control(
+        "%ADD-RECORDING",
+        "file",
+        "Adds what was performed in a recording, an MCAP file, to relations. Returns whether the file is whole.",
+        &[],
+        host!(add_recording),
     ),
     control(
         "%FORGET-FACTS",
@@ -47,21 +62,57 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 /// Columns whose texts are names, which are keywords in the plan language.
-const NAMES: &[&str] = &["kind", "type", "status", "outcome", "class", "name", "key"];
+const NAMES: &[&str] = &[
+    "kind", "type", "status", "outcome", "class", "name", "key", "level",
+];
 
 fn add_facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let relation = name_of(image, &args[0]);
     let Value::Str(text) = &args[1] else {
         return Err(Raise::type_error(&args[1], known::STRING));
     };
+    add_text(simulation, &relation, &text.text())
+}
+
+fn add_facts_of_file(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let relation = name_of(image, &args[0]);
+    let bytes = image.files.read(&name_of(image, &args[1]));
+    let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
+    let text = String::from_utf8(bytes);
+    let text = text.map_err(|_| Raise::simple("it is no text in UTF-8"))?;
+    add_text(simulation, &relation, &text)
+}
+
+fn add_text(simulation: &mut Simulation, relation: &str, text: &str) -> Result<Reply> {
     let facts = Rc::make_mut(&mut simulation.facts);
-    match facts.add(&relation, &text.text()) {
+    match facts.add(relation, text) {
         Ok(count) => done(Value::from(count as i64)),
         Err(wrong) => Err(Raise::simple(format!(
             "line {}: {}",
             wrong.line, wrong.problem
         ))),
     }
+}
+
+fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let file = name_of(image, &args[0]);
+    let bytes = image.files.read(&file);
+    let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
+    let episode = read_episode(&bytes).map_err(|error| Raise::simple(error.to_string()))?;
+    let facts = Rc::make_mut(&mut simulation.facts);
+    for (relation, text) in &episode.relations {
+        facts.add(relation, text).map_err(|wrong| {
+            Raise::simple(format!(
+                "{relation}, line {}: {}",
+                wrong.line, wrong.problem
+            ))
+        })?;
+    }
+    done(Value::bool(!episode.is_cut_off))
 }
 
 fn forget_facts(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {

@@ -194,6 +194,7 @@ fn run_begins(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Resu
     Handlers::of(image).reset();
     Sweeping::of(image).enter(Stage::Running);
     host.simulation.begin_tally();
+    host.person.timeline.set_off(true);
     done(Value::NIL)
 }
 

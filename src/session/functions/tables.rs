@@ -34,6 +34,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         functions::locations::VISUALIZATION_TABLE,
     ),
     ("CRAM-BULLET-REASONING", functions::asking::TABLE),
+    ("CRAM-BULLET-REASONING", functions::timeline::TABLE),
     ("CRAM-BULLET-REASONING", functions::straight_ways::TABLE),
     ("PLANWRIGHT", functions::object_types::TABLE),
     ("PLANWRIGHT", functions::kitchens::TABLE),

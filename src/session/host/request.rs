@@ -23,6 +23,9 @@ impl Host for SimulationHost {
                 return Err(closed());
             }
             let reply = (call.call)(host, image, &call.args);
+            if call.is_edit {
+                host.note_moment();
+            }
             host.audience.show(&host.simulation, Cause::Edit);
             reply
         })
@@ -138,11 +141,24 @@ impl SimulationHost {
             self.step(image);
             steps += 1;
             self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
+            if !self.person.snapshots.is_trial() {
+                self.person.timeline.note_now_and_then(&self.simulation);
+            }
             watch(self);
+        }
+        if !done.is_empty() {
+            self.note_moment();
         }
         Advance {
             now: self.simulation.now,
             done,
+        }
+    }
+
+    /// Remembers how the world is now, unless it is only tried out.
+    fn note_moment(&mut self) {
+        if !self.person.snapshots.is_trial() {
+            self.person.timeline.note(&self.simulation);
         }
     }
 
@@ -203,6 +219,9 @@ impl SimulationHost {
     ) -> Ticket {
         let simulation = &mut self.simulation;
         self.person.snapshots.begin_motion(simulation);
+        if !self.person.snapshots.is_trial() {
+            self.person.timeline.note(simulation);
+        }
         let now = simulation.now;
         let job = simulation
             .jobs

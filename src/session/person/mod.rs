@@ -1,16 +1,20 @@
 //! The state of the prompt, including the snapshots for undo.
 
 mod snapshots;
+mod timeline;
 
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 pub(crate) use snapshots::{Snapshot, Snapshots};
+use timeline::Timeline;
 
 /// The state of the prompt.
 #[derive(Default)]
 pub(crate) struct Person {
     /// Snapshots of earlier states.
     pub snapshots: Snapshots,
+    /// How the world was.
+    pub(crate) timeline: Timeline,
     /// The next step of the tour, counted from zero.
     pub(crate) tour_step: usize,
     /// A value that is to be inspected.
@@ -28,6 +32,7 @@ impl Person {
     pub(super) fn copied(&self, copier: &mut Copier) -> Person {
         Person {
             snapshots: self.snapshots.copied(copier),
+            timeline: self.timeline.emptied(),
             tour_step: self.tour_step,
             inspected: self.inspected.copied(copier),
             can_serve: self.can_serve,

@@ -96,7 +96,7 @@ impl Snapshot {
     }
 
     /// Restores the state, in which nothing has moved by itself meanwhile.
-    fn put_back(&self, simulation: &mut Simulation) {
+    pub(crate) fn put_back(&self, simulation: &mut Simulation) {
         let state = &self.0;
         let models = &simulation.models;
         if !models.share_kitchen(&state.models) || !models.share_robot(&state.models) {

@@ -2,6 +2,7 @@
 
 mod compare;
 mod engine;
+mod episodes;
 mod file;
 mod heat_map;
 mod interrupt;
@@ -25,6 +26,7 @@ use crate::command::outputs::Outputs;
 use crate::sweep_report;
 use compare::compare;
 use descriptions::ROBOTS;
+use episodes::Episodes;
 use file::sweep_file;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
@@ -142,6 +144,7 @@ fn check_outputs(options: &Options, wanted: &SweepOptions) -> Result<(), Command
         .file("--html", wanted.html.as_ref())
         .file("--heat-map", heat_map)
         .folder("--record-failures", wanted.record_failures.as_ref())
+        .folder("--episodes", wanted.episodes.as_ref())
         .check()
 }
 
@@ -193,12 +196,49 @@ fn in_memory(
             status => status,
         });
     }
-    let records = sound(run(&worlds, &title, count, threads, wanted.until_width))?;
+    let records = match &wanted.episodes {
+        Some(folder) => run_into_episodes(&worlds, &title, count, threads, folder)?,
+        None => run(&worlds, &title, count, threads, wanted.until_width),
+    };
+    let records = sound(records)?;
     let count = match wanted.until_width {
         Some(_) if !interrupt::has_come() => records.len() as u64,
         _ => count,
     };
     report(wanted, &title, &records, count, Some(&worlds))
+}
+
+/// Runs worlds until all are done or an interrupt comes, and writes what was performed, world by world.
+fn run_into_episodes(
+    worlds: &Worlds,
+    title: &Title,
+    count: u64,
+    threads: usize,
+    folder: &Path,
+) -> Result<Vec<Record>, CommandError> {
+    let mut episodes = Episodes::begin(folder)?;
+    let mut progress = Progress::new(title, count);
+    let mut kept = Kept::default();
+    let mut failed = None;
+    let runs = pool::in_order(
+        threads,
+        0..count,
+        || worlds.telling_runner(),
+        |(record, performed)| {
+            progress.record(record);
+            if let Err(error) = episodes.add(record, performed) {
+                failed = Some(error);
+            }
+            let is_sound = record.outcome != Ending::Mistake;
+            kept.keep(record) && is_sound && failed.is_none() && !interrupt::has_come()
+        },
+    );
+    progress.end();
+    kept.tell_if_full();
+    match failed {
+        Some(error) => Err(error),
+        None => Ok(runs.into_iter().map(|(record, _)| record).collect()),
+    }
 }
 
 /// Runs worlds until all are done, an interrupt comes, or the interval of the rate is narrow enough.

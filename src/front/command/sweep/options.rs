@@ -65,6 +65,10 @@ pub(crate) struct SweepOptions {
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub(crate) most: usize,
 
+    /// Write the records, and what was performed in each world, into a folder of which `planwright ask` answers
+    /// questions
+    #[arg(long, value_name = "FOLDER", requires = "file", conflicts_with_all = ["into", "compare", "replay", "shrink", "until_width"])]
+    pub(crate) episodes: Option<PathBuf>,
     /// Write the records as a table
     #[arg(long, value_name = "CSV")]
     pub(crate) csv: Option<PathBuf>,

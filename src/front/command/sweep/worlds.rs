@@ -67,6 +67,12 @@ impl Worlds {
         move |world| worlds.run(world, &[]).0
     }
 
+    /// The same, which also tells what was performed.
+    pub(super) fn telling_runner(&self) -> impl FnMut(u64) -> (Record, Vec<(String, String)>) {
+        let mut worlds = self.in_sessions();
+        move |world| worlds.run_told(world)
+    }
+
     /// The same, run in sessions of one thread.
     pub(super) fn in_sessions(&self) -> sweeping::Worlds<impl Fn() -> Result<Session, String>> {
         sweeping::Worlds::new(&self.name, self.seed, self.time_limit, || self.session())

@@ -273,6 +273,9 @@ pub(super) struct Task {
     pub name: String,
     pub state: String,
     pub failure: String,
+    /// The class of the failure; recordings of earlier versions do not tell it.
+    #[serde(default)]
+    pub class: String,
     #[serde(default)]
     pub result: String,
     /// What it is to do; told when it begins, as are the place and the line of the plan, and

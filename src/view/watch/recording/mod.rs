@@ -9,6 +9,7 @@
 mod channel;
 mod contacts;
 mod decompress;
+mod episode;
 mod follower;
 mod markers;
 mod mcap_file;
@@ -20,6 +21,7 @@ mod shapes;
 mod wire;
 mod write;
 
+pub use episode::{Episode, read_episode};
 pub use follower::{Recorder, RecordingResult};
 pub use read::read_recording;
 

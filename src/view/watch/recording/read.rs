@@ -1,5 +1,6 @@
 //! Reading a recording back.
 
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -37,12 +38,15 @@ pub struct Recording {
 /// Damage that makes the library for MCAP files panic is an error, too.
 pub fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
     let read = AssertUnwindSafe(|| read_messages(&decompressed(bytes)?, to));
-    catch_unwind(read).unwrap_or_else(|payload| {
-        let text = payload.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
-        let text = text.unwrap_or("no reason is given");
-        Err(RecordingError::Reader(text.to_owned()))
-    })
+    catch_unwind(read).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))
+}
+
+/// The error for a panic of the library for MCAP files.
+pub(super) fn panicked(payload: &(dyn Any + Send)) -> RecordingError {
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
+    let text = text.unwrap_or("no reason is given");
+    RecordingError::Reader(text.to_owned())
 }
 
 fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
@@ -349,7 +353,7 @@ fn placed(transform: &FrameTransform, node: u32) -> Option<Placed> {
     is_finite.then_some(Placed { node, at, turn })
 }
 
-fn parsed<T: DeserializeOwned>(data: Value) -> Result<T, RecordingError> {
+pub(super) fn parsed<T: DeserializeOwned>(data: Value) -> Result<T, RecordingError> {
     Ok(serde_json::from_value(data)?)
 }
 
@@ -372,7 +376,7 @@ fn news(task: Task) -> Option<TaskNews> {
         name: task.name,
         state: TaskState::named(&task.state)?,
         failure: task.failure,
-        class: String::new(),
+        class: task.class,
         result: task.result,
         about,
     })

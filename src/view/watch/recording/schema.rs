@@ -412,6 +412,7 @@ pub(crate) static TASK: MessageType = message(
         one(9, "place", Kind::Text),
         one(10, "line", Kind::Text),
         one(11, "module", Kind::Text),
+        one(12, "class", Kind::Text),
     ],
 );
 

@@ -416,6 +416,7 @@ impl<W: Write> RecordingWriter<W> {
             name: news.name.clone(),
             state: news.state.name().to_owned(),
             failure: news.failure.clone(),
+            class: news.class.clone(),
             result: news.result.clone(),
             parameters: parameters
                 .map(|(key, value)| KeyValuePair { key, value })

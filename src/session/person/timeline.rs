@@ -1,0 +1,96 @@
+//! How the world was: snapshots at the moments at which something had changed, of which questions to the
+//! past are asked.
+
+use std::collections::VecDeque;
+
+use super::snapshots::Snapshot;
+use crate::simulation::Simulation;
+
+/// Maximum number of moments that are kept, about 400 kB each; the oldest is forgotten first.
+const MAX_MOMENTS: usize = 150;
+
+/// The simulated time (s) between two moments while something moves.
+const INTERVAL: f64 = 2.0;
+
+/// A moment that is remembered.
+struct Moment {
+    /// In simulated seconds.
+    time: f64,
+    /// Which one it is of all that have been noted, in copies of the session, too.
+    serial: u64,
+    /// The state that the world was in from then on.
+    snapshot: Snapshot,
+}
+
+/// The moments that are remembered.
+#[derive(Default)]
+pub(crate) struct Timeline {
+    /// The oldest first.
+    moments: VecDeque<Moment>,
+    /// How many have been noted.
+    noted: u64,
+    /// Whether none are noted.
+    is_off: bool,
+}
+
+impl Timeline {
+    /// A timeline without moments, for a copy of the session.
+    pub(super) fn emptied(&self) -> Timeline {
+        Timeline {
+            moments: VecDeque::new(),
+            noted: self.noted,
+            is_off: self.is_off,
+        }
+    }
+
+    /// Sets whether no moments are noted from now on.
+    pub(crate) fn set_off(&mut self, is_off: bool) {
+        self.is_off = is_off;
+        if is_off {
+            self.moments.clear();
+        }
+    }
+
+    /// Notes the present state. Of several at the same time the last one counts.
+    pub(crate) fn note(&mut self, simulation: &Simulation) {
+        if self.is_off {
+            return;
+        }
+        let now = simulation.now();
+        if self.moments.back().is_some_and(|moment| moment.time >= now) {
+            self.moments.pop_back();
+        }
+        if self.moments.len() == MAX_MOMENTS {
+            self.moments.pop_front();
+        }
+        self.noted += 1;
+        self.moments.push_back(Moment {
+            time: now,
+            serial: self.noted,
+            snapshot: Snapshot::take(simulation),
+        });
+    }
+
+    /// Notes the present state if the last moment is long ago.
+    pub(crate) fn note_now_and_then(&mut self, simulation: &Simulation) {
+        let last = self.moments.back();
+        if last.is_none_or(|moment| simulation.now() - moment.time >= INTERVAL) {
+            self.note(simulation);
+        }
+    }
+
+    /// The simulated times (s) of the moments, in order.
+    pub(crate) fn times(&self) -> impl DoubleEndedIterator<Item = f64> {
+        self.moments.iter().map(|moment| moment.time)
+    }
+
+    /// Numbers by which moments can be told apart for ever, in order.
+    pub(crate) fn serials(&self) -> impl DoubleEndedIterator<Item = u64> {
+        self.moments.iter().map(|moment| moment.serial)
+    }
+
+    /// The state that the world was in from a moment on.
+    pub(crate) fn moment(&self, number: usize) -> Option<&Snapshot> {
+        self.moments.get(number).map(|moment| &moment.snapshot)
+    }
+}

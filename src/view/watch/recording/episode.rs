@@ -1,0 +1,343 @@
+//! What was performed in a recording, as relations: lines of JSON, as an exported episode has them. Pictures and
+//! poses are passed over.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use indexmap::IndexMap;
+use mcap::read::Options;
+use mcap::{McapError, MessageStream};
+use serde_json::{Map, Value, json};
+
+use super::RecordingError;
+use super::channel::Channel;
+use super::decompress::decompressed;
+use super::message::{Log, Shown, Task};
+use super::protobuf::decoded;
+use super::read::{panicked, parsed};
+use crate::watch::TaskState;
+
+/// The relations of a recording, each with its rows as lines of JSON.
+pub struct Episode {
+    /// Names and texts.
+    pub relations: Vec<(&'static str, String)>,
+    /// Whether the file ends abruptly, as when the session was killed.
+    pub is_cut_off: bool,
+}
+
+/// Reads the relations of a recording's bytes: `task`, `param`, `failure`, `event`, `contact` and `log`.
+pub fn read_episode(bytes: &[u8]) -> Result<Episode, RecordingError> {
+    let read = AssertUnwindSafe(|| read(&decompressed(bytes)?));
+    catch_unwind(read).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))
+}
+
+fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
+    let mut rows = Rows::default();
+    let mut is_ours = false;
+    let mut is_cut_off = false;
+    let mut last_shown = Vec::new();
+    for message in MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into())? {
+        let message = match message {
+            Ok(message) => message,
+            Err(_) if is_ours => {
+                is_cut_off = true;
+                break;
+            }
+            // Whole chunks have been unpacked before.
+            Err(McapError::UnsupportedCompression(_)) => return Err(RecordingError::CutOff),
+            Err(error) => return Err(error.into()),
+        };
+        let Some(channel) = Channel::of_topic(&message.channel.topic) else {
+            continue;
+        };
+        is_ours = true;
+        if !matches!(channel, Channel::Tasks | Channel::Shown | Channel::Log) {
+            continue;
+        }
+        if channel == Channel::Shown {
+            let shown = without_time(&message.data);
+            if shown == last_shown {
+                continue;
+            }
+            last_shown = shown.to_vec();
+        }
+        let data: Value = match message.channel.message_encoding.as_str() {
+            "json" => serde_json::from_slice(&message.data)?,
+            "protobuf" => {
+                decoded(channel.schema(), &message.data).ok_or(RecordingError::Malformed {
+                    topic: channel.topic(),
+                })?
+            }
+            _ => continue,
+        };
+        let time = message.log_time as f64 * 1e-9;
+        match channel {
+            Channel::Tasks => rows.task(time, parsed(data)?),
+            Channel::Shown => rows.shown(time, &parsed(data)?),
+            _ => rows.log(time, &parsed(data)?),
+        }
+    }
+    if !is_ours {
+        return Err(RecordingError::Foreign);
+    }
+    Ok(Episode {
+        relations: rows.relations(),
+        is_cut_off,
+    })
+}
+
+/// A message in Protobuf without the time stamp at its beginning.
+fn without_time(data: &[u8]) -> &[u8] {
+    match data {
+        [0x0a, length, ..] if *length < 0x80 => {
+            data.get(2 + usize::from(*length)..).unwrap_or(data)
+        }
+        _ => data,
+    }
+}
+
+/// A task, as far as it is known.
+struct TaskRow {
+    row: Map<String, Value>,
+    /// How many tasks it has started so far.
+    parts: usize,
+    path: String,
+}
+
+/// What has been read so far.
+#[derive(Default)]
+struct Rows {
+    /// Tasks by the writer's names; their numbers count from 0.
+    tasks: IndexMap<String, TaskRow>,
+    params: Vec<Value>,
+    failures: Vec<Value>,
+    events: Vec<Value>,
+    contacts: Vec<Map<String, Value>>,
+    logs: Vec<Value>,
+    /// What is held, with the link that holds it.
+    held: IndexMap<String, String>,
+    /// What touches now: object and link, with the row of the contact.
+    touching: IndexMap<(String, String), usize>,
+}
+
+/// The name of an object, from that of its frame.
+fn object_name(frame: &str) -> String {
+    frame.trim_start_matches("object/").to_lowercase()
+}
+
+/// The name of a task as users give it: `pick-up` for `[PICK-UP]-401`, `top-level` for a plan at top level.
+fn task_name(name: &str) -> String {
+    let inside = name
+        .strip_prefix('[')
+        .and_then(|name| name.rsplit_once(']'));
+    let name = inside.map_or(name, |(name, _)| name);
+    match name {
+        "" => "top-level".to_owned(),
+        name => name
+            .strip_prefix("TOP-LEVEL-")
+            .unwrap_or(name)
+            .to_lowercase(),
+    }
+}
+
+/// A text, or nothing if it is empty.
+fn text(text: &str) -> Value {
+    match text {
+        "" => Value::Null,
+        text => Value::from(text),
+    }
+}
+
+impl Rows {
+    fn task(&mut self, time: f64, task: Task) {
+        let Some(state) = TaskState::named(&task.state) else {
+            return;
+        };
+        if !self.tasks.contains_key(&task.id) {
+            self.begin(time, &task);
+        }
+        let number = self.tasks.get_index_of(&task.id);
+        let Some(known) = self.tasks.get_mut(&task.id) else {
+            return;
+        };
+        if state == TaskState::Running && known.row.get("started") == Some(&Value::Null) {
+            known.row.insert("started".to_owned(), json!(time));
+        }
+        known
+            .row
+            .insert("status".to_owned(), text(&state.name().to_lowercase()));
+        let has_ended = matches!(
+            state,
+            TaskState::Succeeded | TaskState::Failed | TaskState::Evaporated
+        );
+        if has_ended {
+            known.row.insert("ended".to_owned(), json!(time));
+            known.row.insert("result".to_owned(), text(&task.result));
+        }
+        if state == TaskState::Failed {
+            self.failures.push(json!({
+                "task": number,
+                "time": time,
+                "class": text(&task.class.to_lowercase()),
+                "text": text(&task.failure),
+            }));
+        }
+    }
+
+    fn begin(&mut self, time: f64, task: &Task) {
+        let number = self.tasks.len();
+        let name = task_name(&task.name);
+        let parent = self.tasks.get_index_of(&task.parent);
+        let (nth, outer) = match self.tasks.get_mut(&task.parent) {
+            Some(parent) => {
+                parent.parts += 1;
+                (Value::from(parent.parts - 1), parent.path.as_str())
+            }
+            None => (Value::Null, ""),
+        };
+        let path = format!("{name} {outer}").trim_end().to_owned();
+        let kind = match task.id.as_bytes().first() {
+            Some(b'a' | b'm') => "performed",
+            _ if parent.is_none() => "top-level",
+            _ => "task",
+        };
+        let row = json!({
+            "task": number,
+            "parent": parent,
+            "nth": nth,
+            "kind": kind,
+            "type": name,
+            "path": path,
+            "place": text(&task.place),
+            "created": time,
+            "started": null,
+            "ended": null,
+            "status": "created",
+            "result": null,
+        });
+        for pair in &task.parameters {
+            self.params.push(json!({
+                "task": number,
+                "key": pair.key.to_lowercase(),
+                "text": pair.value,
+                "num": pair.value.parse::<f64>().ok().filter(|n| n.is_finite()),
+            }));
+        }
+        if let Value::Object(row) = row {
+            let row = TaskRow {
+                row,
+                parts: 0,
+                path,
+            };
+            self.tasks.insert(task.id.clone(), row);
+        }
+    }
+
+    fn shown(&mut self, time: f64, shown: &Shown) {
+        let held = shown.held.iter();
+        let held: IndexMap<String, String> = held
+            .map(|held| (object_name(&held.object), held.link.clone()))
+            .collect();
+        let mut event = |kind: &str, object: &str, link: &str| {
+            self.events
+                .push(json!({"time": time, "kind": kind, "object": object, "other": link}));
+        };
+        for (object, link) in &self.held {
+            if !held.contains_key(object) {
+                event("detached", object, link);
+            }
+        }
+        for (object, link) in &held {
+            if !self.held.contains_key(object) {
+                event("attached", object, link);
+            }
+        }
+        self.held = held;
+        let mut touching = IndexMap::new();
+        for touch in &shown.touching {
+            let link = match touch.link.as_str() {
+                "" => "floor".to_owned(),
+                link => link.to_owned(),
+            };
+            let pair = (object_name(&touch.object), link);
+            let row = match self.touching.get(&pair) {
+                Some(row) => *row,
+                None => {
+                    let began = json!({
+                        "a": pair.0, "b": pair.1, "began": time, "ended": null, "force": 0.0,
+                    });
+                    if let Value::Object(row) = began {
+                        self.contacts.push(row);
+                    }
+                    self.contacts.len() - 1
+                }
+            };
+            let force = [touch.force.x, touch.force.y, touch.force.z];
+            let force = f64::from(force.iter().map(|f| f * f).sum::<f32>().sqrt());
+            if let Some(row) = self.contacts.get_mut(row)
+                && row.get("force").and_then(Value::as_f64) < Some(force)
+            {
+                row.insert("force".to_owned(), json!(force));
+            }
+            touching.insert(pair, row);
+        }
+        for (pair, row) in &self.touching {
+            if !touching.contains_key(pair)
+                && let Some(row) = self.contacts.get_mut(*row)
+            {
+                row.insert("ended".to_owned(), json!(time));
+            }
+        }
+        self.touching = touching;
+    }
+
+    fn log(&mut self, time: f64, log: &Log) {
+        let level = ["", "debug", "info", "warn", "error"].get(usize::from(log.level));
+        self.logs.push(json!({
+            "time": time,
+            "level": text(level.copied().unwrap_or_default()),
+            "tag": text(&log.name),
+            "text": log.message,
+        }));
+    }
+
+    fn relations(self) -> Vec<(&'static str, String)> {
+        let tasks = self.tasks.into_values().map(|task| task.row.into());
+        let contacts = self.contacts.into_iter().map(Value::Object);
+        let relations: [(&'static str, Vec<Value>); 6] = [
+            ("task", tasks.collect()),
+            ("param", self.params),
+            ("failure", self.failures),
+            ("event", self.events),
+            ("contact", contacts.collect()),
+            ("log", self.logs),
+        ];
+        let lines = |rows: Vec<Value>| rows.iter().map(|row| format!("{row}\n")).collect();
+        let relations = relations.into_iter();
+        relations.map(|(name, rows)| (name, lines(rows))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tasks_have_the_names_that_users_give() {
+        for (name, shown) in [
+            ("[PICK-UP]-401", "pick-up"),
+            ("[TOP-LEVEL-TOP-LEVEL]-391", "top-level"),
+            ("[TOP-LEVEL]-392", "top-level"),
+            ("PICKING-UP", "picking-up"),
+            ("", "top-level"),
+        ] {
+            assert_eq!(task_name(name), shown, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_recording_is_refused() {
+        for bytes in [&b""[..], b"hello", b"\x89MCAP0\r\n", &[0; 4096]] {
+            assert!(read_episode(bytes).is_err(), "{bytes:?}");
+        }
+    }
+}
