@@ -30,7 +30,7 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
     };
     for (key, value) in &written {
         match not_evaluated(image, key, value) {
-            Some(text) => mistakes.push((key.clone(), text)),
+            Some(mistake) => mistakes.push(mistake),
             None => mistakes.extend(literal_values::mistake(image, class, &written, key, value)),
         }
     }
@@ -132,19 +132,29 @@ pub(super) fn literal_name(image: &Image, value: &Value) -> Option<String> {
     (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
 }
 
-/// Why a value is not evaluated as it may seem: it is quoted, or looks like a call.
-fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<String> {
+/// Why a value is not evaluated as it may seem, and the name that is wrong: it is quoted, or looks like a call.
+fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<(String, String)> {
     let head = value.as_cons()?.car().as_symbol()?;
+    let wrong = key.to_owned();
     let key = key.to_lowercase();
     let remedy = format!("bind a variable such as ?{key} and write ({key} ?{key}).");
     if matches!(head, known::QUOTE | known::FUNCTION) {
-        return Some(format!("Nothing is quoted inside a designator: {remedy}"));
+        let text = "Nothing is quoted inside a designator";
+        let quoted = value.cdr_or_nil().car_or_nil().as_symbol();
+        return Some(match quoted.filter(|_| head == known::QUOTE) {
+            Some(quoted) => {
+                let quoted = name(image, quoted);
+                (format!("'{quoted}"), format!("{text}; did you mean {quoted}?"))
+            }
+            None => (wrong, format!("{text}: {remedy}")),
+        });
     }
     let is_function = matches!(image.symbol(head).function, FunctionCell::Function(_));
     let is_nested = matches!(image.name(head), "A" | "AN" | "ALL" | "SOME" | "THE");
     (is_function && !is_nested).then(|| {
         let name = image.name(head).to_lowercase();
-        format!("({name} …) is not called inside a designator: {remedy}")
+        let text = format!("({name} …) is not called inside a designator: {remedy}");
+        (wrong, text)
     })
 }
 

@@ -133,6 +133,7 @@ impl Session {
     ) -> Result<Vec<Datum>, Failure> {
         self.evaluator.host.person.quit = None;
         self.evaluator.failed_with = None;
+        self.ended_at = None;
         let polls = self.evaluator.image.polls();
         polls.begin(limits.looks);
         polls.set_again(limits.looks.map(|looks| (looks / CLEANING).max(1)));
@@ -165,7 +166,10 @@ impl Session {
             (Outcome::Finished, _) => Ok(values),
             (_, None) => Err(Failure::Interrupted),
             (_, Some(abort)) => Err(match abort.condition.as_str() {
-                INTERRUPT => reached.map_or(Failure::Interrupted, Failure::LimitReached),
+                INTERRUPT => {
+                    self.ended_at = abort.main_place().cloned();
+                    reached.map_or(Failure::Interrupted, Failure::LimitReached)
+                }
                 recovery::CONDITION => Failure::Defect(abort.report),
                 _ => Failure::Unhandled(Box::new(Unhandled::of(
                     &self.evaluator.image,

@@ -41,7 +41,7 @@ const PLANS: &[(&str, &str)] = &[
     ),
     (
         "(defun go-on () (cpl:with-retry-counters ((tries 2)) (cpl:with-failure-handling ((cpl:plan-failure (e) (declare (ignore e)) (cpl:do-retry trys (cpl:retry)))) (park-arms))))",
-        "2:125: DO-RETRY: there is no retry counter TRYS here. Known is TRIES.",
+        "2:125: DO-RETRY: there is no retry counter TRYS here; did you mean TRIES?",
     ),
     // Arms and grasps
     (

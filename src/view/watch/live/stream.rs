@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::http::begin_events;
+use crate::watch::http::begin_events;
 use super::server::Shared;
 use super::updates::{Message, Updates};
 
