@@ -211,6 +211,13 @@ impl Session {
         self.evaluator.deadline = limit.and_then(|limit| now.checked_add(limit));
     }
 
+    /// Remembers in a file what is done of lessons, and tells what was done in earlier sessions.
+    pub fn remember_lessons(&mut self, path: &Path) {
+        let files = Arc::clone(&self.options.outside.files);
+        let path = path.display().to_string();
+        self.evaluator.host.person.progress = Some(person::Progress::new(path, files));
+    }
+
     /// Where the last evaluation of this session was when a limit or an interrupt ended it.
     pub fn ended_at(&self) -> Option<&Location> {
         self.ended_at.as_ref()

@@ -7,10 +7,14 @@ mod closed;
 mod grade;
 #[cfg(unix)]
 mod interrupts;
+mod faulty;
+mod json_lines;
 mod mcp;
+mod mcp_http;
 mod outputs;
 mod pseudo_terminal;
 mod robots;
+mod serve;
 #[cfg(unix)]
 mod swank;
 mod sweep;

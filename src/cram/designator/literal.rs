@@ -58,6 +58,9 @@ fn name(image: &Image, sym: Sym) -> String {
 fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
     let kind = class.name().to_lowercase();
     let given = written.iter().find(|(key, _)| key == "TYPE");
+    if given.is_none() {
+        return without_type(image, class, &kind, written);
+    }
     let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
         return Vec::new();
     };
@@ -91,6 +94,27 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
         mistakes.push((class.name().to_owned(), text));
     }
     mistakes
+}
+
+/// What is wrong with an action or a motion without a type: a key that may be it.
+fn without_type(
+    image: &Image,
+    class: Class,
+    kind: &str,
+    written: &[(String, Value)],
+) -> Vec<(String, String)> {
+    let is_a_type = |value: &Value| {
+        let name = literal_name(image, value);
+        name.is_some_and(|name| schema::is_type(image, class, &name))
+    };
+    let meant = written.iter().find(|(key, value)| {
+        is_a_type(value) && closest_name(key, ["TYPE"]).is_some()
+    });
+    let meant = meant.map(|(key, _)| {
+        let text = asking(format!("The {kind} has no key {key}"), Some("TYPE"));
+        (key.clone(), text)
+    });
+    meant.into_iter().collect()
 }
 
 /// Notes the name of a kind of designators that there is not.

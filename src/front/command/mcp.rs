@@ -15,6 +15,9 @@ use crate::mcp::{self, Server};
 use crate::tools::{Opened, World};
 use view::watch::live::random_word;
 
+/// Memory (bytes) that plans may use, unless --heap says otherwise: what needs more does not end soon.
+const HEAP: usize = 1 << 30;
+
 /// How to serve.
 #[derive(Args, Debug)]
 pub(crate) struct McpArguments {
@@ -83,6 +86,7 @@ pub(super) fn opened(options: &Options) -> Result<Opened, CommandError> {
     let quiet = Options {
         log_level: LogLevel::Warn,
         realtime: None,
+        heap: options.heap.or(Some(HEAP)),
         ..options.clone()
     };
     let session = open_session(&quiet)?;

@@ -1,6 +1,6 @@
 //! Running a plan within limits, and what there is to tell of it.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -33,6 +33,8 @@ pub(super) struct Ran {
     pub(super) printed: String,
     pub(super) trace: Vec<String>,
     pub(super) simulated: f64,
+    /// Has a motion failed?
+    pub(super) has_failed_motion: bool,
     is_loud: bool,
     /// Where it was when a limit ended it.
     ended_at: Option<Location>,
@@ -60,9 +62,15 @@ pub(super) fn run(
     let (keeper, printed) = session.keep_output(MAX_TOLD, MAX_PRINTED);
     let nodes: Rc<RefCell<Vec<String>>> = Rc::default();
     let traced = Rc::clone(&nodes);
+    let began = session.time();
+    let motion_failed: Rc<Cell<bool>> = Rc::default();
+    let failed = Rc::clone(&motion_failed);
     let observer = session.on_event(move |event| match &event.kind {
         PlanEventKind::Ended(end) if !matches!(end.id, TaskId::Task(_)) => {
             let mut lines = traced.borrow_mut();
+            if matches!(end.id, TaskId::Motion(_)) && end.failure.is_some() {
+                failed.set(true);
+            }
             if lines.len() < MAX_LINES {
                 let kind = match end.id {
                     TaskId::Motion(_) => "motion",
@@ -73,12 +81,11 @@ pub(super) fn run(
                     (None, TaskState::Succeeded) => "succeeded".to_owned(),
                     (None, _) => "was given up".to_owned(),
                 };
-                lines.push(format!("{:.1} s: {kind} {} {how}", event.time, end.name));
+                lines.push(format!("{:.1} s: {kind} {} {how}", event.time - began, end.name));
             }
         }
         _ => {}
     });
-    let began = session.time();
     let limits = Limits {
         simulated_time: Some(simulated),
         wall_clock: Some(Duration::from_secs_f64(real)),
@@ -121,6 +128,7 @@ pub(super) fn run(
         is_loud,
         printed: printed.take(),
         trace: nodes.take(),
+        has_failed_motion: motion_failed.get(),
         simulated: session.time() - began,
     })
 }

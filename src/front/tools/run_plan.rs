@@ -35,7 +35,8 @@ pub(super) fn run_plan(world: &mut World, arguments: &Arguments) -> Result<Answe
     let attempt = |session: &mut Session| {
         let ran = run(session, NAME, plan, simulated, real, page.as_deref())?;
         let explanation = match &ran.values {
-            Err(Failure::Unhandled(_)) => explained(session),
+            // It explains the last failure of a motion, which may be one before this run.
+            Err(Failure::Unhandled(_)) if ran.has_failed_motion => explained(session),
             _ => String::new(),
         };
         let picture = picture(session, arguments.text("view"))?;

@@ -11,6 +11,7 @@ use super::judge::{Judge, Mistake};
 use super::known::KnownNames;
 use super::suggestion;
 use super::tokens;
+use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Finding, Severity};
 use crate::printing;
 use lisp::compile;
@@ -209,6 +210,9 @@ impl Check<'_> {
         let suggestion = suggestion::suggested(self.name, self.text, &abort);
         let asks = abort.hint.filter(|hint| hint.starts_with("Did you mean"));
         let message = match asks {
+            _ if abort.condition == INTERRUPT => {
+                "To expand this takes too long: a macro calculates without end, or for long.".to_owned()
+            }
             Some(asks) => format!("{} {asks}", abort.report.trim_end()),
             None => abort.report,
         };

@@ -6,7 +6,7 @@ use super::{Datum, Failure, Unhandled, from_value, into_value, names};
 use crate::bounds::{InterruptHandle, Limit, Limits};
 use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
-use crate::dialogue::{Event, Outcome};
+use crate::dialogue::{Abort, Event, Outcome};
 use crate::{Session, defect};
 use lisp::files::utf8;
 use lisp::reader::Reader;
@@ -192,11 +192,24 @@ impl Session {
         let mut rest = Reader::new(&self.evaluator.image, source);
         let mut last = Vec::new();
         loop {
-            match self.evaluator.read_form(&mut rest) {
-                Ok(Some(form)) => match self.evaluate_one(&form, sink) {
-                    (Outcome::Finished, values) => last = values,
-                    ended => return ended,
-                },
+            match self.evaluator.read_placed(&mut rest) {
+                Ok(Some((form, place))) => {
+                    let place = self.evaluator.image.sources.locate(place);
+                    // What has no place of its own is somewhere in the form.
+                    let mut sink = |event| {
+                        sink(match event {
+                            Event::Aborted(abort) => Event::Aborted(Box::new(Abort {
+                                place: abort.place.clone().or_else(|| place.clone()),
+                                ..*abort
+                            })),
+                            event => event,
+                        });
+                    };
+                    match self.evaluate_one(&form, &mut sink) {
+                        (Outcome::Finished, values) => last = values,
+                        ended => return ended,
+                    }
+                }
                 Ok(None) => return (Outcome::Finished, last),
                 Err(abort) => {
                     sink(Event::Aborted(abort));

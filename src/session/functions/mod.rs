@@ -33,7 +33,6 @@ mod straight_ways;
 mod sweep_things;
 mod sweeps;
 mod tables;
-pub mod tour;
 mod tutorial;
 mod watching;
 

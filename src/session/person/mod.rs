@@ -1,9 +1,11 @@
 //! The state of the prompt, including the snapshots for undo.
 
+mod progress;
 mod snapshots;
 
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
+pub(crate) use progress::{Done, Progress};
 pub(crate) use snapshots::{Snapshot, Snapshots};
 
 /// The state of the prompt.
@@ -11,8 +13,8 @@ pub(crate) use snapshots::{Snapshot, Snapshots};
 pub(crate) struct Person {
     /// Snapshots of earlier states.
     pub snapshots: Snapshots,
-    /// The next step of the tour, counted from zero.
-    pub(crate) tour_step: usize,
+    /// Where it is kept what has been done of lessons, if anywhere.
+    pub(crate) progress: Option<Progress>,
     /// A value that is to be inspected.
     pub inspected: Option<Value>,
     /// Whether the session can be served to an editor from here.
@@ -28,7 +30,8 @@ impl Person {
     pub(super) fn copied(&self, copier: &mut Copier) -> Person {
         Person {
             snapshots: self.snapshots.copied(copier),
-            tour_step: self.tour_step,
+            // A copy is not the person's.
+            progress: None,
             inspected: self.inspected.copied(copier),
             can_serve: self.can_serve,
             port: self.port,
