@@ -4,10 +4,10 @@
 
 mod ask;
 mod closed;
+mod faulty;
 mod grade;
 #[cfg(unix)]
 mod interrupts;
-mod faulty;
 mod json_lines;
 mod mcp;
 mod mcp_http;

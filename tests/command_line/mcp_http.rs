@@ -51,7 +51,9 @@ impl Server {
             .expect("the program runs");
         let mut line = String::new();
         let output = child.stdout.take().expect("it has one");
-        BufReader::new(output).read_line(&mut line).expect("it says where it is");
+        BufReader::new(output)
+            .read_line(&mut line)
+            .expect("it says where it is");
         let rest = line.split_once("http://").expect("an address").1;
         let address = rest.split('/').next().expect("an address").to_owned();
         assert!(rest.trim_end().ends_with("/a-word-of-tests/mcp"), "{line}");
@@ -94,10 +96,17 @@ impl Server {
     /// Begins a session.
     fn begin(&self) -> String {
         let message = request(0, "initialize", json!({"protocolVersion": "2025-06-18"}));
-        let answer = self.ask("POST", "Content-Type: application/json\r\n", &message.to_string());
+        let answer = self.ask(
+            "POST",
+            "Content-Type: application/json\r\n",
+            &message.to_string(),
+        );
         assert_eq!(answer.status, 200, "{}", answer.body);
         assert_eq!(answer.json()["result"]["serverInfo"]["name"], "planwright");
-        answer.header("Mcp-Session-Id").expect("a session").to_owned()
+        answer
+            .header("Mcp-Session-Id")
+            .expect("a session")
+            .to_owned()
     }
 }
 
@@ -107,7 +116,10 @@ fn read(mut stream: TcpStream) -> Answer {
     let _ = stream.read_to_end(&mut bytes);
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let (head, body) = text.split_once("\r\n\r\n").unwrap_or_default();
-    let status = head.split(' ').nth(1).and_then(|status| status.parse().ok());
+    let status = head
+        .split(' ')
+        .nth(1)
+        .and_then(|status| status.parse().ok());
     Answer {
         status: status.unwrap_or(0),
         head: head.to_owned(),
@@ -121,7 +133,11 @@ fn request(id: u64, method: &str, parameters: Value) -> Value {
 
 fn run(id: u64, plan: &str) -> Value {
     let arguments = json!({"plan": plan, "view": "none"});
-    request(id, "tools/call", json!({"name": "run_plan", "arguments": arguments}))
+    request(
+        id,
+        "tools/call",
+        json!({"name": "run_plan", "arguments": arguments}),
+    )
 }
 
 #[test]
@@ -133,20 +149,35 @@ fn clients_have_worlds_of_their_own() {
     let answer = server.post(&a, &began);
     assert_eq!((answer.status, answer.body.as_str()), (202, ""));
     let spawn = "(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)) :bottle 'mine)";
-    assert_eq!(server.post(&a, &run(1, spawn)).json()["result"]["isError"], false);
+    assert_eq!(
+        server.post(&a, &run(1, spawn)).json()["result"]["isError"],
+        false
+    );
     let question = |session: &str| {
         let arguments = json!({"form": "(btr-utils:object-exists 'mine)"});
-        let asked = request(2, "tools/call", json!({"name": "query_world", "arguments": arguments}));
+        let asked = request(
+            2,
+            "tools/call",
+            json!({"name": "query_world", "arguments": arguments}),
+        );
         let answer = server.post(session, &asked).json();
-        answer["result"]["content"][0]["text"].as_str().expect("a text").to_owned()
+        answer["result"]["content"][0]["text"]
+            .as_str()
+            .expect("a text")
+            .to_owned()
     };
-    assert_eq!((question(&a), question(&b)), ("T".to_owned(), "NIL".to_owned()));
+    assert_eq!(
+        (question(&a), question(&b)),
+        ("T".to_owned(), "NIL".to_owned())
+    );
     // Two at a time, with the same id: each gets its own answer.
     thread::scope(|scope| {
-        let asked = |plan: &'static str| scope.spawn({
-            let (server, a) = (&server, &a);
-            move || server.post(a, &run(7, plan)).json()
-        });
+        let asked = |plan: &'static str| {
+            scope.spawn({
+                let (server, a) = (&server, &a);
+                move || server.post(a, &run(7, plan)).json()
+            })
+        };
         let (one, two) = (asked("(+ 1 1)"), asked("(+ 2 2)"));
         let values = |answer: Value| answer["result"]["structuredContent"]["values"].clone();
         assert_eq!(values(one.join().expect("it ends")), "2");
@@ -161,9 +192,17 @@ fn clients_have_worlds_of_their_own() {
     let later: Vec<String> = (0..3).map(|_| server.begin()).collect();
     assert_eq!(server.post(&a, &request(4, "ping", json!({}))).status, 200);
     let last = server.begin();
-    assert_eq!(server.post(&later[0], &request(5, "ping", json!({}))).status, 404);
+    assert_eq!(
+        server
+            .post(&later[0], &request(5, "ping", json!({})))
+            .status,
+        404
+    );
     for session in [&a, &later[1], &later[2], &last] {
-        assert_eq!(server.post(session, &request(6, "ping", json!({}))).status, 200);
+        assert_eq!(
+            server.post(session, &request(6, "ping", json!({}))).status,
+            200
+        );
     }
 }
 
@@ -179,19 +218,44 @@ fn requests_that_are_wrong_or_not_from_this_machine_are_refused() {
     for (method, headers, body, status) in [
         ("POST", with(""), ping.as_str(), 200),
         ("POST", with(&own), &ping, 200),
-        ("POST", with("Accept: application/json, text/event-stream\r\n"), &ping, 200),
-        ("POST", with("MCP-Protocol-Version: 2025-06-18\r\n"), &ping, 200),
-        ("POST", with("MCP-Protocol-Version: 1999-01-01\r\n"), &ping, 400),
+        (
+            "POST",
+            with("Accept: application/json, text/event-stream\r\n"),
+            &ping,
+            200,
+        ),
+        (
+            "POST",
+            with("MCP-Protocol-Version: 2025-06-18\r\n"),
+            &ping,
+            200,
+        ),
+        (
+            "POST",
+            with("MCP-Protocol-Version: 1999-01-01\r\n"),
+            &ping,
+            400,
+        ),
         ("POST", with("Origin: http://evil.example\r\n"), &ping, 403),
         ("POST", with("Origin: null\r\n"), &ping, 403),
         ("POST", with("Origin: http://localhost:1\r\n"), &ping, 403),
         ("POST", with("Sec-Fetch-Site: cross-site\r\n"), &ping, 403),
         ("POST", with("Accept: text/html\r\n"), &ping, 406),
         ("POST", format!("Mcp-Session-Id: {session}\r\n"), &ping, 415),
-        ("POST", format!("Content-Type: text/plain\r\nMcp-Session-Id: {session}\r\n"), &ping, 415),
+        (
+            "POST",
+            format!("Content-Type: text/plain\r\nMcp-Session-Id: {session}\r\n"),
+            &ping,
+            415,
+        ),
         ("POST", kind.to_owned(), &ping, 400),
         ("POST", kind.to_owned(), "{", 400),
-        ("POST", format!("{kind}Mcp-Session-Id: nobody\r\n"), &ping, 404),
+        (
+            "POST",
+            format!("{kind}Mcp-Session-Id: nobody\r\n"),
+            &ping,
+            404,
+        ),
         ("POST", with(""), "{\"id\": ", 200),
         ("POST", with(""), "", 200),
         ("GET", with(""), "", 405),
@@ -202,13 +266,21 @@ fn requests_that_are_wrong_or_not_from_this_machine_are_refused() {
         ("POST", with("Transfer-Encoding: chunked\r\n"), &ping, 0),
     ] {
         let answer = server.ask(method, &headers, body);
-        assert_eq!(answer.status, status, "{method} {headers}{body}\n{}", answer.body);
+        assert_eq!(
+            answer.status, status,
+            "{method} {headers}{body}\n{}",
+            answer.body
+        );
     }
     let damaged = server.ask("POST", &with(""), "{\"id\": ");
     assert_eq!(damaged.json()["error"]["code"], -32700);
     // Another name may lead here (DNS rebinding), and another word does not.
     let asked = server.request("POST", &with(""), &ping);
-    let named = |name: &str| server.send(asked.replace(&server.address, name).as_bytes()).status;
+    let named = |name: &str| {
+        server
+            .send(asked.replace(&server.address, name).as_bytes())
+            .status
+    };
     assert_eq!(named("evil.example"), 403);
     assert_eq!(named("localhost:8000"), 200);
     let other = server.send(asked.replace("a-word", "b-word").as_bytes());
@@ -219,7 +291,10 @@ fn requests_that_are_wrong_or_not_from_this_machine_are_refused() {
         server.address
     );
     assert_eq!(server.send(head.as_bytes()).status, 413);
-    assert_eq!(server.post(&session, &request(2, "ping", json!({}))).status, 200);
+    assert_eq!(
+        server.post(&session, &request(2, "ping", json!({}))).status,
+        200
+    );
 }
 
 #[test]
@@ -241,16 +316,28 @@ fn half_sent_requests_and_clients_that_go_keep_nobody_out() {
     let headers = format!("Content-Type: application/json\r\nMcp-Session-Id: {session}\r\n");
     for _ in 0..8 {
         let mut stream = server.connect();
-        let asked = server.request("POST", &headers, "{}").replace("Length: 2", "Length: 200");
+        let asked = server
+            .request("POST", &headers, "{}")
+            .replace("Length: 2", "Length: 200");
         stream.write_all(asked.as_bytes()).expect("it reads");
         open.push(stream);
     }
-    assert_eq!(server.post(&session, &request(1, "ping", json!({}))).status, 200);
-    assert!(begun.elapsed() < Duration::from_secs(8), "{:?}", begun.elapsed());
+    assert_eq!(
+        server.post(&session, &request(1, "ping", json!({}))).status,
+        200
+    );
+    assert!(
+        begun.elapsed() < Duration::from_secs(8),
+        "{:?}",
+        begun.elapsed()
+    );
     drop(open);
     // Clients that close in the middle: one that waits for a plan, and those behind it, which are not run.
     let slow = run(2, "(loop)");
-    let marked = run(3, "(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)) :bottle 'never)");
+    let marked = run(
+        3,
+        "(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)) :bottle 'never)",
+    );
     let mut gone = Vec::new();
     for message in [&slow, &marked, &marked] {
         let mut stream = server.connect();
@@ -263,11 +350,19 @@ fn half_sent_requests_and_clients_that_go_keep_nobody_out() {
         stream.shutdown(Shutdown::Both).expect("it can be closed");
     }
     let question = json!({"form": "(btr-utils:object-exists 'never)"});
-    let asked = request(4, "tools/call", json!({"name": "query_world", "arguments": question}));
+    let asked = request(
+        4,
+        "tools/call",
+        json!({"name": "query_world", "arguments": question}),
+    );
     let answer = server.post(&session, &asked);
     assert_eq!(answer.json()["result"]["content"][0]["text"], "NIL");
     let ended = read(gone.remove(0));
-    assert!(ended.body.contains("It calculates without end"), "{}", ended.body);
+    assert!(
+        ended.body.contains("It calculates without end"),
+        "{}",
+        ended.body
+    );
 }
 
 #[test]

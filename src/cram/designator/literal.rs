@@ -107,9 +107,9 @@ fn without_type(
         let name = literal_name(image, value);
         name.is_some_and(|name| schema::is_type(image, class, &name))
     };
-    let meant = written.iter().find(|(key, value)| {
-        is_a_type(value) && closest_name(key, ["TYPE"]).is_some()
-    });
+    let meant = written
+        .iter()
+        .find(|(key, value)| is_a_type(value) && closest_name(key, ["TYPE"]).is_some());
     let meant = meant.map(|(key, _)| {
         let text = asking(format!("The {kind} has no key {key}"), Some("TYPE"));
         (key.clone(), text)
@@ -168,7 +168,10 @@ fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<(String, Str
         return Some(match quoted.filter(|_| head == known::QUOTE) {
             Some(quoted) => {
                 let quoted = name(image, quoted);
-                (format!("'{quoted}"), format!("{text}; did you mean {quoted}?"))
+                (
+                    format!("'{quoted}"),
+                    format!("{text}; did you mean {quoted}?"),
+                )
             }
             None => (wrong, format!("{text}: {remedy}")),
         });

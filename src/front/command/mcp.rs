@@ -46,7 +46,9 @@ impl FromStr for Address {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let port = text.parse().or_else(|_| text.replace("localhost:", "").parse());
+        let port = text
+            .parse()
+            .or_else(|_| text.replace("localhost:", "").parse());
         let address = match port {
             Ok(port) => Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port)),
             Err(_) => text.parse::<SocketAddr>(),
@@ -65,7 +67,9 @@ impl FromStr for Address {
 
 /// A word that can stand in an address and is not soon guessed.
 fn word(text: &str) -> Result<String, String> {
-    let is_plain = text.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    let is_plain = text
+        .chars()
+        .all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
     match is_plain && (8..=100).contains(&text.len()) {
         true => Ok(text.to_owned()),
         false => Err("8 to 100 letters, digits, - and _ were expected".to_owned()),
@@ -107,7 +111,10 @@ pub(crate) fn mcp(options: &Options, wanted: &McpArguments) -> Result<Status, Co
         .map_err(|error| CommandError::Open(format!("{address} cannot be used: {error}")))?;
     let address = listener.local_addr()?;
     let word = wanted.word.clone().unwrap_or_else(random_word);
-    writeln!(io::stdout(), "; Assistants can connect to http://{address}/{word}/mcp")?;
+    writeln!(
+        io::stdout(),
+        "; Assistants can connect to http://{address}/{word}/mcp"
+    )?;
     io::stdout().flush()?;
     mcp::serve(listener, &word, world)?;
     Ok(Status::Good)
@@ -128,7 +135,14 @@ mod tests {
             let found = text.parse::<Address>().map(|found| found.0.to_string());
             assert_eq!(found.as_deref(), Ok(address));
         }
-        for text in ["", "0.0.0.0:80", "192.168.0.1:80", "example.org:80", "65536", "[::]:80"] {
+        for text in [
+            "",
+            "0.0.0.0:80",
+            "192.168.0.1:80",
+            "example.org:80",
+            "65536",
+            "[::]:80",
+        ] {
             assert!(text.parse::<Address>().is_err(), "{text}");
         }
         assert!(word("abcd-EFGH_1").is_ok());

@@ -10,9 +10,9 @@
 
 use std::io;
 use std::net::{TcpListener, TcpStream};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
 use std::thread;
 use std::time::Duration;
 
@@ -194,8 +194,15 @@ fn asked(request: &mut Request, stream: &mut TcpStream) -> Result<Asked, Reply> 
         let why = "Content-Type: application/json was expected.";
         return Err(Reply::text("415 Unsupported Media Type", why));
     }
-    let is_taken = |accepted: &str| [JSON, "application/*", "*/*"].iter().any(|k| accepted.contains(k));
-    if request.header("accept").is_some_and(|accepted| !is_taken(accepted)) {
+    let is_taken = |accepted: &str| {
+        [JSON, "application/*", "*/*"]
+            .iter()
+            .any(|k| accepted.contains(k))
+    };
+    if request
+        .header("accept")
+        .is_some_and(|accepted| !is_taken(accepted))
+    {
         let why = "Answers are application/json: Accept has to name it.";
         return Err(Reply::text("406 Not Acceptable", why));
     }
@@ -288,7 +295,11 @@ impl<O: Fn() -> Result<World, String>> Clients<O> {
             (Asked::Message(message), Some(at)) => {
                 let client = self.all.remove(at);
                 self.all.push(client);
-                match self.all.last_mut().and_then(|(_, server)| server.answer(message)) {
+                match self
+                    .all
+                    .last_mut()
+                    .and_then(|(_, server)| server.answer(message))
+                {
                     Some(answer) => Reply::json("200 OK", &answer),
                     None => Reply::nothing("202 Accepted"),
                 }
@@ -297,15 +308,13 @@ impl<O: Fn() -> Result<World, String>> Clients<O> {
                 self.all.remove(at);
                 Reply::nothing("200 OK")
             }
-            (Asked::Message(message), None) if session.is_none() => {
-                match unread(message) {
-                    Some(error) => Reply::json("400 Bad Request", &error),
-                    None => Reply::text(
-                        "400 Bad Request",
-                        "The session has not begun: \"initialize\" comes first, and Mcp-Session-Id names it.",
-                    ),
-                }
-            }
+            (Asked::Message(message), None) if session.is_none() => match unread(message) {
+                Some(error) => Reply::json("400 Bad Request", &error),
+                None => Reply::text(
+                    "400 Bad Request",
+                    "The session has not begun: \"initialize\" comes first, and Mcp-Session-Id names it.",
+                ),
+            },
             (_, None) => Reply::text(
                 "404 Not Found",
                 "There is no such session (any more): \"initialize\" begins one.",

@@ -78,7 +78,9 @@ pub(super) fn read_document(world: &mut World, arguments: &Arguments) -> Result<
         let names: Vec<String> = names().collect();
         match closest_name(name, names.iter().map(String::as_str)) {
             Some(near) => format!("there is no document {name}; did you mean {near}?"),
-            None => format!("there is no document {name}: without a name, this tool tells which there are"),
+            None => format!(
+                "there is no document {name}: without a name, this tool tells which there are"
+            ),
         }
     })
 }

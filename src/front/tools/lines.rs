@@ -32,9 +32,10 @@ impl Lines {
             let answer = match line {
                 Ok(line) if line.iter().all(u8::is_ascii_whitespace) => continue,
                 Ok(line) => self.answer(&line),
-                Err(TooLong) => {
-                    refused(&Value::Null, format!("a request has {MAX_REQUEST} bytes at most"))
-                }
+                Err(TooLong) => refused(
+                    &Value::Null,
+                    format!("a request has {MAX_REQUEST} bytes at most"),
+                ),
             };
             writeln!(output, "{answer}")?;
             output.flush()?;
@@ -48,7 +49,8 @@ impl Lines {
             Err(why) => return refused(&Value::Null, format!("this is no JSON: {why}")),
         };
         let Value::Object(fields) = &request else {
-            let why = "a request is an object: {\"id\": 1, \"tool\": \"check_plan\", \"arguments\": {…}}";
+            let why =
+                "a request is an object: {\"id\": 1, \"tool\": \"check_plan\", \"arguments\": {…}}";
             return refused(&Value::Null, why);
         };
         let id = fields.get("id").unwrap_or(&Value::Null);
@@ -58,12 +60,18 @@ impl Lines {
         if let Some(other) = fields.keys().find(|name| !FIELDS.contains(&name.as_str())) {
             let why = match closest_name(other, FIELDS) {
                 Some(near) => format!("a request has no field {other}; did you mean {near}?"),
-                None => format!("a request has no field {other}; it has {}", FIELDS.join(", ")),
+                None => format!(
+                    "a request has no field {other}; it has {}",
+                    FIELDS.join(", ")
+                ),
             };
             return refused(id, why);
         }
         let Some(tool) = fields.get("tool").and_then(Value::as_str) else {
-            return refused(id, "tool is missing: a string was expected, such as \"check_plan\"");
+            return refused(
+                id,
+                "tool is missing: a string was expected, such as \"check_plan\"",
+            );
         };
         if tool == TABLE {
             let tools: Vec<Value> = TOOLS.iter().map(described).collect();

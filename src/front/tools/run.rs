@@ -81,7 +81,11 @@ pub(super) fn run(
                     (None, TaskState::Succeeded) => "succeeded".to_owned(),
                     (None, _) => "was given up".to_owned(),
                 };
-                lines.push(format!("{:.1} s: {kind} {} {how}", event.time - began, end.name));
+                lines.push(format!(
+                    "{:.1} s: {kind} {} {how}",
+                    event.time - began,
+                    end.name
+                ));
             }
         }
         _ => {}

@@ -78,8 +78,7 @@ impl<'a> Judge<'a> {
         match &note.kind {
             NoteKind::Call(name, form) => {
                 let count = form.cdr_or_nil().iter_list().count();
-                let of_name =
-                    self.function(*name, Some(count), article(image, form));
+                let of_name = self.function(*name, Some(count), article(image, form));
                 let mut mistakes: Vec<Mistake> = of_name.into_iter().collect();
                 mistakes.extend(arguments::judge(image, names, *name, form));
                 mistakes
@@ -148,7 +147,8 @@ impl<'a> Judge<'a> {
                     |sym| meant::has_function(image, sym) || names.defined.contains(&sym);
                 let text = format!("The function {} is not defined", shown(image, name));
                 if image.name(name) == "RETRY" {
-                    let text = "(retry) has a meaning only in the handlers of with-failure-handling.";
+                    let text =
+                        "(retry) has a meaning only in the handlers of with-failure-handling.";
                     return Some(strong(text.to_owned(), Some("RETRY")));
                 }
                 let text = match (action(image, name), article) {
@@ -252,7 +252,8 @@ fn article(image: &Image, form: &Value) -> Option<&'static str> {
     let class = form.cdr_or_nil().car_or_nil().as_symbol()?;
     let class = Class::named(image.name(class))?;
     let properties = form.cdr_or_nil().cdr_or_nil();
-    let is_designator = properties.is_true() && properties.iter_list().all(|part| part.as_cons().is_some());
+    let is_designator =
+        properties.is_true() && properties.iter_list().all(|part| part.as_cons().is_some());
     is_designator.then_some(match class.name().starts_with(['A', 'O']) {
         true => "AN",
         false => "A",

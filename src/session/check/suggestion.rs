@@ -3,6 +3,7 @@
 
 use super::tokens;
 use crate::dialogue::{Abort, Suggestion};
+use closest_name::closest_name;
 use lisp::image::Image;
 use lisp::reader::{Completeness, Lexer, ReadError, ReadErrorKind, TokenKind, is_complete};
 use lisp::source::Place;
@@ -53,25 +54,37 @@ pub(super) fn proposed(image: &Image, place: Place, message: &str) -> Option<Sug
     })
 }
 
-/// The bytes of a form that a message about it is concerned with: those of the last word of the sentence
-/// before the question that is a token of the form.
+/// The bytes of a form that a message about it is concerned with: those of the last word before the question, or of the
+/// one after `by`, that is a token of the form and like the name that is asked about.
 fn concerned(form: &str, message: &str) -> Option<std::ops::Range<usize>> {
-    let (before, _) = message.split_once(ASKS)?;
-    let words = before.rsplit(|c: char| c.is_whitespace() || "();,".contains(c));
-    let mut words = words.map(|word| word.trim_matches(['"', '.', ':', '\'']));
+    let meant = bare(asked(message)?);
+    let (before, after) = message.split_once(ASKS)?;
+    let by = after.split_once(" by ").map(|(_, by)| by);
+    let words = by.unwrap_or(before);
+    let words = words.rsplit(|c: char| c.is_whitespace() || "();,".contains(c));
+    let mut words = words.map(bare).filter(|word| !word.is_empty());
     words.find_map(|word| {
-        // The words of the sentence are no names.
-        let is_name = word.chars().any(char::is_uppercase) || word.contains(['-', '_']);
-        let range = is_name.then(|| tokens::find(form, &word.to_uppercase()))??;
-        Some(range)
+        closest_name(word, [meant])?;
+        tokens::find(form, &word.to_uppercase())
     })
+}
+
+/// A name without its package and what stands around it in a sentence.
+fn bare(word: &str) -> &str {
+    let word = word.trim_matches(['"', '.', ':', '\'', '?']);
+    word.rsplit(':').next().unwrap_or(word)
 }
 
 /// What the report of a failure, or the hint about it, proposes for a text that was evaluated under a name.
 pub fn suggested(name: &str, text: &str, abort: &Abort) -> Option<Suggestion> {
-    let hint = abort.hint.iter().map(|hint| format!("{} {hint}", abort.report));
+    let hint = abort
+        .hint
+        .iter()
+        .map(|hint| format!("{} {hint}", abort.report));
     let message = std::iter::once(abort.report.clone()).chain(hint);
-    let message = message.into_iter().find(|message| asked(message).is_some())?;
+    let message = message
+        .into_iter()
+        .find(|message| asked(message).is_some())?;
     let meant = asked(&message)?;
     let place = abort.main_place().filter(|place| &*place.name == name)?;
     let start = offset_of(text, place.line, place.column)?;
@@ -208,10 +221,22 @@ mod tests {
     fn the_name_that_a_message_asks_about_is_found() {
         for (message, expected) in [
             ("There is no arm RIHGT; did you mean RIGHT?", Some("RIGHT")),
-            ("The variable X is unbound; did you mean the keyword :LEFT?", Some(":LEFT")),
-            ("not the name BOTTLE; did you mean ?BOTTLE?", Some("?BOTTLE")),
-            ("There is no frame \"maap\"; did you mean \"map\"?", Some("\"map\"")),
-            ("Did you mean cpl:retry? After (in-package :pp-tut), it needs no prefix.", Some("cpl:retry")),
+            (
+                "The variable X is unbound; did you mean the keyword :LEFT?",
+                Some(":LEFT"),
+            ),
+            (
+                "not the name BOTTLE; did you mean ?BOTTLE?",
+                Some("?BOTTLE"),
+            ),
+            (
+                "There is no frame \"maap\"; did you mean \"map\"?",
+                Some("\"map\""),
+            ),
+            (
+                "Did you mean cpl:retry? After (in-package :pp-tut), it needs no prefix.",
+                Some("cpl:retry"),
+            ),
             ("F takes 2 arguments, but is called with 1.", None),
         ] {
             assert_eq!(asked(message), expected, "{message}");
@@ -231,6 +256,50 @@ mod tests {
             ("", "GOING", None),
         ] {
             assert_eq!(written(wrong, meant).as_deref(), expected, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_message_is_about_a_name_like_the_one_that_it_asks_about() {
+        for (form, message, expected) in [
+            (
+                "(f :botle)",
+                "no mesh for object type :BOTLE; did you mean :BOTTLE?",
+                Some(":botle"),
+            ),
+            (
+                "(f 'botle)",
+                "There is no object named BOTLE; did you mean BOTTLE?",
+                Some("botle"),
+            ),
+            (
+                "(pkg:lenght x)",
+                "The function PKG::LENGHT is undefined. Did you mean LENGTH?",
+                Some("pkg:lenght"),
+            ),
+            (
+                "(a motion (type moving-torso) (joint-angel 1))",
+                "The motion MOVING-TORSO needs (joint-angle …): the height (m); did you mean JOINT-ANGLE by JOINT-ANGEL?",
+                Some("joint-angel"),
+            ),
+            (
+                "(f moving-torso)",
+                "MOVING-TORSO needs more; did you mean JOINT-ANGLE?",
+                None,
+            ),
+            (
+                "(f the object)",
+                "There is no object; did you mean the keyword :OBJECTS?",
+                Some("object"),
+            ),
+            (
+                "(f ?height)",
+                "not the name HIGHT; did you mean ?HEIGHT?",
+                None,
+            ),
+        ] {
+            let found = concerned(form, message).and_then(|range| form.get(range));
+            assert_eq!(found, expected, "{message}");
         }
     }
 

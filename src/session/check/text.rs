@@ -211,7 +211,8 @@ impl Check<'_> {
         let asks = abort.hint.filter(|hint| hint.starts_with("Did you mean"));
         let message = match asks {
             _ if abort.condition == INTERRUPT => {
-                "To expand this takes too long: a macro calculates without end, or for long.".to_owned()
+                "To expand this takes too long: a macro calculates without end, or for long."
+                    .to_owned()
             }
             Some(asks) => format!("{} {asks}", abort.report.trim_end()),
             None => abort.report,

@@ -9,7 +9,8 @@ use lisp::reader::{Lexer, TokenKind};
 /// before it is found with that.
 pub(super) fn find(form: &str, name: &str) -> Option<Range<usize>> {
     if let Some(name) = name.strip_prefix('\'') {
-        let is_quoted = |range: &Range<usize>| form.get(..range.start)?.ends_with('\'').then_some(());
+        let is_quoted =
+            |range: &Range<usize>| form.get(..range.start)?.ends_with('\'').then_some(());
         let found = symbols(form, name).find(|(range, _)| is_quoted(range).is_some());
         return found.map(|(range, _)| range.start - 1..range.end);
     }
@@ -29,7 +30,8 @@ fn symbols<'a>(form: &'a str, name: &'a str) -> impl Iterator<Item = (Range<usiz
 
 /// The first string with a content, in any case.
 fn string(form: &str, name: &str) -> Option<Range<usize>> {
-    let strings = Lexer::new(form).filter(|token| token.kind == TokenKind::String && token.is_closed);
+    let strings =
+        Lexer::new(form).filter(|token| token.kind == TokenKind::String && token.is_closed);
     let mut ranges = strings.map(|token| token.start..token.end);
     ranges.find(|range| {
         let content = form.get(range.start + 1..range.end - 1);

@@ -37,10 +37,10 @@ pub(super) static TABLE: &[Builtin] = &[
         names,
     ),
     pure(
-        "%LESSON-TITLE",
+        "%TITLE-OF-LESSON",
         "name",
         "The title of the built-in lesson with a name.",
-        &["(pw::%lesson-title \"look-again\") => \"Look again\""],
+        &["(pw::%title-of-lesson \"look-again\") => \"Look again\""],
         title,
     ),
     control(

@@ -121,7 +121,12 @@ mod tests {
     fn what_was_done_is_remembered_and_the_best_counts() {
         in_folder("kept", |progress, _| {
             assert_eq!(progress.all(), []);
-            for kept in [done("a", 1, 3), done("b", 2, 2), done("a", 3, 3), done("a", 2, 3)] {
+            for kept in [
+                done("a", 1, 3),
+                done("b", 2, 2),
+                done("a", 3, 3),
+                done("a", 2, 3),
+            ] {
                 progress.keep(kept).unwrap();
             }
             assert_eq!(progress.all(), [done("b", 2, 2), done("a", 3, 3)]);
@@ -136,7 +141,9 @@ mod tests {
         in_folder("damaged", |progress, path| {
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             let long = "x".repeat(200);
-            let text = format!("a 1 3\n\0\n\u{1b}[31m 1 1\nb 3 2\nc x 1\n{long} 1 1\nd 1 99999999\ne 1\na 2 3\nf 1 1 1\n");
+            let text = format!(
+                "a 1 3\n\0\n\u{1b}[31m 1 1\nb 3 2\nc x 1\n{long} 1 1\nd 1 99999999\ne 1\na 2 3\nf 1 1 1\n"
+            );
             std::fs::write(path, [text.as_bytes(), b"\xff\xfe 1 1\n"].concat()).unwrap();
             assert_eq!(progress.all(), [done("a", 2, 3)]);
             progress.keep(done("g", 0, 1)).unwrap();

@@ -129,7 +129,10 @@ impl Request {
                 "sec-fetch-site" => &mut request.site,
                 "content-length" => {
                     let is_number = !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit());
-                    let length = value.parse().ok().filter(|_| is_number && request.length == 0);
+                    let length = value
+                        .parse()
+                        .ok()
+                        .filter(|_| is_number && request.length == 0);
                     request.length = length.ok_or(HttpError::Malformed)?;
                     continue;
                 }

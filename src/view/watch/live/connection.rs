@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::door::Stranger;
-use crate::watch::http::{HttpError, Request, answer, read_request};
 use super::mesh_bytes::mesh_bytes;
 use super::page::page;
 use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
 use super::updates::past;
+use crate::watch::http::{HttpError, Request, answer, read_request};
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
