@@ -195,6 +195,14 @@ impl Session {
             .collect()
     }
 
+    /// Checks a text as [`Evaluate::check`] does, but forgets afterwards which names it mentions.
+    pub fn check_once(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        let known = self.checked.clone();
+        let found = self.check(source_name, text);
+        self.checked = known;
+        found
+    }
+
     /// The tables of the language.
     pub fn image(&self) -> &Image {
         &self.evaluator.image

@@ -6,7 +6,7 @@ use super::answer::Answer;
 use super::arguments::Arguments;
 use super::world::World;
 use session::Session;
-use session::dialogue::{Evaluate, Finding, Severity, Suggestion};
+use session::dialogue::{Finding, Severity, Suggestion};
 
 /// The name of a plan in places.
 pub(super) const NAME: &str = "plan";
@@ -17,11 +17,7 @@ const MAX_FINDINGS: usize = 200;
 
 /// Checks a plan, in the world that its arguments name.
 pub(super) fn check_plan(world: &mut World, arguments: &Arguments) -> Result<Answer, String> {
-    let session = match arguments.text("in") {
-        "continue" => world.copied()?,
-        _ => world.fresh()?,
-    };
-    let found = findings(session, arguments.text("plan"));
+    let found = findings(world, arguments.text("in"), arguments.text("plan"))?;
     let text = match found.as_slice() {
         [] => "No mistakes were found.".to_owned(),
         found => told(found),
@@ -32,13 +28,26 @@ pub(super) fn check_plan(world: &mut World, arguments: &Arguments) -> Result<Ans
     })
 }
 
-/// What is found in a plan, which a session is used up for.
-pub(super) fn findings(mut session: Session, text: &str) -> Vec<Finding> {
-    session.close();
+/// What is found in a plan: for a fresh world, or for the world at hand, where what it defines is known afterwards.
+pub(super) fn findings(world: &mut World, place: &str, text: &str) -> Result<Vec<Finding>, String> {
+    Ok(match place {
+        "" | "fresh" => {
+            let mut session = world.fresh()?;
+            session.close();
+            found(&mut session, text)
+        }
+        _ => found(world.at_hand(), text),
+    })
+}
+
+fn found(session: &mut Session, text: &str) -> Vec<Finding> {
     // Macros of the plan are expanded.
     session.image_mut().polls().begin(Some(LOOKS));
     session.image_mut().polls().set_again(Some(LOOKS / 10));
-    session.check(NAME, text)
+    let found = session.check_once(NAME, text);
+    session.image_mut().polls().set_again(None);
+    session.image_mut().polls().begin(None);
+    found
 }
 
 /// Findings in words, each with its place, and what to write instead.

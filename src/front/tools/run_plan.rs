@@ -59,10 +59,7 @@ pub(super) fn run_plan(world: &mut World, arguments: &Arguments) -> Result<Answe
     // What is found without running is often the reason.
     let found = match &attempt.ran.values {
         Ok(_) => Vec::new(),
-        Err(_) => match arguments.text("in") {
-            "" | "fresh" => findings(world.fresh()?, plan),
-            _ => findings(world.copied()?, plan),
-        },
+        Err(_) => findings(world, arguments.text("in"), plan)?,
     };
     Ok(answer(attempt, &found, plan))
 }

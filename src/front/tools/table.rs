@@ -117,7 +117,8 @@ pub(crate) static TOOLS: &[Tool] = &[
                 name: "in",
                 kind: Kind::Word(&["fresh", "continue"]),
                 is_required: false,
-                doc: "fresh: as in a fresh session [default]; continue: with what plans have defined in the world at hand",
+                doc: "fresh: as in a fresh session [default]; continue: with what plans have defined in the world at hand, where what \
+                      this one defines is known afterwards",
             },
         ],
         call: |world, arguments| Answer::of(check_plan(world, arguments)),

@@ -66,18 +66,6 @@ impl World {
         self.opened.session()
     }
 
-    /// A copy of the session with the world at hand, or a fresh one if plans have left something, such as a
-    /// task, of which there is no copy.
-    pub(super) fn copied(&self) -> Result<Session, String> {
-        match self.at_hand.copied() {
-            Ok(mut session) => {
-                session.image_mut().files = Arc::new(Closed);
-                Ok(session)
-            }
-            Err(_) => self.fresh(),
-        }
-    }
-
     /// How to make sessions with fresh worlds.
     pub(super) fn maker(&self) -> impl Fn() -> Result<Session, String> + use<> {
         let opened = self.opened.clone();

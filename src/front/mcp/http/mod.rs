@@ -8,91 +8,35 @@
 //! - Each client that initializes has a world of its own. One client too many takes the place of the one that has
 //!   been silent longest, which then learns that its session has ended and begins another one.
 
+mod clients;
+mod job;
+
 use std::io;
 use std::net::{TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender, TrySendError};
+use std::sync::mpsc::{self, RecvTimeoutError, SyncSender, TrySendError};
 use std::thread;
 use std::time::Duration;
 
-use serde_json::Value;
-
-use super::server::{Server, VERSIONS, is_initialize, unread};
+use super::server::VERSIONS;
 use crate::tools::{MAX_REQUEST, World};
+use clients::answer_jobs;
+use job::{Asked, JSON, Job, Reply};
 use view::watch::http::{HttpError, Request, answer, read_request};
-use view::watch::live::{Door, Stranger, is_same, random_word};
+use view::watch::live::{Door, Stranger, is_same};
 
 /// Maximum number of connections that have not shown the word, and of those that have.
 const MAX_STRANGERS: usize = 64;
 const MAX_GUESTS: usize = 16;
 /// Maximum number of requests that wait.
 const MAX_WAITING: usize = 8;
-/// Maximum number of clients with a world.
-const MAX_CLIENTS: usize = 4;
 /// How long a client may take to send the body of a request.
 const BODY_TIME: Duration = Duration::from_secs(10);
 /// How often it is looked whether a client that waits is still there.
 const LOOK: Duration = Duration::from_millis(200);
 /// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 512 << 10;
-
-const JSON: &str = "application/json";
-const TEXT: &str = "text/plain; charset=utf-8";
-/// The header that names a client's session.
-const SESSION: &str = "Mcp-Session-Id";
-
-/// What a client asks for.
-struct Job {
-    /// The session that it names.
-    session: Option<String>,
-    what: Asked,
-    /// Has the client gone?
-    is_gone: Arc<AtomicBool>,
-    reply: SyncSender<Reply>,
-}
-
-enum Asked {
-    /// A message of the protocol.
-    Message(Vec<u8>),
-    /// The session is to end.
-    End,
-}
-
-/// What a client gets.
-struct Reply {
-    status: &'static str,
-    kind: &'static str,
-    headers: String,
-    content: String,
-}
-
-impl Reply {
-    fn json(status: &'static str, content: &Value) -> Reply {
-        Reply {
-            status,
-            kind: JSON,
-            headers: String::new(),
-            content: content.to_string(),
-        }
-    }
-
-    fn text(status: &'static str, content: &str) -> Reply {
-        Reply {
-            status,
-            kind: TEXT,
-            headers: String::new(),
-            content: format!("{content}\n"),
-        }
-    }
-
-    fn nothing(status: &'static str) -> Reply {
-        Reply {
-            content: String::new(),
-            ..Reply::text(status, "")
-        }
-    }
-}
 
 /// Serves clients for ever; `open` makes a world for each.
 pub(crate) fn serve(
@@ -259,88 +203,5 @@ fn has_gone(stream: &TcpStream) -> bool {
     match peeked {
         Ok(count) => count == 0,
         Err(error) => error.kind() != io::ErrorKind::WouldBlock || !is_blocking,
-    }
-}
-
-/// Answers what is asked, one after the other.
-fn answer_jobs(jobs: &Receiver<Job>, open: impl Fn() -> Result<World, String>) {
-    let mut clients = Clients {
-        open,
-        all: Vec::new(),
-    };
-    for job in jobs {
-        if job.is_gone.load(Ordering::Relaxed) {
-            continue;
-        }
-        let reply = clients.reply(job.session.as_deref(), &job.what);
-        // Who has gone meanwhile gets none.
-        let _ = job.reply.send(reply);
-    }
-}
-
-/// The clients that have initialized, by the names of their sessions; the one heard of last is the last.
-struct Clients<O> {
-    open: O,
-    all: Vec<(String, Server)>,
-}
-
-impl<O: Fn() -> Result<World, String>> Clients<O> {
-    fn reply(&mut self, session: Option<&str>, what: &Asked) -> Reply {
-        let at = session.and_then(|name| {
-            let mut names = self.all.iter().map(|(known, _)| known);
-            names.position(|known| is_same(known.as_bytes(), name.as_bytes()))
-        });
-        match (what, at) {
-            (Asked::Message(message), _) if is_initialize(message) => self.begin(message),
-            (Asked::Message(message), Some(at)) => {
-                let client = self.all.remove(at);
-                self.all.push(client);
-                match self
-                    .all
-                    .last_mut()
-                    .and_then(|(_, server)| server.answer(message))
-                {
-                    Some(answer) => Reply::json("200 OK", &answer),
-                    None => Reply::nothing("202 Accepted"),
-                }
-            }
-            (Asked::End, Some(at)) => {
-                self.all.remove(at);
-                Reply::nothing("200 OK")
-            }
-            (Asked::Message(message), None) if session.is_none() => match unread(message) {
-                Some(error) => Reply::json("400 Bad Request", &error),
-                None => Reply::text(
-                    "400 Bad Request",
-                    "The session has not begun: \"initialize\" comes first, and Mcp-Session-Id names it.",
-                ),
-            },
-            (_, None) => Reply::text(
-                "404 Not Found",
-                "There is no such session (any more): \"initialize\" begins one.",
-            ),
-        }
-    }
-
-    /// A client begins a session.
-    fn begin(&mut self, message: &[u8]) -> Reply {
-        if self.all.len() >= MAX_CLIENTS {
-            self.all.remove(0);
-        }
-        let world = match (self.open)() {
-            Ok(world) => world,
-            Err(why) => return Reply::text("500 Internal Server Error", &why),
-        };
-        let mut server = Server::new(world);
-        let Some(answer) = server.answer(message) else {
-            return Reply::text("400 Bad Request", "\"initialize\" has an id.");
-        };
-        let name = random_word();
-        let headers = format!("{SESSION}: {name}\r\n");
-        self.all.push((name, server));
-        Reply {
-            headers,
-            ..Reply::json("200 OK", &answer)
-        }
     }
 }
