@@ -128,7 +128,7 @@ mod tests {
     fn a_name_further_in_is_found_too() {
         assert_eq!(find("(f (g #'h \"\\\" h\") #|h|#)", "H"), Some(8..9));
         assert_eq!(find("(f (g x))", "H"), None);
-        assert_eq!(find("(f \"H\" '(h))", "H"), Some(8..9));
+        assert_eq!(find("(f \"H\" '(h))", "H"), Some(9..10));
         assert_eq!(find("(f \"x\" \"left_arm\")", "LEFT_ARM"), Some(7..17));
         assert_eq!(find("(f h 'h)", "'H"), Some(5..7));
     }
