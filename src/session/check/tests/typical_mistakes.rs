@@ -41,7 +41,7 @@ const PLANS: &[(&str, &str)] = &[
     ),
     (
         "(defun go-on () (cpl:with-retry-counters ((tries 2)) (cpl:with-failure-handling ((cpl:plan-failure (e) (declare (ignore e)) (cpl:do-retry trys (cpl:retry)))) (park-arms))))",
-        "2:125: DO-RETRY: there is no retry counter TRYS here; did you mean TRIES?",
+        "2:125: DO-RETRY: there is no retry counter TRYS here. Known is TRIES.",
     ),
     // Arms and grasps
     (
@@ -166,7 +166,7 @@ const PLANS: &[(&str, &str)] = &[
     ),
     (
         "(defun look () (perform (an action (type 'looking) (direction down))))",
-        "2:41: Nothing is quoted inside a designator; did you mean LOOKING?",
+        "2:42: Nothing is quoted inside a designator; did you mean LOOKING?",
     ),
     (
         "(defun wait () (perform (an action (tpye waiting) (duration 1))))",
