@@ -114,6 +114,7 @@ pub const TUTORIAL: &[(&str, &str)] = files![
 
 /// Name and text of the lessons' files.
 pub const LESSONS: &[(&str, &str)] = files![
+    "lessons/tour.lesson",
     "lessons/bring-the-bottle.lesson",
     "lessons/see-more.lesson",
     "lessons/better-arm.lesson",
@@ -126,6 +127,14 @@ pub fn lesson_names() -> impl Iterator<Item = &'static str> {
         .iter()
         .filter_map(|(file, _)| file.rsplit('/').next());
     files.filter_map(|file| file.strip_suffix(".lesson"))
+}
+
+/// The title of a lesson.
+pub fn lesson_title(name: &str) -> Option<&'static str> {
+    let file = format!("plans/lessons/{name}.lesson");
+    let (_, text) = LESSONS.iter().find(|(known, _)| *known == file)?;
+    let (_, rest) = text.split_once("(title \"")?;
+    rest.split('"').next()
 }
 
 /// The text of a file that programs may load by its name, such as `plans/tutorial/skills.plan`,

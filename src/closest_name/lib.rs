@@ -4,10 +4,17 @@
 /// or swapped with their neighbour; case is ignored), or `None` when even the nearest one
 /// differs in more than a third of its letters.
 ///
-/// Of equally near names, those win that have all the letters in order, and of these the first.
+/// Of equally near names, those win that have the same letters, then those that have all the letters in order, and of
+/// these the first.
 pub fn closest_name<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: Vec<char> = wanted.to_lowercase().chars().collect();
-    let mut best: Option<((usize, bool), &str)> = None;
+    let sorted = |letters: &[char]| {
+        let mut letters = letters.to_vec();
+        letters.sort_unstable();
+        letters
+    };
+    let of_wanted = sorted(&wanted);
+    let mut best: Option<((usize, bool, bool), &str)> = None;
     for name in names {
         let letters: Vec<char> = name.to_lowercase().chars().collect();
         let allowed = (letters.len().max(wanted.len()) / 3).max(1);
@@ -15,7 +22,8 @@ pub fn closest_name<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) 
             continue;
         }
         let distance = edit_distance(&wanted, &letters);
-        let rank = (distance, !has_in_order(&letters, &wanted));
+        let is_other = distance <= allowed && sorted(&letters) != of_wanted;
+        let rank = (distance, is_other, !has_in_order(&letters, &wanted));
         if distance <= allowed && best.is_none_or(|(least, _)| rank < least) {
             best = Some((rank, name));
         }
@@ -70,6 +78,11 @@ mod tests {
     #[test]
     fn a_name_that_lacks_a_letter_is_completed() {
         assert_eq!(closest_name("lst", ["let", "list", "last"]), Some("list"));
+    }
+
+    #[test]
+    fn swapped_letters_are_more_likely_than_a_lacking_one() {
+        assert_eq!(closest_name("poes", ["poses", "pose"]), Some("pose"));
     }
 
     #[test]

@@ -63,6 +63,7 @@ mod precompiled;
 mod prompt;
 mod swank;
 mod sweep_report;
+mod tools;
 mod transcript;
 
 #[doc(hidden)]
@@ -71,7 +72,9 @@ pub use lisp::files;
 pub use lisp::guard::heap::HeapLimit;
 pub use lisp::source::Location;
 pub use robotics::robot::Side;
-pub use session::dialogue::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
+pub use session::dialogue::{
+    Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop, Suggestion,
+};
 pub use session::outside::{Clock, MachineClock, Outside};
 pub use session::{
     Datum, Failure, FramedPose, InterruptHandle, KeptOutput, Limit, Limits, ObserverId, PlanEvent,

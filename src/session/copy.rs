@@ -29,6 +29,7 @@ impl Session {
             evaluator: Evaluator::new(image, scheduler, host),
             checked: self.checked.clone(),
             told_names: assist::ToldNames::default(),
+            ended_at: None,
             _rest: FreesAll,
         })
     }

@@ -39,6 +39,8 @@ pub struct LessonPlan {
     pub steps: Vec<LessonStep>,
     /// The text of a solution.
     pub solution: Option<String>,
+    /// Is there something to grade, a form that is evaluated after a submission?
+    pub has_run: bool,
 }
 
 /// Something that has to have happened.
@@ -158,6 +160,7 @@ fn plan_of(told: &[Datum]) -> Option<LessonPlan> {
             .collect(),
         steps: list(6).iter().filter_map(step).collect(),
         solution: text(7),
+        has_run: parts.get(8) == Some(&Datum::True),
     })
 }
 

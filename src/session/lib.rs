@@ -52,6 +52,7 @@ use host::SimulationHost;
 use lisp::files::Closed;
 use lisp::image::Image;
 use lisp::library;
+use lisp::source::Location;
 use lisp::value::release::FreesAll;
 use robotics::world::Models;
 use simulation::Simulation;
@@ -62,6 +63,7 @@ use view::watch::live::Updates;
 
 pub use audience::{Audience, Filming, WatchError};
 pub use bounds::{InterruptHandle, Limit, Limits};
+pub use check::suggested;
 pub use face::{
     Datum, Failure, FramedPose, KeptOutput, ObserverId, PlanEvent, PlanEventKind, RestoreError,
     Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
@@ -78,6 +80,8 @@ pub struct Session {
     checked: check::KnownNames,
     /// Where the texts define what.
     told_names: assist::ToldNames,
+    /// Where the last evaluation was when a limit or an interrupt ended it.
+    ended_at: Option<Location>,
     /// The last to be dropped: what has been put off is freed.
     _rest: FreesAll,
 }
@@ -151,6 +155,7 @@ impl Session {
             evaluator: Evaluator::new(image, Scheduler::new(), host),
             checked: check::KnownNames::default(),
             told_names: assist::ToldNames::default(),
+            ended_at: None,
             _rest: FreesAll,
         };
         session.evaluator.image.limits.heap.set_limit(options.heap);
@@ -190,6 +195,14 @@ impl Session {
             .collect()
     }
 
+    /// Checks a text as [`Evaluate::check`] does, but forgets afterwards which names it mentions.
+    pub fn check_once(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        let known = self.checked.clone();
+        let found = self.check(source_name, text);
+        self.checked = known;
+        found
+    }
+
     /// The tables of the language.
     pub fn image(&self) -> &Image {
         &self.evaluator.image
@@ -204,6 +217,18 @@ impl Session {
     pub fn set_time_limit(&mut self, limit: Option<Duration>) {
         let now = self.evaluator.host.audience.outside().clock.now();
         self.evaluator.deadline = limit.and_then(|limit| now.checked_add(limit));
+    }
+
+    /// Remembers in a file what is done of lessons, and tells what was done in earlier sessions.
+    pub fn remember_lessons(&mut self, path: &Path) {
+        let files = Arc::clone(&self.options.outside.files);
+        let path = path.display().to_string();
+        self.evaluator.host.person.progress = Some(person::Progress::new(path, files));
+    }
+
+    /// Where the last evaluation of this session was when a limit or an interrupt ended it.
+    pub fn ended_at(&self) -> Option<&Location> {
+        self.ended_at.as_ref()
     }
 
     /// What it began with.

@@ -22,7 +22,7 @@ const MAX_ACTIONS: usize = 8;
 const MAX_ACTION_LENGTH: usize = 100;
 
 /// Whether the place is in a built-in plan.
-fn is_built_in(place: &Location) -> bool {
+pub(super) fn is_built_in(place: &Location) -> bool {
     place.name.starts_with("plans/lib/")
 }
 

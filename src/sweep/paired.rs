@@ -67,7 +67,7 @@ impl Comparison {
 
     /// The probability that plans that are equally good differ so much: McNemar's test (1947), exact
     /// and two-sided.
-    pub(crate) fn p_value(&self) -> f64 {
+    pub fn p_value(&self) -> f64 {
         mcnemar(self.discordant())
     }
 

@@ -333,7 +333,15 @@ fn mistakes_in_lessons_are_told_with_their_places() {
         ),
         (
             format!("(deflesson a {head} {steps})"),
-            "my.lesson:1:1: The lesson a has no (run …)",
+            "my.lesson: the lesson a is for the prompt: without (run FORM …) there is nothing to grade",
+        ),
+        (
+            format!("(deflesson a {head} (run 1) (steps (a \"Do it.\" t :hint (\"x\"))))"),
+            "is no step of a lesson: ",
+        ),
+        (
+            format!("(deflesson a {head} (run 1) (steps (a \"Do it.\" t :explained 5)))"),
+            "is no step of a lesson: ",
         ),
         (
             format!("(deflesson a {head} (run 1) {steps} (stops 1))"),

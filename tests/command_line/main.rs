@@ -4,13 +4,17 @@
 
 mod ask;
 mod closed;
+mod faulty;
 mod grade;
 #[cfg(unix)]
 mod interrupts;
+mod json_lines;
 mod mcp;
+mod mcp_http;
 mod outputs;
 mod pseudo_terminal;
 mod robots;
+mod serve;
 #[cfg(unix)]
 mod swank;
 mod sweep;

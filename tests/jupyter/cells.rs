@@ -125,6 +125,38 @@ fn a_sweep_shows_a_table_and_where_it_works() {
 }
 
 #[test]
+fn a_lesson_goes_on_from_cell_to_cell() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let begun = client.run("(lesson 'bring-the-bottle)");
+    assert!(
+        begun.text().contains("Step 1 of 4: Pick the bottle up."),
+        "{}",
+        begun.text()
+    );
+    assert!(client.run("(hint)").text().starts_with("Hint 1 of 3: "));
+    // What is typed does not count.
+    assert_eq!(
+        client
+            .run("(princ \"; Done: Pick the bottle up.\")")
+            .text()
+            .matches("Step")
+            .count(),
+        0
+    );
+    let answer = client.run(
+        "(with-simulated-robot
+           (get-ready-at *place-at-table*)
+           (pick-up-object (find-object :bottle) :right))",
+    );
+    let text = answer.text();
+    assert!(
+        text.contains("; Done: Pick the bottle up.\nStep 2 of 4: "),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_program_may_exit() {
     let mut kernel = start();
     let mut client = Client::new(&kernel, "a");

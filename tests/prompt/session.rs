@@ -288,19 +288,108 @@ fn planning_that_is_interrupted_has_no_effect() {
     );
 }
 
+/// The form that a step of the tour shows, after the last empty line.
+fn form_to_type(shown: &str) -> String {
+    let form = shown.rsplit("\n\n").next().unwrap_or_default();
+    assert!(form.starts_with('('), "{shown}");
+    form.trim_end().to_owned()
+}
+
 #[test]
-fn every_step_of_the_tour_works() {
+fn the_tour_is_solved_by_what_it_shows() {
     let mut talk = Talk::new();
-    let steps = session::functions::tour::STEPS;
-    let (last, good) = steps.split_last().expect("there are steps");
-    for step in good {
-        let (shown, outcome) = talk.take(step.form);
-        assert_eq!(outcome, Outcome::Finished, "{}\n{shown}", step.form);
+    let mut shown = talk.say("(tour)");
+    assert!(
+        shown.contains("Step 1 of 6: Put a bottle on the table."),
+        "{shown}"
+    );
+    // What is typed in between does not matter.
+    assert!(!talk.say("(+ 1 2)").contains("Done"));
+    for number in 1..6 {
+        shown = talk.say(&form_to_type(&shown));
+        let next = format!("Step {} of 6: ", number + 1);
+        assert!(
+            shown.contains("; Done: ") && shown.contains(&next),
+            "{shown}"
+        );
+        assert!(!shown.contains("No longer so"), "{shown}");
+        let again = talk.say("(tour)");
+        assert!(again.starts_with(&next), "{again}");
     }
-    assert_eq!(talk.take(last.form).1, Outcome::Stopped);
-    assert!(talk.say("q").contains("aborted"));
-    assert!(talk.say("(tour 1)").contains("Step 1 of"));
-    assert!(talk.say("(tour)").contains("Step 2 of"));
+    let last = form_to_type(&shown);
+    assert_eq!(talk.take(&last).1, Outcome::Stopped);
+    let over = talk.say("q");
+    assert!(
+        over.contains("aborted") && over.contains("The lesson is done: The tour"),
+        "{over}"
+    );
+    assert!(talk.say("(tour 1)").contains("Step 1 of 6"));
+    assert!(talk.say("(tour 2)").starts_with("Drive to the table."));
+    assert!(talk.say("(tour 7)").contains("1 to 6 were expected"));
+}
+
+/// A session in which what is done of lessons is remembered in a file.
+fn remembering(path: &std::path::Path) -> Talk {
+    let mut talk = Talk::new();
+    talk.session.remember_lessons(path);
+    talk
+}
+
+#[test]
+fn what_is_done_of_lessons_is_remembered() {
+    let folder = std::env::temp_dir().join(format!("planwright-lessons-{}", std::process::id()));
+    let path = folder.join("state").join("lessons");
+    let mut talk = remembering(&path);
+    assert!(!talk.say("(lesson)").contains(" steps)"));
+    talk.say("(lesson 'tour)");
+    assert!(
+        talk.say(BOTTLE)
+            .contains("; Done: Put a bottle on the table.")
+    );
+    let kept = || std::fs::read_to_string(&path).expect("it is there");
+    assert_eq!(kept(), "tour 1 6\n");
+    // Another session knows; what has been undone stays done there.
+    let listed = remembering(&path).say("(lesson)");
+    let line = listed
+        .lines()
+        .find(|line| line.contains("'tour"))
+        .expect("a line");
+    assert!(
+        line.ends_with("The tour: a first session  (1 of 6 steps)"),
+        "{listed}"
+    );
+    assert!(
+        talk.say("(btr-utils:kill-all-objects)")
+            .contains("; No longer so")
+    );
+    assert_eq!(kept(), "tour 1 6\n");
+    // A damaged file, and one of lessons that there are no more.
+    std::fs::write(&path, "gone 1 2\ntour x\n\u{0}\n").expect("it can be written");
+    assert!(!remembering(&path).say("(lesson)").contains(" steps)"));
+    // A closed session neither reads nor writes it.
+    let mut closed = remembering(&path);
+    closed.session.close();
+    std::fs::write(&path, "tour 6 6\n").expect("it can be written");
+    assert!(!closed.say("(lesson)").contains("(done)"));
+    assert!(remembering(&path).say("(lesson)").contains("(done)"));
+    std::fs::remove_dir_all(&folder).expect("it is there");
+}
+
+#[cfg(unix)]
+#[test]
+fn progress_that_cannot_be_kept_is_told_once() {
+    let mut talk = remembering(std::path::Path::new("/proc/no/such/folder/lessons"));
+    talk.say("(lesson 'tour)");
+    let shown = talk.say(BOTTLE);
+    assert!(
+        shown.contains("; Progress cannot be kept: ") && shown.contains("Step 2 of 6"),
+        "{shown}"
+    );
+    let shown = talk.say("(btr-utils:kill-all-objects)");
+    assert!(
+        shown.contains("No longer so") && !shown.contains("Progress"),
+        "{shown}"
+    );
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
     };
     for (key, value) in &written {
         match not_evaluated(image, key, value) {
-            Some(text) => mistakes.push((key.clone(), text)),
+            Some(mistake) => mistakes.push(mistake),
             None => mistakes.extend(literal_values::mistake(image, class, &written, key, value)),
         }
     }
@@ -70,6 +70,9 @@ fn is_grounded(image: &mut Image, class: Class, name: &str) -> bool {
 fn of_type(image: &mut Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
     let kind = class.name().to_lowercase();
     let given = written.iter().find(|(key, _)| key == "TYPE");
+    if given.is_none() {
+        return without_type(image, class, &kind, written);
+    }
     let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
         return Vec::new();
     };
@@ -106,6 +109,27 @@ fn of_type(image: &mut Image, class: Class, written: &[(String, Value)]) -> Vec<
         mistakes.push((class.name().to_owned(), text));
     }
     mistakes
+}
+
+/// What is wrong with an action or a motion without a type: a key that may be it.
+fn without_type(
+    image: &Image,
+    class: Class,
+    kind: &str,
+    written: &[(String, Value)],
+) -> Vec<(String, String)> {
+    let is_a_type = |value: &Value| {
+        let name = literal_name(image, value);
+        name.is_some_and(|name| schema::is_type(image, class, &name))
+    };
+    let meant = written
+        .iter()
+        .find(|(key, value)| is_a_type(value) && closest_name(key, ["TYPE"]).is_some());
+    let meant = meant.map(|(key, _)| {
+        let text = asking(format!("The {kind} has no key {key}"), Some("TYPE"));
+        (key.clone(), text)
+    });
+    meant.into_iter().collect()
 }
 
 /// Notes the name of a kind of designators that there is not.
@@ -147,19 +171,32 @@ pub(super) fn literal_name(image: &Image, value: &Value) -> Option<String> {
     (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
 }
 
-/// Why a value is not evaluated as it may seem: it is quoted, or looks like a call.
-fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<String> {
+/// Why a value is not evaluated as it may seem, and the name that is wrong: it is quoted, or looks like a call.
+fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<(String, String)> {
     let head = value.as_cons()?.car().as_symbol()?;
+    let wrong = key.to_owned();
     let key = key.to_lowercase();
     let remedy = format!("bind a variable such as ?{key} and write ({key} ?{key}).");
     if matches!(head, known::QUOTE | known::FUNCTION) {
-        return Some(format!("Nothing is quoted inside a designator: {remedy}"));
+        let text = "Nothing is quoted inside a designator";
+        let quoted = value.cdr_or_nil().car_or_nil().as_symbol();
+        return Some(match quoted.filter(|_| head == known::QUOTE) {
+            Some(quoted) => {
+                let quoted = name(image, quoted);
+                (
+                    format!("'{quoted}"),
+                    format!("{text}; did you mean {quoted}?"),
+                )
+            }
+            None => (wrong, format!("{text}: {remedy}")),
+        });
     }
     let is_function = matches!(image.symbol(head).function, FunctionCell::Function(_));
     let is_nested = matches!(image.name(head), "A" | "AN" | "ALL" | "SOME" | "THE");
     (is_function && !is_nested).then(|| {
         let name = image.name(head).to_lowercase();
-        format!("({name} …) is not called inside a designator: {remedy}")
+        let text = format!("({name} …) is not called inside a designator: {remedy}");
+        (wrong, text)
     })
 }
 

@@ -161,6 +161,10 @@ fn wrong_kind(
         key.to_lowercase(),
         kind.taken()
     );
+    if let (Some(meant), Written::Text(wrong)) = (unquoted(kind, found), found) {
+        let text = format!("{text}{}: did you mean {meant}?", remedy(kind, found));
+        return (wrong.to_uppercase(), text);
+    }
     let Written::Name(name) = found else {
         return (key.to_owned(), text + remedy(kind, found) + ".");
     };
@@ -178,6 +182,24 @@ fn wrong_kind(
         ),
     };
     (name.clone(), text)
+}
+
+/// What a string would be without its quotes, if it is a value of the kind then.
+fn unquoted(kind: &Kind, found: &Written) -> Option<String> {
+    let Written::Text(text) = found else {
+        return None;
+    };
+    let is_name = |c: char| c.is_ascii_alphanumeric() || "-_?".contains(c);
+    let is_plain = !text.is_empty() && text.chars().all(is_name);
+    match kind {
+        Kind::Keywords | Kind::Keyword if is_plain => Some(text.to_uppercase()),
+        Kind::Member(members) => {
+            let name = text.to_uppercase();
+            members.iter().any(|member| *member == name).then_some(name)
+        }
+        Kind::Number => text.parse::<f64>().ok().map(|_| text.clone()),
+        _ => None,
+    }
 }
 
 /// What to write instead of a value of another kind.

@@ -89,11 +89,15 @@ redefines it locally."
 
 (defun %counter (name operator environment)
   "The counter of a name in whose scope a form stands."
-  (let ((counters (macroexpand-1 '(%retry-counters) environment)))
+  (let* ((counters (macroexpand-1 '(%retry-counters) environment))
+         (names (mapcar #'first counters)))
     (or (assoc name counters)
         (if counters
-            (%malformed "~a: there is no retry counter ~s here. Known ~:[are~;is~] ~{~s~^, ~}."
-                        operator name (null (rest counters)) (mapcar #'first counters))
+            (%malformed "~a: there is no retry counter ~s here~:[. Known ~:[are~;is~] ~{~s~^, ~}.~;~:*; did you mean ~a?~]"
+                        operator name
+                        (and (symbolp name)
+                             (system:closest-name (string name) (mapcar #'string names)))
+                        (null (rest counters)) names)
             (%malformed "~a: there is no retry counter ~s here; WITH-RETRY-COUNTERS around it makes some."
                         operator name)))))
 

@@ -16,6 +16,7 @@ use super::prompt::PromptOptions;
 use super::replay::ReplayArguments;
 use super::robot::RobotArguments;
 use super::run::RunArguments;
+use super::serve::ServeArguments;
 use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
 use super::view_recording::ViewArguments;
@@ -75,8 +76,11 @@ pub(crate) enum Command {
     Ask(AskArguments),
     /// Grade what students have handed in: each in closed worlds of its own, by what happened there
     Grade(Box<GradeArguments>),
-    /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output)
+    /// Serve a session to assistants that write plans (Model Context Protocol over standard input and output, or
+    /// HTTP)
     Mcp(McpArguments),
+    /// Serve the tools for assistants to editors and tests, as plain lines of JSON
+    Serve(ServeArguments),
     /// Be a robot for others: carry out the goals that nodes of ROS 2 send, until Ctrl-C
     Robot(RobotArguments),
     /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect

@@ -13,6 +13,7 @@ use crate::jupyter::{
     Connection, Interrupter, Kernel, KernelError, Place, Settings, Specification, notebook,
     outputs, watch,
 };
+use crate::prompt::lessons_file;
 use crate::transcript::{Transcript, Verdict};
 use session::dialogue::Evaluate;
 use session::is_built_in;
@@ -253,6 +254,9 @@ fn run(
 ) -> Result<Status, CommandError> {
     let connection = Connection::read(connection).map_err(KernelError::from)?;
     let mut session = open_session(options)?;
+    if let Some(path) = lessons_file() {
+        session.remember_lessons(&path);
+    }
     let interrupter = Interrupter::new(session.interrupt_handle());
     let kernel = Kernel::listen(&connection, interrupter.clone(), behaviour.settings())?;
     watch(interrupter.clone())?;

@@ -31,6 +31,7 @@ mod replay;
 mod robot;
 mod ros2;
 mod run;
+mod serve;
 mod stack;
 mod stop_at;
 mod swank;
@@ -110,6 +111,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Ask(wanted)) => ask::ask(options, &wanted),
         Some(Command::Grade(wanted)) => grade::grade(options, &wanted),
         Some(Command::Mcp(wanted)) => mcp::mcp(options, &wanted),
+        Some(Command::Serve(wanted)) => serve::serve(options, &wanted),
         Some(Command::Robot(wanted)) => robot::robot(options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),

@@ -11,6 +11,7 @@ use super::options::Options;
 use super::paint::Paint;
 use super::watching::{self, WatchArguments};
 use crate::prompt;
+use crate::prompt::lessons_file;
 use session::is_built_in;
 
 use crate::prompt::{Beginning, JournalError, Loaded, Opened, ReplOptions, Wanted};
@@ -48,6 +49,9 @@ pub(crate) fn prompt(
         }
     }
     let mut session = open_session(&options)?;
+    if let Some(path) = lessons_file() {
+        session.remember_lessons(&path);
+    }
     let _watched = watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());
     let status = prompt::run(

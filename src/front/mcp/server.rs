@@ -1,16 +1,13 @@
 //! Requests and their answers.
 
-use std::io::{self, BufRead, Read, Write};
+use std::io::{self, BufRead, Write};
 
 use serde_json::{Value, json};
 
-use super::tools::{TOOLS, tool_named};
-use super::{World, arguments, resources};
+use crate::tools::{MAX_REQUEST, TOOLS, TooLong, World, called, described, documents, next_line};
 
-/// Maximum number of bytes of a request.
-const MAX_REQUEST: u64 = 4 << 20;
 /// The versions of the protocol that are spoken, the newest first.
-const VERSIONS: &[&str] = &["2025-06-18", "2025-03-26", "2024-11-05"];
+pub(super) const VERSIONS: &[&str] = &["2025-06-18", "2025-03-26", "2024-11-05"];
 
 const PARSE_ERROR: i64 = -32700;
 const INVALID_REQUEST: i64 = -32600;
@@ -80,13 +77,10 @@ impl Server {
     }
 
     /// The answer to a request; `None` to a notification.
-    fn answer(&mut self, line: &[u8]) -> Option<Value> {
+    pub(super) fn answer(&mut self, line: &[u8]) -> Option<Value> {
         let request: Value = match serde_json::from_slice(line) {
             Ok(request) => request,
-            Err(why) => {
-                let why = format!("this is no JSON: {why}");
-                return Some(error(&Value::Null, &Refusal::new(PARSE_ERROR, why)));
-            }
+            Err(why) => return Some(no_json(&why)),
         };
         let wrong = |why: &str| Some(error(&Value::Null, &Refusal::new(INVALID_REQUEST, why)));
         let Value::Object(fields) = &request else {
@@ -143,23 +137,21 @@ impl Server {
         };
         match method {
             "tools/list" => {
-                let tools: Vec<Value> = TOOLS.iter().map(arguments::described).collect();
+                let tools: Vec<Value> = TOOLS.iter().map(described).collect();
                 Ok(json!({"tools": tools}))
             }
             "tools/call" => {
                 let name = text("name")?;
-                let tool = tool_named(name).map_err(|why| Refusal::new(INVALID_PARAMS, why))?;
                 let given = parameters.get("arguments").unwrap_or(&Value::Null);
-                Ok(match arguments::read(tool, given) {
-                    Ok(given) => (tool.call)(&mut self.world, &given).json(),
-                    Err(why) => super::tools::Answer::refused(why).json(),
-                })
+                let answer = called(&mut self.world, name, given);
+                let answer = answer.map_err(|why| Refusal::new(INVALID_PARAMS, why))?;
+                Ok(answer.content())
             }
-            "resources/list" => Ok(json!({"resources": resources::list()})),
+            "resources/list" => Ok(json!({"resources": documents::list()})),
             "resources/templates/list" => Ok(json!({"resourceTemplates": []})),
             "resources/read" => {
                 let uri = text("uri")?;
-                let read = resources::read(&mut self.world, uri);
+                let read = documents::read(&mut self.world, uri);
                 read.map_err(|why| Refusal::new(RESOURCE_NOT_FOUND, why))
             }
             _ => Err(Refusal::new(
@@ -187,31 +179,19 @@ fn error(id: &Value, refusal: &Refusal) -> Value {
     json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": message}})
 }
 
-/// A line has more bytes than a request may have.
-struct TooLong;
+fn no_json(why: &serde_json::Error) -> Value {
+    let why = format!("this is no JSON: {why}");
+    error(&Value::Null, &Refusal::new(PARSE_ERROR, why))
+}
 
-/// The next line; `None` at the end. What is too long is read and forgotten.
-fn next_line(input: &mut impl BufRead) -> io::Result<Option<Result<Vec<u8>, TooLong>>> {
-    let mut line = Vec::new();
-    if input
-        .by_ref()
-        .take(MAX_REQUEST)
-        .read_until(b'\n', &mut line)?
-        == 0
-    {
-        return Ok(None);
-    }
-    if line.last() == Some(&b'\n') || (line.len() as u64) < MAX_REQUEST {
-        return Ok(Some(Ok(line)));
-    }
-    loop {
-        line.clear();
-        let read = input
-            .by_ref()
-            .take(MAX_REQUEST)
-            .read_until(b'\n', &mut line)?;
-        if read == 0 || line.last() == Some(&b'\n') {
-            return Ok(Some(Err(TooLong)));
-        }
-    }
+/// The error about a message that cannot be read, if it cannot.
+pub(super) fn unread(message: &[u8]) -> Option<Value> {
+    let read: Result<Value, _> = serde_json::from_slice(message);
+    read.err().map(|why| no_json(&why))
+}
+
+/// Does a message ask for a session to begin?
+pub(super) fn is_initialize(message: &[u8]) -> bool {
+    let read: Option<Value> = serde_json::from_slice(message).ok();
+    read.is_some_and(|read| read["method"] == "initialize" && read.get("id").is_some())
 }

@@ -10,6 +10,11 @@ pub(crate) fn history_file() -> Option<PathBuf> {
     Some(directory.join("history"))
 }
 
+/// The file with what has been done of lessons; `None` if there is no place for it.
+pub(crate) fn lessons_file() -> Option<PathBuf> {
+    Some(state_directory()?.join("lessons"))
+}
+
 /// The directory for what outlives a session; `None` if there is no place for it.
 pub(crate) fn state_directory() -> Option<PathBuf> {
     state_path(|name| std::env::var_os(name))

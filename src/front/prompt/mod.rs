@@ -44,6 +44,7 @@ use session::dialogue::screen::input_name;
 use session::dialogue::{Outcome, Screen, Serve, evaluate_on};
 use view::picture::InlinePictures;
 
+pub(crate) use history::lessons_file;
 pub(crate) use journal::{Beginning, Earlier, JournalError, Loaded, Opened, Wanted, open};
 pub(crate) use keeper::Keeper;
 pub(crate) use resume::{Doubt, Resumed, excerpt, resume, settle_doubts};

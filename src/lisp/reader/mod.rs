@@ -22,7 +22,7 @@ mod symbol;
 mod typed_array;
 
 pub use completeness::{Completeness, is_complete};
-pub use error::ReadError;
+pub use error::{ReadError, ReadErrorKind};
 pub use lexer::{Lexer, Token, TokenKind};
 #[cfg(test)]
 pub use parser::read_all;

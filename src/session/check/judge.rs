@@ -78,12 +78,12 @@ impl<'a> Judge<'a> {
         match &note.kind {
             NoteKind::Call(name, form) => {
                 let count = form.cdr_or_nil().iter_list().count();
-                let mut mistakes: Vec<Mistake> =
-                    self.function(*name, Some(count)).into_iter().collect();
+                let of_name = self.function(*name, Some(count), article(image, form));
+                let mut mistakes: Vec<Mistake> = of_name.into_iter().collect();
                 mistakes.extend(arguments::judge(image, names, *name, form));
                 mistakes
             }
-            NoteKind::Function(name) => self.function(*name, None).into_iter().collect(),
+            NoteKind::Function(name) => self.function(*name, None, None).into_iter().collect(),
             NoteKind::Variable(name, near) => self.variable(*name, *near).into_iter().collect(),
             NoteKind::Handled(specifier) => types::unknown(image, names, specifier, "type"),
             NoteKind::Definition(form) => definition(image, names, form),
@@ -120,7 +120,14 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn function(&mut self, name: Sym, count: Option<usize>) -> Option<Mistake> {
+    /// What is wrong with the name of a function, and the number of its arguments; `article` is what a
+    /// designator would begin with in place of it.
+    fn function(
+        &mut self,
+        name: Sym,
+        count: Option<usize>,
+        article: Option<&str>,
+    ) -> Option<Mistake> {
         let (image, names) = (self.image, self.names);
         match &image.symbol(name).function {
             FunctionCell::Function(function) => {
@@ -139,9 +146,15 @@ impl<'a> Judge<'a> {
                 let is_function =
                     |sym| meant::has_function(image, sym) || names.defined.contains(&sym);
                 let text = format!("The function {} is not defined", shown(image, name));
-                let text = match action(image, name) {
-                    Some(action) => format!("{text}; {action}"),
-                    None => self.asking(&text, name, true, is_function),
+                if image.name(name) == "RETRY" {
+                    let text =
+                        "(retry) has a meaning only in the handlers of with-failure-handling.";
+                    return Some(strong(text.to_owned(), Some("RETRY")));
+                }
+                let text = match (action(image, name), article) {
+                    (Some(action), _) => format!("{text}; {action}"),
+                    (None, Some(article)) => format!("{text}; did you mean {article}?"),
+                    (None, None) => self.asking(&text, name, true, is_function),
                 };
                 Some(weak(text, Some(image.name(name))))
             }
@@ -231,6 +244,19 @@ fn is_return(image: &Image, place: Place) -> bool {
     let operator = operator.and_then(|name| name.rsplit(':').next());
     operator.is_some_and(|name| {
         name.eq_ignore_ascii_case("return") || name.eq_ignore_ascii_case("return-from")
+    })
+}
+
+/// What begins a designator, if a form looks like one but for its first name.
+fn article(image: &Image, form: &Value) -> Option<&'static str> {
+    let class = form.cdr_or_nil().car_or_nil().as_symbol()?;
+    let class = Class::named(image.name(class))?;
+    let properties = form.cdr_or_nil().cdr_or_nil();
+    let is_designator =
+        properties.is_true() && properties.iter_list().all(|part| part.as_cons().is_some());
+    is_designator.then_some(match class.name().starts_with(['A', 'O']) {
+        true => "AN",
+        false => "A",
     })
 }
 

@@ -6,6 +6,7 @@ mod judge;
 mod known;
 mod meant;
 mod signature;
+mod suggestion;
 mod text;
 mod tokens;
 mod types;
@@ -16,5 +17,6 @@ mod tests;
 
 pub(super) use known::KnownNames;
 pub(super) use meant::hint;
+pub use suggestion::suggested;
 pub(super) use text::check_text;
 pub(super) use warnings::install;

@@ -9,7 +9,9 @@ use std::collections::HashSet;
 
 use super::judge::{Judge, Mistake};
 use super::known::KnownNames;
+use super::suggestion;
 use super::tokens;
+use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Finding, Severity};
 use crate::printing;
 use lisp::compile;
@@ -31,18 +33,27 @@ pub(crate) fn check_text(
     source_name: &str,
     text: &str,
 ) -> Vec<Finding> {
-    Check { image, known }.text(source_name, text)
+    let check = Check {
+        image,
+        known,
+        name: source_name,
+        text,
+    };
+    check.findings()
 }
 
 /// The check of a text.
 struct Check<'s> {
     image: &'s mut Image,
     known: &'s mut KnownNames,
+    name: &'s str,
+    text: &'s str,
 }
 
 impl Check<'_> {
-    fn text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
-        let source = self.image.sources.add(source_name, text);
+    fn findings(mut self) -> Vec<Finding> {
+        let text = self.text;
+        let source = self.image.sources.add(self.name, text);
         let mut reader = Reader::new(self.image, source);
         let mut findings = Vec::new();
         self.image.notes = Some(Vec::new());
@@ -52,8 +63,12 @@ impl Check<'_> {
                 Ok(Some(form)) => form,
                 Ok(None) => break,
                 Err(error) => {
+                    let suggestion = suggestion::of_unreadable(text, &error);
                     let finding = self.finding(error.raise());
-                    findings.push(finding);
+                    findings.push(Finding {
+                        suggestion: suggestion.or(finding.suggestion),
+                        ..finding
+                    });
                     // What the rest of the text defines is unknown.
                     self.known.is_open = true;
                     break;
@@ -86,6 +101,7 @@ impl Check<'_> {
         let mistakes = placed(self.image, mistakes).into_iter();
         mistakes
             .map(|(place, mistake)| Finding {
+                suggestion: suggestion::proposed(self.image, place, &mistake.text),
                 message: mistake.text,
                 place: self.image.sources.locate(place),
                 severity: Severity::Warning,
@@ -108,6 +124,7 @@ impl Check<'_> {
                     ),
                     place: sources.locate(place),
                     severity: Severity::Warning,
+                    suggestion: None,
                 }
             })
             .collect()
@@ -149,9 +166,7 @@ impl Check<'_> {
         if let Err(raise) = result
             && (effect == Effect::Reading || is_about_locks(&raise))
         {
-            let mut finding = self.finding(raise);
-            let place = self.image.noted_form;
-            finding.place = finding.place.or_else(|| self.image.sources.locate(place));
+            let finding = self.finding(raise);
             findings.push(finding);
         }
     }
@@ -189,11 +204,24 @@ impl Check<'_> {
     }
 
     fn finding(&mut self, raise: Box<Raise>) -> Finding {
-        let abort = printing::raised(self.image, raise);
+        let mut abort = printing::raised(self.image, raise);
+        let place = self.image.sources.locate(self.image.noted_form);
+        abort.place = abort.place.or(place);
+        let suggestion = suggestion::suggested(self.name, self.text, &abort);
+        let asks = abort.hint.filter(|hint| hint.starts_with("Did you mean"));
+        let message = match asks {
+            _ if abort.condition == INTERRUPT => {
+                "To expand this takes too long: a macro calculates without end, or for long."
+                    .to_owned()
+            }
+            Some(asks) => format!("{} {asks}", abort.report.trim_end()),
+            None => abort.report,
+        };
         Finding {
-            message: abort.report,
+            message,
             place: abort.place,
             severity: Severity::Error,
+            suggestion,
         }
     }
 }

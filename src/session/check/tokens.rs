@@ -2,18 +2,41 @@
 
 use std::ops::Range;
 
+use lisp::reader::{Lexer, TokenKind};
+
 /// The byte range of the first token with that name (ignoring case and package prefix):
-/// preferably an element of the form itself, else any token inside it.
+/// preferably an element of the form itself, else any token inside it, or else a string. A name with a quote
+/// before it is found with that.
 pub(super) fn find(form: &str, name: &str) -> Option<Range<usize>> {
-    let matching = || {
-        Tokens::new(form).filter(|(range, _)| {
-            let token = form.get(range.clone()).unwrap_or_default();
-            let bare = token.rsplit(':').next().unwrap_or(token);
-            bare.to_uppercase() == name
-        })
-    };
-    let found = matching().find(|(_, depth)| *depth == 1);
-    found.or_else(|| matching().next()).map(|(range, _)| range)
+    if let Some(name) = name.strip_prefix('\'') {
+        let is_quoted =
+            |range: &Range<usize>| form.get(..range.start)?.ends_with('\'').then_some(());
+        let found = symbols(form, name).find(|(range, _)| is_quoted(range).is_some());
+        return found.map(|(range, _)| range.start - 1..range.end);
+    }
+    let found = symbols(form, name).find(|(_, depth)| *depth == 1);
+    let found = found.or_else(|| symbols(form, name).next());
+    found.map(|(range, _)| range).or_else(|| string(form, name))
+}
+
+/// The symbols with a name, and how deep they stand.
+fn symbols<'a>(form: &'a str, name: &'a str) -> impl Iterator<Item = (Range<usize>, usize)> + 'a {
+    Tokens::new(form).filter(move |(range, _)| {
+        let token = form.get(range.clone()).unwrap_or_default();
+        let bare = token.rsplit(':').next().unwrap_or(token);
+        bare.to_uppercase() == name
+    })
+}
+
+/// The first string with a content, in any case.
+fn string(form: &str, name: &str) -> Option<Range<usize>> {
+    let strings =
+        Lexer::new(form).filter(|token| token.kind == TokenKind::String && token.is_closed);
+    let mut ranges = strings.map(|token| token.start..token.end);
+    ranges.find(|range| {
+        let content = form.get(range.start + 1..range.end - 1);
+        content.is_some_and(|content| content.to_uppercase() == name)
+    })
 }
 
 /// The tokens of a text with their nesting depths, without strings and comments.
@@ -105,5 +128,8 @@ mod tests {
     fn a_name_further_in_is_found_too() {
         assert_eq!(find("(f (g #'h \"\\\" h\") #|h|#)", "H"), Some(8..9));
         assert_eq!(find("(f (g x))", "H"), None);
+        assert_eq!(find("(f \"H\" '(h))", "H"), Some(9..10));
+        assert_eq!(find("(f \"x\" \"left_arm\")", "LEFT_ARM"), Some(7..17));
+        assert_eq!(find("(f h 'h)", "'H"), Some(5..7));
     }
 }

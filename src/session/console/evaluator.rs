@@ -203,8 +203,12 @@ impl Evaluator {
             }
             Evaluation::Interrupted => {
                 let reached = self.host.bounds.reached();
+                let place = self.place_of_program();
                 self.abort(sink);
-                let mut abort = interrupted();
+                let mut abort = Abort {
+                    place,
+                    ..interrupted()
+                };
                 if let Some(limit) = reached {
                     abort.report = format!("Interrupted: {limit} has been reached.");
                 }

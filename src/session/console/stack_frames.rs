@@ -7,7 +7,7 @@ use crate::printing;
 use crate::printing::on_one_line;
 use lisp::evaluator::backtrace::FrameView;
 use lisp::print;
-use lisp::source::Place;
+use lisp::source::{Location, Place};
 use lisp::value::Value;
 
 /// Number of frames shown by default.
@@ -38,6 +38,17 @@ impl Evaluator {
             );
         }
         frames
+    }
+
+    /// Where a stopped evaluation is in a text of the user's.
+    pub(super) fn place_of_program(&self) -> Option<Location> {
+        let sources = &self.image.sources;
+        let frames = self.frames();
+        let places = frames.iter().map(|told| told.view.place);
+        let mut places = places
+            .filter(|place| sources.is_of_program(*place))
+            .filter_map(|place| sources.locate(place));
+        places.find(|place| !printing::is_built_in(place))
     }
 
     /// The selected frame: the index of its fiber, and its index there.

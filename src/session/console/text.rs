@@ -113,7 +113,11 @@ impl Evaluator {
         Ok(self.read_placed(reader)?.map(|(form, _)| form))
     }
 
-    fn read_placed(&mut self, reader: &mut Reader) -> Result<Option<(Value, Place)>, Box<Abort>> {
+    /// The same with its place.
+    pub(crate) fn read_placed(
+        &mut self,
+        reader: &mut Reader,
+    ) -> Result<Option<(Value, Place)>, Box<Abort>> {
         let limits = Rc::clone(&self.image.limits);
         let _watch = limits.watch();
         let mut next = stoppable(|| reader.next(&mut self.image));

@@ -106,6 +106,21 @@ pub struct Finding {
     pub place: Option<Location>,
     /// How certain it is.
     pub severity: Severity,
+    /// What to write instead, if that is known.
+    pub suggestion: Option<Suggestion>,
+}
+
+/// What to write in place of a part of a text.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Suggestion {
+    /// Line where the part begins, from one.
+    pub line: usize,
+    /// Column, from one, in characters.
+    pub column: usize,
+    /// The part; empty where something is missing.
+    pub wrong: String,
+    /// What to write in its place; empty where something is too much.
+    pub replacement: String,
 }
 
 /// How certain a mistake is that was found without evaluating.

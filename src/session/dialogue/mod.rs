@@ -20,7 +20,9 @@ mod shown_ahead;
 mod uses;
 
 pub use converse::{Candidate, Completions, Converse};
-pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
+pub use evaluate::{
+    Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop, Suggestion,
+};
 pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub use illustrate::{Illustrate, Swept, Table};
 pub use input::{ends_in_quotes, is_whole};

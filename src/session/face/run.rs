@@ -6,7 +6,7 @@ use super::{Datum, Failure, Unhandled, from_value, into_value, names};
 use crate::bounds::{InterruptHandle, Limit, Limits};
 use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
-use crate::dialogue::{Event, Outcome};
+use crate::dialogue::{Abort, Event, Outcome};
 use crate::{Session, defect};
 use lisp::files::utf8;
 use lisp::reader::Reader;
@@ -133,6 +133,7 @@ impl Session {
     ) -> Result<Vec<Datum>, Failure> {
         self.evaluator.host.person.quit = None;
         self.evaluator.failed_with = None;
+        self.ended_at = None;
         let polls = self.evaluator.image.polls();
         polls.begin(limits.looks);
         polls.set_again(limits.looks.map(|looks| (looks / CLEANING).max(1)));
@@ -165,7 +166,10 @@ impl Session {
             (Outcome::Finished, _) => Ok(values),
             (_, None) => Err(Failure::Interrupted),
             (_, Some(abort)) => Err(match abort.condition.as_str() {
-                INTERRUPT => reached.map_or(Failure::Interrupted, Failure::LimitReached),
+                INTERRUPT => {
+                    self.ended_at = abort.main_place().cloned();
+                    reached.map_or(Failure::Interrupted, Failure::LimitReached)
+                }
                 recovery::CONDITION => Failure::Defect(abort.report),
                 _ => Failure::Unhandled(Box::new(Unhandled::of(
                     &self.evaluator.image,
@@ -188,11 +192,24 @@ impl Session {
         let mut rest = Reader::new(&self.evaluator.image, source);
         let mut last = Vec::new();
         loop {
-            match self.evaluator.read_form(&mut rest) {
-                Ok(Some(form)) => match self.evaluate_one(&form, sink) {
-                    (Outcome::Finished, values) => last = values,
-                    ended => return ended,
-                },
+            match self.evaluator.read_placed(&mut rest) {
+                Ok(Some((form, place))) => {
+                    let place = self.evaluator.image.sources.locate(place);
+                    // What has no place of its own is somewhere in the form.
+                    let mut sink = |event| {
+                        sink(match event {
+                            Event::Aborted(abort) => Event::Aborted(Box::new(Abort {
+                                place: abort.place.clone().or_else(|| place.clone()),
+                                ..*abort
+                            })),
+                            event => event,
+                        });
+                    };
+                    match self.evaluate_one(&form, &mut sink) {
+                        (Outcome::Finished, values) => last = values,
+                        ended => return ended,
+                    }
+                }
                 Ok(None) => return (Outcome::Finished, last),
                 Err(abort) => {
                     sink(Event::Aborted(abort));

@@ -2,7 +2,8 @@
 
 use crate::deeds::{Deed, Deeds};
 use crate::host::SimulationHost;
-use crate::host::call::{done, edit};
+use crate::host::call::{done, edit, host};
+use crate::person::{Done, Progress};
 use cram::Reply;
 use lisp::builtin::{Builtin, control, pure};
 use lisp::image::Image;
@@ -32,8 +33,30 @@ pub(super) static TABLE: &[Builtin] = &[
         "%LESSON-NAMES",
         "",
         "The names of the lessons that are built in.",
-        &["(first (pw::%lesson-names)) => \"bring-the-bottle\""],
+        &["(first (pw::%lesson-names)) => \"tour\""],
         names,
+    ),
+    pure(
+        "%TITLE-OF-LESSON",
+        "name",
+        "The title of the built-in lesson with a name.",
+        &["(pw::%title-of-lesson \"look-again\") => \"Look again\""],
+        title,
+    ),
+    control(
+        "%LESSON-PROGRESS",
+        "",
+        "What has been done of lessons, in this session and earlier ones: lists of a name, the number of steps that \
+         were done, and that of all steps.",
+        &["(pw::%lesson-progress) => NIL"],
+        host!(progress),
+    ),
+    control(
+        "%KEEP-PROGRESS",
+        "lesson done all",
+        "Remembers how many steps of a lesson are done. Returns why that cannot be kept, or NIL.",
+        &["(pw::%keep-progress \"tour\" 1 6) => NIL"],
+        host!(keep_progress),
     ),
 ];
 
@@ -83,6 +106,43 @@ fn begin(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Re
     let witness = audience.add_follower(simulation, image, witness);
     deeds.set_witness(Some(witness));
     done(Value::NIL)
+}
+
+fn title(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let name = args.first().and_then(Value::as_text).unwrap_or_default();
+    Ok(plan_files::lesson_title(&name).map_or(Value::NIL, text))
+}
+
+fn progress(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let kept = host.person.progress.as_ref().filter(|_| !host.is_closed);
+    let all = kept.map(Progress::all).unwrap_or_default();
+    let lists = all.into_iter().map(|done| {
+        let numbers = [done.steps, done.all].map(Value::from);
+        Value::list([vec![text(&done.lesson)], numbers.to_vec()].concat())
+    });
+    let lists: Vec<Value> = lists.collect();
+    done(Value::list(lists))
+}
+
+fn keep_progress(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
+    let number = |at: usize| match args.get(at) {
+        Some(Value::Int(number)) => usize::try_from(*number).unwrap_or(0),
+        _ => 0,
+    };
+    let kept = host.person.progress.as_ref().filter(|_| !host.is_closed);
+    let lesson = args.first().and_then(Value::as_text);
+    let (Some(kept), Some(lesson)) = (kept, lesson) else {
+        return done(Value::NIL);
+    };
+    let result = kept.keep(Done {
+        lesson,
+        steps: number(1),
+        all: number(2),
+    });
+    done(match result {
+        Ok(()) => Value::NIL,
+        Err(error) => text(&error.to_string()),
+    })
 }
 
 fn names(_: &mut Image, _: &[Value]) -> Result<Value> {

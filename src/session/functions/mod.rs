@@ -34,7 +34,6 @@ mod sweep_things;
 mod sweeps;
 mod tables;
 mod timeline;
-pub mod tour;
 mod tutorial;
 mod watching;
 

@@ -1,14 +1,12 @@
-//! Functions for use at the prompt: help, the list of actions, the tour, tasks, time, and
+//! Functions for use at the prompt: help, the list of actions, tasks, time, and
 //! inspecting values.
 
 use std::sync::Arc;
 
-use super::tour;
 use crate::host::SimulationHost;
 use crate::host::call::{done, host};
 use crate::host::parts::{View, in_world};
 use crate::outside::Outside;
-use crate::person::Person;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, type_text};
 use cram::designator::schema;
@@ -51,13 +49,6 @@ pub(super) static TABLE: &[Builtin] = &[
         "Tells the types of actions that a plan can perform, with the keys that each takes.",
         &[],
         host!(list_actions),
-    ),
-    control(
-        "TOUR",
-        "&optional step",
-        "Shows the next step of the tour, a first session for newcomers, or the step with that number.",
-        &[],
-        host!(tour_step),
     ),
     control(
         "TASKS",
@@ -245,16 +236,6 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             name.to_lowercase()
         );
     }
-    say(image, &text);
-    nothing()
-}
-
-fn tour_step(person: &mut Person, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    if let Some(Value::Int(n)) = args.first() {
-        person.tour_step = usize::try_from(*n - 1).unwrap_or(0);
-    }
-    let text = tour::step_text(person.tour_step);
-    person.tour_step += 1;
     say(image, &text);
     nothing()
 }

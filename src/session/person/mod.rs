@@ -1,10 +1,12 @@
 //! The state of the prompt, including the snapshots for undo.
 
+mod progress;
 mod snapshots;
 mod timeline;
 
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
+pub(crate) use progress::{Done, Progress};
 pub(crate) use snapshots::{Snapshot, Snapshots};
 use timeline::Timeline;
 
@@ -15,8 +17,8 @@ pub(crate) struct Person {
     pub snapshots: Snapshots,
     /// How the world was.
     pub(crate) timeline: Timeline,
-    /// The next step of the tour, counted from zero.
-    pub(crate) tour_step: usize,
+    /// Where it is kept what has been done of lessons, if anywhere.
+    pub(crate) progress: Option<Progress>,
     /// A value that is to be inspected.
     pub inspected: Option<Value>,
     /// Whether the session can be served to an editor from here.
@@ -33,7 +35,8 @@ impl Person {
         Person {
             snapshots: self.snapshots.copied(copier),
             timeline: self.timeline.emptied(),
-            tour_step: self.tour_step,
+            // A copy is not the person's.
+            progress: None,
             inspected: self.inspected.copied(copier),
             can_serve: self.can_serve,
             port: self.port,

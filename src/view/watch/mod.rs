@@ -9,6 +9,7 @@ mod base64;
 mod frame;
 mod frame_builder;
 mod halt;
+pub mod http;
 pub mod live;
 mod node;
 pub mod recording;

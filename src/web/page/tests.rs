@@ -71,6 +71,25 @@ fn a_stop_comes_with_its_restarts_and_the_next_input_chooses() {
 }
 
 #[test]
+fn a_lesson_goes_on_from_input_to_input() {
+    let (page, kept) = page();
+    kept.take();
+    page.hear(r#"{"evaluate": {"text": "(tour)"}}"#);
+    let messages = kept.take().join("\n");
+    assert!(messages.contains("Step 1 of 6: Put a bottle"), "{messages}");
+    page.hear(r#"{"evaluate": {"text": "(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))"}}"#);
+    let messages = kept.take().join("\n");
+    assert!(
+        messages.contains("; Done: Put a bottle on the table."),
+        "{messages}"
+    );
+    assert!(
+        messages.contains("Step 2 of 6: Drive to the table."),
+        "{messages}"
+    );
+}
+
+#[test]
 fn files_of_the_page_can_be_loaded_and_those_that_are_written_come_back() {
     let (page, kept) = page();
     kept.take();

@@ -42,6 +42,12 @@ pub(crate) fn grade(options: &Options, wanted: &GradeArguments) -> Result<Status
     let mut session = open_session(&quiet)?;
     let plan = file.load(&mut session).map_err(CommandError::Grade)?;
     drop(session);
+    if !plan.has_run {
+        return Err(CommandError::Grade(format!(
+            "{}: the lesson {} is for the prompt: without (run FORM …) there is nothing to grade",
+            file.name, plan.name
+        )));
+    }
     let submissions = match (wanted.files.as_slice(), &plan.solution) {
         ([], Some(text)) => vec![Submission::solution(text)],
         ([], None) => {

@@ -100,15 +100,15 @@ const PLANS: &[(&str, &str)] = &[
     ),
     (
         "(defun origin () (make-pose \"maap\" '((0 0 0) (0 0 0 1))))",
-        "2:18: There is no frame \"maap\"; did you mean \"map\"?",
+        "2:29: There is no frame \"maap\"; did you mean \"map\"?",
     ),
     (
         "(defun origin () (cl-tf:make-pose-stamped \"base_footpint\" 0.0 (cl-tf:make-identity-vector) (cl-tf:make-identity-rotation)))",
-        "2:18: There is no frame \"base_footpint\"; did you mean \"base_footprint\"?",
+        "2:43: There is no frame \"base_footpint\"; did you mean \"base_footprint\"?",
     ),
     (
         "(defun fridge () (move-kitchen-joint :joint-name \"iai_fridge_dor_joint\" :joint-angle 0.3))",
-        "2:18: There is no joint of the kitchen \"iai_fridge_dor_joint\"; did you mean \"iai_fridge_door_joint\"?",
+        "2:50: There is no joint of the kitchen \"iai_fridge_dor_joint\"; did you mean \"iai_fridge_door_joint\"?",
     ),
     (
         "(defun look () (perform (an action (type looking) (direction dwon))))",
@@ -158,7 +158,23 @@ const PLANS: &[(&str, &str)] = &[
     ),
     (
         "(defun pick (?o) (perform (an action (type picking-up) (arm \"left\") (object ?o))))",
-        "2:57: (arm …) takes a keyword, or a list of them, not the string \"left\"; names in a designator have no quotes.",
+        "2:61: (arm …) takes a keyword, or a list of them, not the string \"left\"; names in a designator have no quotes: did you mean LEFT?",
+    ),
+    (
+        "(defun lift () (perform (a motion (type moving-torso) (joint-angle \"0.2\"))))",
+        "2:68: (joint-angle …) takes a number, not the string \"0.2\"; a number has no quotes: did you mean 0.2?",
+    ),
+    (
+        "(defun look () (perform (an action (type 'looking) (direction down))))",
+        "2:42: Nothing is quoted inside a designator; did you mean LOOKING?",
+    ),
+    (
+        "(defun wait () (perform (an action (tpye waiting) (duration 1))))",
+        "2:37: The action has no key TPYE; did you mean TYPE?",
+    ),
+    (
+        "(defun give-up () (park-arms) (cpl:retry))",
+        "2:32: (retry) has a meaning only in the handlers of with-failure-handling.",
     ),
     (
         "(defun drive (?p) (perform (an action (type gonig) (target (a location (pose ?p))))))",

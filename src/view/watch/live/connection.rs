@@ -3,20 +3,22 @@
 use std::io;
 use std::net::TcpStream;
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::door::Stranger;
-use super::http::{HttpError, Request, answer, read_request};
 use super::mesh_bytes::mesh_bytes;
 use super::page::page;
 use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
 use super::updates::past;
+use crate::watch::http::{HttpError, Request, answer, read_request};
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
-/// Names of this machine that lead nowhere else.
-const LOCAL_NAMES: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
+/// Maximum size (bytes) of a request's body, and the time that a client may take to send it.
+const MAX_BODY: usize = 256;
+const TIMEOUT: Duration = Duration::from_secs(3);
 
 /// Answers one request, or drops it.
 pub(super) fn serve(shared: &Arc<Shared>, stranger: Stranger, mut to: TcpStream) {
@@ -33,7 +35,7 @@ fn read_and_answer(
     stranger: &Stranger,
     to: &mut TcpStream,
 ) -> Result<(), HttpError> {
-    let request = read_request(to)?;
+    let mut request = read_request(to)?;
     if !is_from_own_page(&request) {
         answer(to, "403 Forbidden", TEXT, "", b"Not for other pages.\n")?;
         return Ok(());
@@ -67,10 +69,10 @@ fn read_and_answer(
             answer(to, "200 OK", "application/json", "", text.as_bytes())?;
         }
         ("POST", Some("pace")) => {
-            let is_known = shared
-                .pace
-                .as_ref()
-                .is_some_and(|pace| pace.change(&request.body));
+            let body = request.read_body(to, MAX_BODY, TIMEOUT)?;
+            let body = str::from_utf8(&body).map_err(|_| HttpError::Malformed)?;
+            let pace = shared.pace.as_ref();
+            let is_known = pace.is_some_and(|pace| pace.change(body));
             let status = if is_known {
                 "204 No Content"
             } else {
@@ -83,37 +85,11 @@ fn read_and_answer(
     Ok(())
 }
 
-/// Whether the request names this machine as its host, so that no other name leads here, and
-/// does not come from another page. The port in the name is another one if the request comes
-/// through a tunnel.
+/// Whether the request is for this machine and does not come from another page; what changes something comes
+/// from the page itself.
 fn is_from_own_page(request: &Request) -> bool {
-    let Some(host) = request.host.as_deref().filter(|host| is_local(host)) else {
-        return false;
-    };
-    let origin = request.origin.as_deref();
-    let is_own = origin.is_none_or(|origin| {
-        let origin = origin.strip_prefix("http://");
-        origin.is_some_and(|origin| origin.eq_ignore_ascii_case(host))
-    });
-    let site = request.site.as_deref();
-    // A request that no page made: the address was typed, or opened by another program.
-    let is_alone = matches!(site, None | Some("same-origin" | "none"));
-    let is_safe = request.method == "GET" || origin.is_some();
-    is_own && is_alone && is_safe
-}
-
-/// Whether a host, with or without a port, is this machine by one of its own names.
-fn is_local(host: &str) -> bool {
-    LOCAL_NAMES.iter().any(|name| {
-        let Some((begin, rest)) = host.split_at_checked(name.len()) else {
-            return false;
-        };
-        let is_port = |port: &str| {
-            port.bytes().all(|byte| byte.is_ascii_digit()) && port.parse::<u16>().is_ok()
-        };
-        begin.eq_ignore_ascii_case(name)
-            && (rest.is_empty() || rest.strip_prefix(':').is_some_and(is_port))
-    })
+    let is_safe = request.method == "GET" || request.origin.is_some();
+    request.is_from_this_machine() && is_safe
 }
 
 fn send_page(to: &mut TcpStream) -> io::Result<()> {
@@ -130,42 +106,4 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
         &policy,
         page(&word).as_bytes(),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::watch::live::connection::*;
-
-    #[test]
-    fn only_names_that_lead_nowhere_else_are_local() {
-        for host in [
-            "localhost",
-            "127.0.0.1:8000",
-            "LocalHost:9000",
-            "[::1]:1",
-            "[::1]",
-        ] {
-            assert!(is_local(host), "{host}");
-        }
-        for host in [
-            "",
-            "localhost:",
-            "localhost:http",
-            "localhost:65536",
-            "localhost:+80",
-            "localhost.",
-            "localhost.evil.example:8000",
-            "localhost@evil.example",
-            "127.0.0.1.evil.example",
-            "127.1:8000",
-            "127.0.0.2:8000",
-            "0.0.0.0:8000",
-            "::1",
-            "[::1]x:1",
-            "evil.example",
-            "ſocalhost",
-        ] {
-            assert!(!is_local(host), "{host}");
-        }
-    }
 }

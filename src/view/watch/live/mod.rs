@@ -18,7 +18,6 @@ mod event_json;
 mod follower;
 mod frame_json;
 mod history;
-mod http;
 mod mesh_bytes;
 mod pace_control;
 mod page;

@@ -5,9 +5,9 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::http::begin_events;
 use super::server::Shared;
 use super::updates::{Message, Updates};
+use crate::watch::http::begin_events;
 
 /// Minimum time between two frames.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(15);

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::tools::Tool;
+use super::table::Tool;
 use closest_name::closest_name;
 
 /// What an argument may be.
@@ -48,7 +48,7 @@ impl Arguments {
 }
 
 /// A tool as clients learn of it.
-pub(super) fn described(tool: &Tool) -> Value {
+pub(crate) fn described(tool: &Tool) -> Value {
     let properties = tool.parameters.iter().map(|parameter| {
         let mut schema = match parameter.kind {
             Kind::Text => json!({"type": "string"}),

@@ -1,5 +1,5 @@
-//! As much of HTTP as one page needs: the head of a request, and answers that close the
-//! connection.
+//! As much of HTTP as a page or a program of this machine needs: the head of a request, a body of bounded
+//! length, and answers that close the connection.
 
 use std::io::{self, Read, Write};
 use std::net::TcpStream;
@@ -7,16 +7,18 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-/// Maximum size (bytes) of a request's head and body.
+/// Maximum size (bytes) of a request's head.
 const MAX_HEAD: usize = 8 << 10;
-const MAX_BODY: usize = 256;
 
 /// How long a client may take to send its request, and to receive an answer.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
+/// Names of this machine that lead nowhere else.
+const LOCAL_NAMES: [&str; 3] = ["127.0.0.1", "localhost", "[::1]"];
+
 /// Why a request is not served.
 #[derive(Debug, Error)]
-pub(crate) enum HttpError {
+pub enum HttpError {
     /// The client left, or was too slow.
     #[error("the client is gone: {0}")]
     Gone(#[from] io::Error),
@@ -28,31 +30,79 @@ pub(crate) enum HttpError {
     TooLarge,
 }
 
-/// A client's request.
+/// The head of a client's request.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Request {
+pub struct Request {
+    /// `GET`, `POST` or another one.
     pub method: String,
     /// The path without the query.
     pub path: String,
     /// The part after the question mark.
     pub query: String,
+    /// The name of the machine that the client asks.
     pub host: Option<String>,
+    /// The page that makes the request.
     pub origin: Option<String>,
     /// What the browser says about the origin of the request.
     pub site: Option<String>,
+    /// Number of bytes of the body.
     length: usize,
-    pub body: String,
+    /// Names, in lower case, and values of the other headers.
+    headers: Vec<(String, String)>,
+    /// The bytes of the body that have come with the head.
+    begun: Vec<u8>,
 }
 
 impl Request {
     /// The number that a parameter of the query has.
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
         let mut pairs = self
             .query
             .split('&')
             .filter_map(|pair| pair.split_once('='));
         let (_, text) = pairs.find(|(key, _)| *key == name)?;
         text.parse().ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// The value of a header, by its name in lower case; the first if there are several.
+    pub fn header(&self, name: &str) -> Option<&str> {
+        let found = self.headers.iter().find(|(known, _)| known == name);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// Whether the request names this machine as its host, so that no other name leads here, and
+    /// does not come from a page of another server. The port in the name is another one if the request comes
+    /// through a tunnel.
+    pub fn is_from_this_machine(&self) -> bool {
+        let Some(host) = self.host.as_deref().filter(|host| is_local(host)) else {
+            return false;
+        };
+        let is_own = self.origin.as_deref().is_none_or(|origin| {
+            let origin = origin.strip_prefix("http://");
+            origin.is_some_and(|origin| origin.eq_ignore_ascii_case(host))
+        });
+        // A request that no page made: the address was typed, or opened by another program.
+        let is_alone = matches!(self.site.as_deref(), None | Some("same-origin" | "none"));
+        is_own && is_alone
+    }
+
+    /// Reads the body, which may have so many bytes, in so much time.
+    pub fn read_body(
+        &mut self,
+        stream: &mut TcpStream,
+        max: usize,
+        time: Duration,
+    ) -> Result<Vec<u8>, HttpError> {
+        if self.length > max {
+            return Err(HttpError::TooLarge);
+        }
+        let deadline = Instant::now() + time;
+        let mut bytes = std::mem::take(&mut self.begun);
+        while bytes.len() < self.length {
+            read_some(stream, &mut bytes, deadline)?;
+        }
+        bytes.truncate(self.length);
+        Ok(bytes)
     }
 
     fn of_head(head: &str) -> Result<Self, HttpError> {
@@ -78,11 +128,19 @@ impl Request {
                 "origin" => &mut request.origin,
                 "sec-fetch-site" => &mut request.site,
                 "content-length" => {
-                    request.length = value.parse().map_err(|_| HttpError::Malformed)?;
+                    let is_number = !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit());
+                    let length = value
+                        .parse()
+                        .ok()
+                        .filter(|_| is_number && request.length == 0);
+                    request.length = length.ok_or(HttpError::Malformed)?;
                     continue;
                 }
                 "transfer-encoding" => return Err(HttpError::Malformed),
-                _ => continue,
+                other => {
+                    request.headers.push((other.to_owned(), value.to_owned()));
+                    continue;
+                }
             };
             // With two values, different programs would read different ones.
             if place.replace(value.to_owned()).is_some() {
@@ -93,8 +151,8 @@ impl Request {
     }
 }
 
-/// Reads one request.
-pub(crate) fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError> {
+/// Reads the head of a request.
+pub fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError> {
     let deadline = Instant::now() + TIMEOUT;
     stream.set_write_timeout(Some(TIMEOUT))?;
     let mut bytes = Vec::new();
@@ -107,19 +165,10 @@ pub(crate) fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError>
         }
         read_some(stream, &mut bytes, deadline)?;
     };
+    let begun = bytes.split_off(end + 4);
     let head = str::from_utf8(bytes.get(..end).unwrap_or_default());
-    let mut request = Request::of_head(head.map_err(|_| HttpError::Malformed)?)?;
-    if request.length > MAX_BODY {
-        return Err(HttpError::TooLarge);
-    }
-    let whole = end + 4 + request.length;
-    while bytes.len() < whole {
-        read_some(stream, &mut bytes, deadline)?;
-    }
-    let body = str::from_utf8(bytes.get(end + 4..whole).unwrap_or_default());
-    body.map_err(|_| HttpError::Malformed)?
-        .clone_into(&mut request.body);
-    Ok(request)
+    let request = Request::of_head(head.map_err(|_| HttpError::Malformed)?)?;
+    Ok(Request { begun, ..request })
 }
 
 fn read_some(stream: &mut TcpStream, to: &mut Vec<u8>, deadline: Instant) -> io::Result<()> {
@@ -128,7 +177,7 @@ fn read_some(stream: &mut TcpStream, to: &mut Vec<u8>, deadline: Instant) -> io:
         return Err(io::ErrorKind::TimedOut.into());
     }
     stream.set_read_timeout(Some(left))?;
-    let mut some = [0; 2048];
+    let mut some = [0; 8192];
     match stream.read(&mut some)? {
         0 => Err(io::ErrorKind::UnexpectedEof.into()),
         count => {
@@ -149,7 +198,7 @@ const ALWAYS: &str = "Connection: close\r\n\
      Cross-Origin-Opener-Policy: same-origin\r\n";
 
 /// Sends an answer with this content and additional header lines.
-pub(super) fn answer(
+pub fn answer(
     stream: &mut TcpStream,
     status: &str,
     kind: &str,
@@ -165,14 +214,28 @@ pub(super) fn answer(
 }
 
 /// Begins an answer that is an endless stream of events.
-pub(crate) fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
+pub(super) fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
     let head = format!("HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n{ALWAYS}\r\n");
     stream.write_all(head.as_bytes())
 }
 
+/// Whether a host, with or without a port, is this machine by one of its own names.
+fn is_local(host: &str) -> bool {
+    LOCAL_NAMES.iter().any(|name| {
+        let Some((begin, rest)) = host.split_at_checked(name.len()) else {
+            return false;
+        };
+        let is_port = |port: &str| {
+            port.bytes().all(|byte| byte.is_ascii_digit()) && port.parse::<u16>().is_ok()
+        };
+        begin.eq_ignore_ascii_case(name)
+            && (rest.is_empty() || rest.strip_prefix(':').is_some_and(is_port))
+    })
+}
+
 #[cfg(test)]
 mod tests {
-    use crate::watch::live::http::*;
+    use crate::watch::http::*;
 
     #[test]
     fn a_request_is_read() {
@@ -195,9 +258,44 @@ mod tests {
             "GET / HTTP/1.1\r\nno colon",
             "GET / HTTP/1.1\r\nHost: a\r\nHost: b",
             "POST / HTTP/1.1\r\nContent-Length: -1",
+            "POST / HTTP/1.1\r\nContent-Length: 18446744073709551616",
+            "POST / HTTP/1.1\r\nContent-Length: 1\r\nContent-Length: 2",
             "POST / HTTP/1.1\r\nTransfer-Encoding: chunked",
         ] {
             assert!(Request::of_head(head).is_err(), "{head:?}");
+        }
+    }
+
+    #[test]
+    fn only_names_that_lead_nowhere_else_are_local() {
+        for host in [
+            "localhost",
+            "127.0.0.1:8000",
+            "LocalHost:9000",
+            "[::1]:1",
+            "[::1]",
+        ] {
+            assert!(is_local(host), "{host}");
+        }
+        for host in [
+            "",
+            "localhost:",
+            "localhost:http",
+            "localhost:65536",
+            "localhost:+80",
+            "localhost.",
+            "localhost.evil.example:8000",
+            "localhost@evil.example",
+            "127.0.0.1.evil.example",
+            "127.1:8000",
+            "127.0.0.2:8000",
+            "0.0.0.0:8000",
+            "::1",
+            "[::1]x:1",
+            "evil.example",
+            "ſocalhost",
+        ] {
+            assert!(!is_local(host), "{host}");
         }
     }
 }

@@ -10,47 +10,66 @@ use session::{LogLevel, Session, SessionOptions};
 /// Makes a session with options, in a kitchen whose descriptions have been read.
 type Open = fn(&SessionOptions, &Arc<Models>) -> Result<Session, String>;
 
-/// The world at hand, and how to make others.
-pub(crate) struct World {
+/// What worlds are made of.
+#[derive(Clone)]
+pub(crate) struct Opened {
     options: SessionOptions,
     models: Arc<Models>,
     open: Open,
+}
+
+impl Opened {
+    /// The options and the descriptions of a session, and how to open others.
+    pub(crate) fn of(session: &Session, open: Open) -> Opened {
+        let options = SessionOptions {
+            log_level: LogLevel::Warn,
+            ..session.options().clone()
+        };
+        let models = Arc::clone(session.models());
+        Opened {
+            options,
+            models,
+            open,
+        }
+    }
+
+    /// A session without files.
+    fn session(&self) -> Result<Session, String> {
+        let mut session = (self.open)(&self.options, &self.models)?;
+        session.image_mut().files = Arc::new(Closed);
+        let entered = session.run("start", "(in-package :pp-tut)");
+        entered.map_err(|failure| failure.to_string())?;
+        session.end_set_up();
+        Ok(session)
+    }
+}
+
+/// The world at hand, and how to make others.
+pub(crate) struct World {
+    opened: Opened,
     at_hand: Session,
     folder: Option<PathBuf>,
 }
 
 impl World {
     /// A fresh world. `folder` is where pages may be written, if anywhere.
-    pub(crate) fn new(
-        session: Session,
-        folder: Option<PathBuf>,
-        open: Open,
-    ) -> Result<World, String> {
-        let options = SessionOptions {
-            log_level: LogLevel::Warn,
-            ..session.options().clone()
-        };
-        let models = Arc::clone(session.models());
-        let at_hand = made(open, &options, &models)?;
+    pub(crate) fn new(opened: &Opened, folder: Option<&Path>) -> Result<World, String> {
         Ok(World {
-            options,
-            models,
-            open,
-            at_hand,
-            folder,
+            opened: opened.clone(),
+            at_hand: opened.session()?,
+            folder: folder.map(Path::to_owned),
         })
     }
 
     /// A session with a fresh world.
     pub(super) fn fresh(&self) -> Result<Session, String> {
-        made(self.open, &self.options, &self.models)
+        self.opened.session()
     }
 
     /// How to make sessions with fresh worlds.
     pub(super) fn maker(&self) -> impl Fn() -> Result<Session, String> + use<> {
-        let (options, models) = (self.options.clone(), Arc::clone(&self.models));
-        let open = self.open;
-        move || made(open, &options, &models)
+        let opened = self.opened.clone();
+        move || opened.session()
     }
 
     /// The session with the world at hand.
@@ -91,14 +110,4 @@ impl World {
 
 fn shown(path: &Path) -> String {
     path.display().to_string()
-}
-
-/// A session without files.
-fn made(open: Open, options: &SessionOptions, models: &Arc<Models>) -> Result<Session, String> {
-    let mut session = open(options, models)?;
-    session.image_mut().files = Arc::new(Closed);
-    let entered = session.run("start", "(in-package :pp-tut)");
-    entered.map_err(|failure| failure.to_string())?;
-    session.end_set_up();
-    Ok(session)
 }
