@@ -81,7 +81,11 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
     let text = match (&key.kind, &*key.name) {
         (Kind::Place, _) if written.ends_with("POSE") => pose,
         (Kind::Place, _) => return format!("(a location (pose {pose}))"),
-        (Kind::Number, "JOINT-ANGLE" | "POSITION") if row.name == "MOVING-TORSO" => "0.2",
+        (Kind::Number | Kind::Anything, "JOINT-ANGLE" | "POSITION")
+            if row.name == "MOVING-TORSO" =>
+        {
+            "0.2"
+        }
         (Kind::Number, "JOINT-ANGLE" | "POSITION") => "0.05",
         (Kind::Number, "DISTANCE") => "0.2",
         (Kind::Number, "EFFORT") => "30",
@@ -102,8 +106,8 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         }
         (Kind::Object | Kind::DetectedObject, _) => "?object",
         (Kind::Text, "FRAME") => "\"l_gripper_tool_frame\"",
-        (Kind::List, "LEFT-CONFIGURATION") => "?left-configuration",
-        (Kind::List, "RIGHT-CONFIGURATION") => "?right-configuration",
+        (Kind::List | Kind::Anything, "LEFT-CONFIGURATION") => "?left-configuration",
+        (Kind::List | Kind::Anything, "RIGHT-CONFIGURATION") => "?right-configuration",
         (Kind::Poses, _) => "?hand-poses",
         (kind, name) => panic!("{}: what is a value of {name}, {kind:?}?", row.name),
     };
