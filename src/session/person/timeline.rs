@@ -6,8 +6,9 @@ use std::collections::VecDeque;
 use super::snapshots::Snapshot;
 use crate::simulation::Simulation;
 
-/// Maximum number of moments that are kept, about 400 kB each; the oldest is forgotten first.
-const MAX_MOMENTS: usize = 150;
+/// Maximum number of moments that are kept, about 400 kB each. Then every other one of the older half is
+/// forgotten, so that the past gets coarser with age.
+const MAX_MOMENTS: usize = 64;
 
 /// The simulated time (s) between two moments while something moves.
 const INTERVAL: f64 = 2.0;
@@ -61,13 +62,23 @@ impl Timeline {
             self.moments.pop_back();
         }
         if self.moments.len() == MAX_MOMENTS {
-            self.moments.pop_front();
+            self.thin_out();
         }
         self.noted += 1;
         self.moments.push_back(Moment {
             time: now,
             serial: self.noted,
             snapshot: Snapshot::take(simulation),
+        });
+    }
+
+    /// Forgets every other moment of the older half.
+    fn thin_out(&mut self) {
+        let half = self.moments.len() / 2;
+        let mut place = 0;
+        self.moments.retain(|_| {
+            place += 1;
+            place > half || place % 2 == 1
         });
     }
 
