@@ -11,6 +11,7 @@ use crate::command::options::seconds;
 
 /// How to run a sweep.
 #[derive(Args, Debug)]
+#[command(group(ArgGroup::new("compared").args(["compare", "compare_robot"]).multiple(true)))]
 #[command(group(ArgGroup::new("folder").args(["into", "resume"]).multiple(true)))]
 pub(crate) struct SweepOptions {
     /// File with plans and a sweep
@@ -56,7 +57,7 @@ pub(crate) struct SweepOptions {
     #[arg(long, value_name = "FILE", requires = "compare_robot")]
     pub(crate) compare_robot_description: Option<PathBuf>,
     /// With --compare: stop at 200, 400, 800 … worlds if it is decided which plan is better
-    #[arg(long)]
+    #[arg(long, requires = "compared")]
     pub(crate) until_decided: bool,
     /// Record worlds that fail into MCAP files in a folder
     #[arg(long, value_name = "FOLDER", requires = "file")]

@@ -1,6 +1,5 @@
 //! The clients and their worlds, in one thread.
 
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::Receiver;
 
 use super::job::{Asked, Job, Reply};
@@ -20,7 +19,7 @@ pub(super) fn answer_jobs(jobs: &Receiver<Job>, open: impl Fn() -> Result<World,
         all: Vec::new(),
     };
     for job in jobs {
-        if job.is_gone.load(Ordering::Relaxed) {
+        if job.client.has_gone() {
             continue;
         }
         let reply = clients.reply(job.session.as_deref(), &job.what);

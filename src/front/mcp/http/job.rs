@@ -1,8 +1,9 @@
 //! What passes between the connections and the thread that has the sessions.
 
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::io;
+use std::net::TcpStream;
 use std::sync::mpsc::SyncSender;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use serde_json::Value;
 
@@ -14,9 +15,31 @@ pub(super) struct Job {
     /// The session that it names.
     pub(super) session: Option<String>,
     pub(super) what: Asked,
-    /// Has the client gone?
-    pub(super) is_gone: Arc<AtomicBool>,
+    pub(super) client: Arc<Client>,
     pub(super) reply: SyncSender<Reply>,
+}
+
+/// Who waits for an answer, at the other end of a connection.
+pub(super) struct Client(Mutex<TcpStream>);
+
+impl Client {
+    pub(super) fn of(stream: &TcpStream) -> io::Result<Client> {
+        Ok(Client(Mutex::new(stream.try_clone()?)))
+    }
+
+    /// Whether the connection has been closed. Nothing else may be done with it meanwhile.
+    pub(super) fn has_gone(&self) -> bool {
+        let stream = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if stream.set_nonblocking(true).is_err() {
+            return true;
+        }
+        let peeked = stream.peek(&mut [0]);
+        let is_blocking = stream.set_nonblocking(false).is_ok();
+        match peeked {
+            Ok(count) => count == 0,
+            Err(error) => error.kind() != io::ErrorKind::WouldBlock || !is_blocking,
+        }
+    }
 }
 
 pub(super) enum Asked {

@@ -14,7 +14,6 @@ mod job;
 use std::io;
 use std::net::{TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, SyncSender, TrySendError};
 use std::thread;
 use std::time::Duration;
@@ -22,7 +21,7 @@ use std::time::Duration;
 use super::server::VERSIONS;
 use crate::tools::{MAX_REQUEST, World};
 use clients::answer_jobs;
-use job::{Asked, JSON, Job, Reply};
+use job::{Asked, Client, JSON, Job, Reply};
 use view::watch::http::{HttpError, Request, answer, read_request};
 use view::watch::live::{Door, Stranger, is_same};
 
@@ -163,11 +162,13 @@ fn asked(request: &mut Request, stream: &mut TcpStream) -> Result<Asked, Reply> 
 /// The answer of the thread that has the sessions.
 fn waited(to: &SyncSender<Job>, stream: &TcpStream, session: Option<&str>, what: Asked) -> Reply {
     let (reply, replies) = mpsc::sync_channel(1);
-    let is_gone = Arc::new(AtomicBool::new(false));
+    let Ok(client) = Client::of(stream).map(Arc::new) else {
+        return Reply::nothing("408 Request Timeout");
+    };
     let job = Job {
         session: session.map(str::to_owned),
         what,
-        is_gone: Arc::clone(&is_gone),
+        client: Arc::clone(&client),
         reply,
     };
     match to.try_send(job) {
@@ -181,8 +182,7 @@ fn waited(to: &SyncSender<Job>, stream: &TcpStream, session: Option<&str>, what:
         match replies.recv_timeout(LOOK) {
             Ok(reply) => return reply,
             Err(RecvTimeoutError::Timeout) => {
-                if has_gone(stream) {
-                    is_gone.store(true, Ordering::Relaxed);
+                if client.has_gone() {
                     return Reply::nothing("408 Request Timeout");
                 }
             }
@@ -190,18 +190,5 @@ fn waited(to: &SyncSender<Job>, stream: &TcpStream, session: Option<&str>, what:
                 return Reply::text("500 Internal Server Error", "There is no answer.");
             }
         }
-    }
-}
-
-/// Has the client closed the connection?
-fn has_gone(stream: &TcpStream) -> bool {
-    if stream.set_nonblocking(true).is_err() {
-        return true;
-    }
-    let peeked = stream.peek(&mut [0]);
-    let is_blocking = stream.set_nonblocking(false).is_ok();
-    match peeked {
-        Ok(count) => count == 0,
-        Err(error) => error.kind() != io::ErrorKind::WouldBlock || !is_blocking,
     }
 }

@@ -149,8 +149,8 @@ const PLANS: &[(&str, &str)] = &[
         "2:71: (pose …) takes a pose with a frame, not a location; (make-pose \"map\" '((x y z) (x y z w))) makes a pose, which a variable such as ?pose holds.",
     ),
     (
-        "(defun lift () (perform (an action (type moving-torso) (joint-angle high))))",
-        "2:69: (joint-angle …) takes a number, not the name HIGH; names stand for themselves in a designator, but for variables such as ?high.",
+        "(defun lift () (perform (a motion (type moving-torso) (joint-angle high))))",
+        "2:68: (joint-angle …) takes a number, not the name HIGH; names stand for themselves in a designator, but for variables such as ?high.",
     ),
     (
         "(defun open-it () (perform (an action (type opening-gripper) (gripper 1))))",
