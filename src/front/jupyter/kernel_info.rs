@@ -14,7 +14,7 @@ pub(crate) fn kernel_info() -> Value {
         "implementation": "planwright",
         "implementation_version": VERSION,
         "banner": format!(
-            "planwright {VERSION}: a simulated PR2 in its kitchen, programmed in plans.\n\
+            "planwright {VERSION}: a simulated robot in its kitchen, programmed in plans.\n\
              (help) lists what you can do."
         ),
         "language_info": {

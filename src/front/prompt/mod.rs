@@ -66,7 +66,7 @@ pub(crate) enum ReplError {
 const BANNER: &str = concat!(
     "planwright ",
     env!("CARGO_PKG_VERSION"),
-    ": a simulated PR2 in its kitchen, programmed in plans.\n",
+    ": a simulated robot in its kitchen, programmed in plans.\n",
     "Enter evaluates a whole form; Tab completes; Ctrl-C interrupts; Ctrl-D leaves.\n",
     "(help) lists what you can do; (tour) guides you through a first session.\n",
 );

@@ -62,7 +62,7 @@ async function start() {
   if (!(await isLasting())) prompt.remark('This browser keeps nothing: files and the session are lost when the page is left.');
   await engine.begin(earlier ?? {});
   if (earlier) prompt.remark('This is the session that you left. “New session” begins another one.');
-  else prompt.remark('A simulated PR2 in its kitchen, programmed in plans. Enter evaluates a whole form, Tab completes, Ctrl-C interrupts. (help) lists what you can do.');
+  else prompt.remark('A simulated robot in its kitchen, programmed in plans. Enter evaluates a whole form, Tab completes, Ctrl-C interrupts. (help) lists what you can do.');
   const last = earlier || shared ? null : await lastSession();
   if (last) {
     const back = Object.assign(document.createElement('button'), { type: 'button', textContent: `Bring back the last session (${last.inputs.length} inputs)` });

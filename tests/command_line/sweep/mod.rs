@@ -252,6 +252,66 @@ fn a_comparison_ends_when_it_is_decided() {
     assert_eq!(alone.status.code(), Some(2));
 }
 
+const ROBOTS: &str = "
+    (defsweep robots (:worlds 12)
+      (vary (robot (robot)) (x (uniform 0 1)))
+      (run (unless (eq (rob-int::robot-name) robot) (error 'end-of-file)))
+      (expect (one-arm (or (not (eq robot :fetch)) (equal (rob-int::arms-there :right :left) '(:right))))))";
+
+#[test]
+fn a_sweep_draws_robots() {
+    let file = scratch("robots.plan", ROBOTS);
+    let output = planwright(&["sweep", file.to_str().expect("a name"), "--json"]);
+    let records = text(&output.stdout);
+    for name in ["PR2", "FETCH", "HSR"] {
+        assert!(
+            records.contains(&format!("\"robot\":\"{name}\"")),
+            "{records}"
+        );
+    }
+    assert_eq!(output.status.code(), Some(0), "{records}");
+    for (robot, why) in [
+        ("(robot :fitch)", ":FITCH is no robot that planwright has"),
+        (
+            "(object 'cup :on table-area-main)) (r (robot)",
+            "ROBOT comes first in VARY",
+        ),
+    ] {
+        let text_of = ROBOTS.replace("(robot (robot))", &format!("(robot {robot})"));
+        let wrong = scratch("no-robot.plan", &text_of);
+        let output = planwright(&["sweep", wrong.to_str().expect("a name")]);
+        let said = text(&output.stderr);
+        assert!(said.contains(why), "{said}");
+        assert_eq!(output.status.code(), Some(2), "{said}");
+    }
+}
+
+#[test]
+fn robots_are_compared_in_the_same_worlds() {
+    let file = scratch(
+        "one-arm.plan",
+        "(defsweep one-arm (:worlds 4) (vary (x (uniform 0 1)))
+           (run (when (rest (rob-int::arms-there :right :left)) (error 'end-of-file))))",
+    );
+    let file = file.to_str().expect("a name");
+    let output = planwright(&["sweep", file, "--compare-robot", "fetch"]);
+    let shown = text(&output.stdout);
+    assert!(
+        shown.contains("4 worlds in both: pr2 0.0 %, fetch 100.0 %"),
+        "{shown}"
+    );
+    let output = planwright(&["sweep", file, "--compare-robot", "fitch"]);
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("the robots of planwright are pr2, fetch, hsr; did you mean fetch?"),
+        "{said}"
+    );
+    assert_eq!(output.status.code(), Some(2));
+    // Neither writes what only one sweep has.
+    let output = planwright(&["sweep", file, "--compare-robot", "fetch", "--episodes", "x"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
 #[test]
 fn plans_are_compared_in_the_same_worlds_and_reports_are_written() {
     let file = scratch("old.plan", SWEEP);

@@ -68,7 +68,7 @@ pub(crate) struct SweepOptions {
 
     /// Write the records, and what was performed in each world, into a folder of which `planwright ask` answers
     /// questions
-    #[arg(long, value_name = "FOLDER", requires = "file", conflicts_with_all = ["into", "compare", "replay", "shrink", "until_width"])]
+    #[arg(long, value_name = "FOLDER", requires = "file", conflicts_with_all = ["into", "compared", "replay", "shrink", "until_width"])]
     pub(crate) episodes: Option<PathBuf>,
     /// Write the records as a table
     #[arg(long, value_name = "CSV")]

@@ -12,8 +12,7 @@ use super::RecordingError;
 use super::channel::Channel;
 use super::decompress::decompressed;
 use super::message::{Log, Shown, Task};
-use super::protobuf::decoded;
-use super::read::{panicked, parsed};
+use super::read::{data_of, panicked, parsed};
 use crate::watch::TaskState;
 
 /// The relations of a recording, each with its rows as lines of JSON.
@@ -60,14 +59,8 @@ fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
             }
             last_shown = shown.to_vec();
         }
-        let data: Value = match message.channel.message_encoding.as_str() {
-            "json" => serde_json::from_slice(&message.data)?,
-            "protobuf" => {
-                decoded(channel.schema(), &message.data).ok_or(RecordingError::Malformed {
-                    topic: channel.topic(),
-                })?
-            }
-            _ => continue,
+        let Some(data) = data_of(channel, &message)? else {
+            continue;
         };
         let time = message.log_time as f64 * 1e-9;
         match channel {

@@ -108,19 +108,30 @@ struct Reader<'a> {
     news: usize,
 }
 
+/// The data of a message; `None` if it is encoded in a way that recordings of ours do not use.
+pub(super) fn data_of(
+    channel: Channel,
+    message: &mcap::Message<'_>,
+) -> Result<Option<Value>, RecordingError> {
+    Ok(match message.channel.message_encoding.as_str() {
+        "json" => Some(serde_json::from_slice(&message.data)?),
+        "protobuf" => {
+            let data = decoded(channel.schema(), &message.data);
+            Some(data.ok_or(RecordingError::Malformed {
+                topic: channel.topic(),
+            })?)
+        }
+        _ => None,
+    })
+}
+
 impl Reader<'_> {
     fn take(&mut self, message: &mcap::Message<'_>) -> Result<(), RecordingError> {
         let Some(channel) = Channel::of_topic(&message.channel.topic) else {
             return Ok(());
         };
-        let data: Value = match message.channel.message_encoding.as_str() {
-            "json" => serde_json::from_slice(&message.data)?,
-            "protobuf" => {
-                decoded(channel.schema(), &message.data).ok_or(RecordingError::Malformed {
-                    topic: channel.topic(),
-                })?
-            }
-            _ => return Ok(()),
+        let Some(data) = data_of(channel, message)? else {
+            return Ok(());
         };
         let time = message.log_time as f64 * 1e-9;
         match channel {
