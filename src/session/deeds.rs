@@ -31,6 +31,8 @@ pub(crate) enum Deed {
         /// The hand.
         side: Side,
     },
+    /// An action or a motion of a type has begun.
+    Began(String),
     /// An action or a motion of a type has been performed.
     Performed(String),
     /// A motion of a type has failed, with a failure of a class.
@@ -79,13 +81,14 @@ impl Deeds {
         }
     }
 
-    /// What notes those that happen from now on.
+    /// What notes those that happen from now on. What functions do to the world is none.
     pub(crate) fn observer(self: Rc<Self>) -> Observer {
-        Observer::new(Box::new(move |event| {
+        let note = move |event: &PlanEvent| {
             if let Some(deed) = deed_of(event) {
                 self.note(deed);
             }
-        }))
+        };
+        Observer::new(Box::new(note)).of_robot()
     }
 
     /// Who notes them, if anybody does.
@@ -121,6 +124,9 @@ fn deed_of(event: &PlanEvent) -> Option<Deed> {
             side: *side,
         },
         PlanEventKind::Collided(bodies) => Deed::Collided(bodies.clone()),
+        PlanEventKind::Began(begin) if !matches!(begin.id, TaskId::Task(_)) => {
+            Deed::Began(begin.name.clone())
+        }
         PlanEventKind::Ended(end) => match (end.id, &end.failure) {
             (TaskId::Task(_), _) => return None,
             (_, None) if end.state == TaskState::Succeeded => Deed::Performed(end.name.clone()),

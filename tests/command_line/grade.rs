@@ -75,6 +75,28 @@ fn each_lesson_is_solved_by_its_own_solution() {
 }
 
 #[test]
+fn exercises_of_the_tutorial_are_solved_by_their_own_solutions_and_not_by_nothing() {
+    let folder = folder("exercises");
+    fs::write(folder.join("nothing.plan"), "(in-package :pp-tut)\n").expect("it can be written");
+    for lesson in [
+        "search-places",
+        "where-to-stand",
+        "regrasp",
+        "no-coordinates",
+        "clear-table",
+        "own-context",
+    ] {
+        let solved = graded(&folder, &[lesson, "--worlds", "1"]);
+        let table = text(&solved.stdout);
+        assert_eq!(solved.status.code(), Some(0), "{table}");
+        let unsolved = graded(&folder, &[lesson, "nothing.plan", "--worlds", "1"]);
+        let table = text(&unsolved.stdout);
+        assert_eq!(unsolved.status.code(), Some(1), "{table}");
+        assert!(table.contains("nothing    0 of 1"), "{table}");
+    }
+}
+
+#[test]
 fn submissions_that_cheat_do_not_pass_and_are_told_why() {
     const CLOSED: &str = "This session is closed";
     const LOCKED: &str = "belongs to the locked package";

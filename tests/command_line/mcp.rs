@@ -347,3 +347,35 @@ fn requests_that_are_wrong_get_an_error_and_the_next_ones_an_answer() {
     }
     assert_eq!(answers.len(), 26);
 }
+
+#[test]
+fn the_session_can_be_read_as_a_resource() {
+    let plan = "(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+                (with-simulated-robot
+                  (perform (a motion (type moving-torso) (joint-angle 0.2)))
+                  (let ((?place (make-pose \"map\" '((-1 1.5 0) (0 0 0 1)))))
+                    (perform (an action (type going) (target (a location (pose ?place)))))))";
+    let read = |id: u64| request(id, "resources/read", json!({"uri": "planwright://session"}));
+    let run = request(
+        2,
+        "tools/call",
+        json!({"name": "run_plan", "arguments": {"plan": plan, "view": "none"}}),
+    );
+    let answers = answers(&[], &[initialize(), read(1), run, read(3), read(4)]);
+    let told = |at: usize| {
+        let text = answers[at]["result"]["contents"][0]["text"].as_str();
+        text.expect("a text").to_owned()
+    };
+    assert!(told(1).contains("There are no objects."), "{}", told(1));
+    for said in [
+        "The robot stands at (0.00 0.00)",
+        "BOTTLE-1, a bottle, at (-1.60 -0.90 0.82), on table_area_main",
+        "going failed",
+        "NAVIGATION-POSE-UNREACHABLE",
+        "would overlap kitchen_island",
+    ] {
+        assert!(told(3).contains(said), "{said}:\n{}", told(3));
+    }
+    // Reading changes nothing.
+    assert_eq!(told(3), told(4));
+}

@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -204,6 +205,26 @@ fn clients_have_worlds_of_their_own() {
             200
         );
     }
+}
+
+#[test]
+fn a_client_does_not_wait_for_the_plan_of_another_one() {
+    let server = Server::new();
+    let (a, b) = (server.begin(), server.begin());
+    let has_ended = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let endless = scope.spawn(|| {
+            let answer = server.post(&a, &run(1, "(loop)"));
+            has_ended.store(true, Ordering::SeqCst);
+            answer.json()
+        });
+        // The other one's comes first only if it runs beside it.
+        let answer = server.post(&b, &run(2, "(+ 1 1)")).json();
+        assert_eq!(answer["result"]["structuredContent"]["values"], "2");
+        assert!(!has_ended.load(Ordering::SeqCst));
+        let ended = endless.join().expect("it ends");
+        assert_eq!(ended["result"]["isError"], true, "{ended}");
+    });
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod generated_kitchens;
 mod grasping;
 mod hsr;
 mod kinds_of_worlds;
+mod lessons;
 mod location_measurements;
 mod location_solutions;
 mod locations;

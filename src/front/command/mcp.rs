@@ -101,7 +101,8 @@ pub(super) fn opened(options: &Options) -> Result<Opened, CommandError> {
 pub(crate) fn mcp(options: &Options, wanted: &McpArguments) -> Result<Status, CommandError> {
     check_folder(options, wanted.folder.as_ref())?;
     let opened = opened(options)?;
-    let world = || World::new(&opened, wanted.folder.as_deref());
+    let folder = wanted.folder.clone();
+    let world = move || World::new(&opened, folder.as_deref());
     let Some(Address(address)) = wanted.http else {
         let world = world().map_err(CommandError::Open)?;
         Server::new(world).serve(io::stdin().lock(), io::stdout().lock())?;

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::answer::Answer;
 use super::arguments::Arguments;
+use super::look;
 use super::world::World;
 use crate::manual;
 use closest_name::closest_name;
@@ -21,6 +22,11 @@ const DOCUMENTS: &[(&str, &str, &str)] = &[
         "planwright://manual",
         "Manual",
         "Every function, action, motion, failure and type of objects",
+    ),
+    (
+        "planwright://session",
+        "Session",
+        "The world at hand: the robot, the objects and where they stand, what was performed, the last failure",
     ),
     (
         "planwright://tutorial",
@@ -95,6 +101,7 @@ fn kind(name: &str) -> &'static str {
 fn text(world: &mut World, name: &str) -> Option<String> {
     Some(match name {
         "manual" => manual::markdown(world.at_hand()),
+        "session" => look::session(world).unwrap_or_else(|why| why),
         "tutorial" => TUTORIAL.to_owned(),
         "questions" => QUESTIONS.to_owned(),
         "sweeps" => SWEEPS.to_owned(),

@@ -40,6 +40,14 @@ pub(super) fn furniture(world: &mut World) -> Result<Answer, String> {
     told(world, FURNITURE)
 }
 
+/// The world at hand in words: the robot, the objects, what was performed, the last failure.
+pub(super) fn session(world: &mut World) -> Result<String, String> {
+    let ran = aside(world, |session| {
+        run(session, "session", "(planwright:tell-session)", 1.0, REAL, None)
+    })?;
+    ran.failure().map_or(Ok(ran.printed), Err)
+}
+
 /// What is known about a name.
 pub(super) fn describe(world: &mut World, arguments: &Arguments) -> Result<Answer, String> {
     let name = arguments.text("name").trim().trim_start_matches('\'');

@@ -13,6 +13,8 @@ pub(crate) struct Observer {
     tell: Box<dyn FnMut(&PlanEvent)>,
     /// What has begun and has not ended.
     open: BTreeSet<TaskId>,
+    /// Whether what functions do to the world is passed over, so that hands hold only what the robot has taken.
+    ignores_edits: bool,
     /// What the hands hold; `None` before the world has been seen.
     held: Option<Vec<(Side, String)>>,
 }
@@ -22,7 +24,16 @@ impl Observer {
         Observer {
             tell,
             open: BTreeSet::new(),
+            ignores_edits: false,
             held: None,
+        }
+    }
+
+    /// The same, but what functions do to the world, such as the taking away of a held object, is not told.
+    pub(crate) fn of_robot(self) -> Observer {
+        Observer {
+            ignores_edits: true,
+            ..self
         }
     }
 
@@ -58,11 +69,14 @@ impl Observer {
 }
 
 impl Follower for Observer {
-    fn see(&mut self, observation: &Observation<'_>, _: Cause) {
+    fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
         let held = held(observation.world);
         let Some(before) = self.held.replace(held.clone()) else {
             return;
         };
+        if self.ignores_edits && cause != Cause::Step {
+            return;
+        }
         let time = observation.time;
         for (side, object) in before
             .iter()

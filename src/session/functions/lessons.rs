@@ -5,6 +5,7 @@ use crate::host::SimulationHost;
 use crate::host::call::{done, edit, host};
 use crate::person::{Done, Progress};
 use cram::Reply;
+use cram::pose::value::pose_stamped;
 use lisp::builtin::{Builtin, control, pure};
 use lisp::image::Image;
 use lisp::value::Value;
@@ -44,6 +45,13 @@ pub(super) static TABLE: &[Builtin] = &[
         title,
     ),
     control(
+        "%AXES",
+        "",
+        "The pose and the length (m) of the coordinate axes that are shown, as a list; NIL if none are.",
+        &["(progn (pp-tut:init-projection) (pw::%axes)) => NIL"],
+        host!(axes),
+    ),
+    control(
         "%LESSON-PROGRESS",
         "",
         "What has been done of lessons, in this session and earlier ones: lists of a name, the number of steps that \
@@ -68,6 +76,7 @@ fn deeds(image: &mut Image, _: &[Value]) -> Result<Value> {
             Deed::Released { object, side } => {
                 ("RELEASED", vec![text(object), text(name_of(*side))])
             }
+            Deed::Began(name) => ("BEGAN", vec![text(name)]),
             Deed::Performed(name) => ("PERFORMED", vec![text(name)]),
             Deed::Failed { motion, class } => ("FAILED", vec![text(motion), text(class)]),
             Deed::Collided(bodies) => ("COLLIDED", bodies.iter().map(|b| text(b)).collect()),
@@ -111,6 +120,14 @@ fn begin(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Re
 fn title(_: &mut Image, args: &[Value]) -> Result<Value> {
     let name = args.first().and_then(Value::as_text).unwrap_or_default();
     Ok(plan_files::lesson_title(&name).map_or(Value::NIL, text))
+}
+
+fn axes(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let Some(axes) = host.simulation.axes() else {
+        return done(Value::NIL);
+    };
+    let pose = pose_stamped("map", &axes.pose);
+    done(Value::list(vec![pose, Value::from(axes.size)]))
 }
 
 fn progress(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {

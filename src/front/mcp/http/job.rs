@@ -1,4 +1,4 @@
-//! What passes between the connections and the thread that has the sessions.
+//! What passes between the connections and the threads that have the sessions.
 
 use std::io;
 use std::net::TcpStream;
@@ -17,6 +17,21 @@ pub(super) struct Job {
     pub(super) what: Asked,
     pub(super) client: Arc<Client>,
     pub(super) reply: SyncSender<Reply>,
+}
+
+impl Job {
+    /// The message of the protocol, if it is one.
+    pub(super) fn message(&self) -> Option<&[u8]> {
+        match &self.what {
+            Asked::Message(message) => Some(message),
+            Asked::End => None,
+        }
+    }
+
+    /// Answers it. Who has gone meanwhile gets no answer.
+    pub(super) fn answer(&self, reply: Reply) {
+        let _ = self.reply.send(reply);
+    }
 }
 
 /// Who waits for an answer, at the other end of a connection.

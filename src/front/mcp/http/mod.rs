@@ -3,10 +3,10 @@
 //!
 //! - Only requests that contain the word of the address, name this machine as their host and do not come from a
 //!   page of another server are read. Others cannot use up the connections of these.
-//! - A connection is a thread that reads and writes; what is asked is answered in one thread, in order, since the
-//!   sessions live there. What waits is bounded.
-//! - Each client that initializes has a world of its own. One client too many takes the place of the one that has
-//!   been silent longest, which then learns that its session has ended and begins another one.
+//! - A connection is a thread that reads and writes. Each client that initializes has a world of its own, and a thread in
+//!   which that lives: what it asks is answered in order, beside what others ask. What waits is bounded.
+//! - One client too many takes the place of the one that has been silent longest, which then learns that its session has
+//!   ended and begins another one.
 
 mod clients;
 mod job;
@@ -20,7 +20,7 @@ use std::time::Duration;
 
 use super::server::VERSIONS;
 use crate::tools::{MAX_REQUEST, World};
-use clients::answer_jobs;
+use clients::{TOO_MANY, answer_jobs};
 use job::{Asked, Client, JSON, Job, Reply};
 use view::watch::http::{HttpError, Request, answer, read_request};
 use view::watch::live::{Door, Stranger, is_same};
@@ -28,7 +28,7 @@ use view::watch::live::{Door, Stranger, is_same};
 /// Maximum number of connections that have not shown the word, and of those that have.
 const MAX_STRANGERS: usize = 64;
 const MAX_GUESTS: usize = 16;
-/// Maximum number of requests that wait.
+/// Maximum number of requests that wait to be handed to their clients' threads.
 const MAX_WAITING: usize = 8;
 /// How long a client may take to send the body of a request.
 const BODY_TIME: Duration = Duration::from_secs(10);
@@ -41,7 +41,7 @@ const STACK_BYTES: usize = 512 << 10;
 pub(crate) fn serve(
     listener: TcpListener,
     word: &str,
-    open: impl Fn() -> Result<World, String>,
+    open: impl Fn() -> Result<World, String> + Clone + Send + 'static,
 ) -> io::Result<()> {
     let (to, jobs) = mpsc::sync_channel(MAX_WAITING);
     let path = format!("/{word}/mcp");
@@ -159,7 +159,7 @@ fn asked(request: &mut Request, stream: &mut TcpStream) -> Result<Asked, Reply> 
     }
 }
 
-/// The answer of the thread that has the sessions.
+/// The answer of the thread that has the client's session.
 fn waited(to: &SyncSender<Job>, stream: &TcpStream, session: Option<&str>, what: Asked) -> Reply {
     let (reply, replies) = mpsc::sync_channel(1);
     let Ok(client) = Client::of(stream).map(Arc::new) else {
@@ -174,8 +174,7 @@ fn waited(to: &SyncSender<Job>, stream: &TcpStream, session: Option<&str>, what:
     match to.try_send(job) {
         Ok(()) => {}
         Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => {
-            let why = "Too many requests wait: ask again later.";
-            return Reply::text("503 Service Unavailable", why);
+            return Reply::text("503 Service Unavailable", TOO_MANY);
         }
     }
     loop {
