@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use closest_name::closest_name;
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF, ROBOTS, robot_named};
 use kitchens::Kitchen;
 use thiserror::Error;
@@ -130,10 +131,14 @@ impl SessionOptions {
     pub fn set_shipped_robot(&mut self, name: &str) -> Result<(), SessionError> {
         let robot = robot_named(name).ok_or_else(|| {
             let names: Vec<&str> = ROBOTS.iter().map(|robot| robot.name).collect();
-            SessionError::Models(format!(
-                "there is no robot {name}: planwright has {}",
-                names.join(", ")
-            ))
+            let near = closest_name(name, names.iter().copied());
+            SessionError::Models(match near {
+                Some(near) => format!("there is no robot {name}; did you mean {near}?"),
+                None => format!(
+                    "there is no robot {name}: planwright has {}",
+                    names.join(", ")
+                ),
+            })
         })?;
         let file = |ending: &str| format!("{}.{ending}", robot.name);
         self.robot = Some((file("urdf"), robot.urdf.to_owned()));

@@ -144,6 +144,9 @@ fn wrong_ways_do_not_solve_a_lesson() {
     assert!(told.contains("Done: Ask for a torso height"), "{told}");
     assert!(!told.contains("Done: Ask for it again"), "{told}");
     // The other arm's bottle, and an endless function that is asked about.
-    let told = solved("prompt", &["(defun area-of (a b) (+ a b))", "(defun area-of (a) a)"]);
+    let told = solved(
+        "prompt",
+        &["(defun area-of (a b) (+ a b))", "(defun area-of (a) a)"],
+    );
     assert!(!told.contains("Done"), "{told}");
 }

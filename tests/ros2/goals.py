@@ -17,6 +17,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
+import trajectories
 from checks import check, timely
 
 PROGRAM, DISTRIBUTION, REPETITIONS = sys.argv[1], sys.argv[2], int(sys.argv[3])
@@ -129,6 +130,9 @@ POINT = action(
     {"nothing": uint8},
     {"pointing_angle_error": float64},
 )
+
+
+FOLLOW = action("control_msgs", "FollowJointTrajectory", *trajectories.parts(DISTRIBUTION))
 
 
 def message_of_bytes(name, length):
@@ -244,6 +248,8 @@ try:
     drive = Client(participant, "navigate_to_pose", NAVIGATE)
     right = Client(participant, "right_gripper_controller/gripper_cmd", GRIPPER)
     head = Client(participant, "head_controller/point_head_action", POINT)
+    arm = Client(participant, "right_arm_controller/follow_joint_trajectory", FOLLOW)
+    torso = Client(participant, "torso_controller/follow_joint_trajectory", FOLLOW)
 
     def track(seconds):
         """Where the base is heard for some time: time (s), x, y."""
@@ -354,6 +360,18 @@ try:
     pan = joints.take(1000)[-1]
     pan = pan.position[list(pan.name).index("head_pan_joint")]
     check(0.3 < pan < 0.6, f"the head looks elsewhere: {pan}")
+
+    def heard():
+        """Where the joints were last heard."""
+        joints.take(1000)
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            time.sleep(0.03)
+            for message in joints.take(1000)[-1:]:
+                return dict(zip(message.name, message.position))
+        check(False, "no joints are heard")
+
+    trajectories.try_arm(arm, torso, heard)
 
     # What is no request hurts nobody: too short, without sense, with lengths that are lies.
     strange = DomainParticipant(77)

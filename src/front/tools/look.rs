@@ -43,7 +43,14 @@ pub(super) fn furniture(world: &mut World) -> Result<Answer, String> {
 /// The world at hand in words: the robot, the objects, what was performed, the last failure.
 pub(super) fn session(world: &mut World) -> Result<String, String> {
     let ran = aside(world, |session| {
-        run(session, "session", "(planwright:tell-session)", 1.0, REAL, None)
+        run(
+            session,
+            "session",
+            "(planwright:tell-session)",
+            1.0,
+            REAL,
+            None,
+        )
     })?;
     ran.failure().map_or(Ok(ran.printed), Err)
 }

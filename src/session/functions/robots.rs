@@ -3,6 +3,7 @@
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit};
 use crate::simulation::names::name_text;
+use closest_name::closest_name;
 use cram::Reply;
 use descriptions::{ROBOTS, robot_named};
 use lisp::builtin::{Builtin, control, pure};
@@ -47,6 +48,15 @@ fn use_robot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Re
             .iter()
             .map(|robot| format!(":{}", robot.name.to_uppercase()))
             .collect::<Vec<_>>();
+        let wanted = named.unwrap_or_default();
+        let near = closest_name(&wanted, ROBOTS.iter().map(|robot| robot.name));
+        if let Some(near) = near {
+            return Err(Raise::simple(format!(
+                "{} is no robot that planwright has; did you mean :{}?",
+                print::to_string(image, &args[0], true),
+                near.to_uppercase()
+            )));
+        }
         return Err(Raise::simple(format!(
             "{} is no robot that planwright has: it has {}. Others are given by --robot when it starts.",
             print::to_string(image, &args[0], true),

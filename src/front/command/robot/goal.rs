@@ -1,5 +1,6 @@
 //! Goals as the actions of ROS 2 have them, as calls of functions of the plan language.
 
+use super::trajectory::{Trajectory, part_joints, positions};
 use robotics::robot::Side;
 use robotics::world::Models;
 use ros::Value;
@@ -16,6 +17,8 @@ pub(super) enum Deed {
     Navigate,
     /// A hand opens or closes.
     Gripper(Side),
+    /// An arm, or the torso, moves along a trajectory.
+    Follow(Option<Side>),
     /// The head turns.
     PointHead,
 }
@@ -23,6 +26,15 @@ pub(super) enum Deed {
 /// The error codes of nav2 for what has no code of its own, and for frames that are not known.
 const UNKNOWN: i64 = 9000;
 const TF_ERROR: i64 = 9002;
+
+/// The error codes of FollowJointTrajectory.
+const INVALID_GOAL: i64 = -1;
+const INVALID_JOINTS: i64 = -2;
+const OLD_STAMP: i64 = -3;
+const PATH_VIOLATED: i64 = -4;
+
+/// What is told of a goal that was to end.
+const GIVEN_UP: &str = "the goal was given up";
 
 /// The gap (m) by which a hand may miss what was asked of it.
 const GAP_TOLERANCE: f64 = 0.003;
@@ -34,6 +46,12 @@ pub(super) enum Ended {
     Reached,
     /// It has not, and why.
     Failed(String),
+    /// It cannot be: nothing has moved.
+    Refused(String),
+    /// It names joints that there are not, or not all of its own as often.
+    WrongJoints(String),
+    /// It was to begin before now.
+    Late(String),
     /// Nothing is known of its frame.
     NoFrame(String),
     /// It was to end.
@@ -50,6 +68,8 @@ impl Deed {
                 gap.is_some_and(|gap| (0.0..=1.0).contains(&gap))
             }
             Self::PointHead => point(goal.at(&["target", "point"])).is_some(),
+            // What is wrong with one is told in the result.
+            Self::Follow(_) => true,
         }
     }
 
@@ -87,6 +107,10 @@ impl Deed {
                     vec![side, Datum::Float(opening)],
                 )
             }
+            Self::Follow(arm) => {
+                let arguments = Trajectory::of(goal, arm, models, scene, state)?.arguments(arm);
+                ("planwright-robot::follow-trajectory", arguments)
+            }
             Self::PointHead => {
                 let point = point(goal.at(&["target", "point"]));
                 let pose = point.map(|[x, y, z]| Pose::translation(x, y, z));
@@ -121,6 +145,31 @@ impl Deed {
                 ]))
             }
             Self::Gripper(side) => Some(hand(side, goal, models, scene, state)),
+            Self::Follow(arm) => {
+                let joints = part_joints(arm, models);
+                let now = positions(&joints, scene, state);
+                let wanted = Trajectory::of(goal, arm, models, scene, state);
+                let wanted =
+                    wanted.map_or_else(|_| now.clone(), |t| t.at(since.as_secs_f64(), &now));
+                let error = wanted
+                    .iter()
+                    .zip(&now)
+                    .map(|(wanted, now)| wanted - now)
+                    .collect();
+                let point = |positions: Vec<f64>| {
+                    Value::record([
+                        ("positions", Value::floats(positions)),
+                        ("time_from_start", message::time(since)),
+                    ])
+                };
+                Some(Value::record([
+                    ("header", message::header(stamp, "")),
+                    ("joint_names", Value::texts(joints)),
+                    ("error", point(error)),
+                    ("desired", point(wanted)),
+                    ("actual", point(now)),
+                ]))
+            }
             Self::PointHead => None,
         }
     }
@@ -138,13 +187,27 @@ impl Deed {
             Self::Navigate => {
                 let (code, text) = match ended {
                     Ended::Reached => (0, ""),
-                    Ended::Failed(text) => (UNKNOWN, text.as_str()),
                     Ended::NoFrame(text) => (TF_ERROR, text.as_str()),
-                    Ended::Interrupted => (UNKNOWN, "the goal was given up"),
+                    Ended::Interrupted => (UNKNOWN, GIVEN_UP),
+                    Ended::Failed(text)
+                    | Ended::Refused(text)
+                    | Ended::WrongJoints(text)
+                    | Ended::Late(text) => (UNKNOWN, text.as_str()),
                 };
                 Value::record([("error_code", code.into()), ("error_msg", text.into())])
             }
             Self::Gripper(side) => hand(side, goal, models, scene, state),
+            Self::Follow(_) => {
+                let (code, text) = match ended {
+                    Ended::Reached => (0, ""),
+                    Ended::Refused(text) | Ended::NoFrame(text) => (INVALID_GOAL, text.as_str()),
+                    Ended::WrongJoints(text) => (INVALID_JOINTS, text.as_str()),
+                    Ended::Late(text) => (OLD_STAMP, text.as_str()),
+                    Ended::Failed(text) => (PATH_VIOLATED, text.as_str()),
+                    Ended::Interrupted => (PATH_VIOLATED, GIVEN_UP),
+                };
+                Value::record([("error_code", code.into()), ("error_string", text.into())])
+            }
             Self::PointHead => Value::record([]),
         }
     }

@@ -6,6 +6,8 @@ mod goal;
 mod offered;
 #[cfg(feature = "ros2")]
 mod serving;
+#[cfg(feature = "ros2")]
+mod trajectory;
 
 use clap::Args;
 

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use super::super::failure::{CommandError, Status};
 use super::super::ros2::Publishing;
 use super::goal::{Deed, Ended};
-use super::offered::OFFERED;
+use super::offered::{Offered, offered};
 use robotics::world::Models;
 use ros::action::{GoalEnd, GoalId};
 use ros::wire::{ActionServer, Newest, Wish};
@@ -22,6 +22,9 @@ use session::{Failure, InterruptHandle, Session};
 
 /// What the goals are for the robot.
 const ACTIONS: &str = include_str!("actions.plan");
+
+/// The class of failures of what the arms cannot do, whatever is in the way.
+const REFUSED: &str = "MANIPULATION-POSE-UNREACHABLE";
 
 /// Real time between two looks at what clients have sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(3);
@@ -63,8 +66,12 @@ pub(super) fn serve(
     let defined = session.run("actions.plan", ACTIONS);
     defined.map_err(|failure| wrong(&failure))?;
     let node = &mut publishing.node;
-    let servers = OFFERED.map(|offered| ActionServer::open(node, offered.name, offered.action));
-    let servers = servers.into_iter().collect::<Result<Vec<_>, _>>();
+    let models = Arc::clone(session.models());
+    let offered: Arc<[Offered]> = offered(&models).into();
+    let servers = offered
+        .iter()
+        .map(|offered| ActionServer::open(node, &offered.name, offered.action))
+        .collect::<Result<Vec<_>, _>>();
     let servers = servers.map_err(|error| wrong(&error))?;
     let stop = Arc::new(AtomicBool::new(false));
     let (flag, interrupter) = (Arc::clone(&stop), session.interrupter());
@@ -78,9 +85,9 @@ pub(super) fn serve(
     let (ends, ended) = channel();
     let broadcast = &publishing.broadcast;
     let (scene, newest) = (Arc::clone(broadcast.model()), broadcast.newest().clone());
-    let models = Arc::clone(session.models());
     let desk = Desk {
         servers,
+        offered: Arc::clone(&offered),
         both: Arc::clone(&both),
         orders,
         ended,
@@ -94,7 +101,7 @@ pub(super) fn serve(
     let desk = thread::Builder::new()
         .name("actions".to_owned())
         .spawn(move || desk.run())?;
-    for offered in OFFERED {
+    for offered in &*offered {
         writeln!(io::stdout(), "{} ({})", offered.name, offered.action)?;
     }
     io::stdout().flush()?;
@@ -138,10 +145,13 @@ fn carry_out(
         Ok((function, arguments)) => match session.call(function, &arguments) {
             Ok(_) => Ended::Reached,
             Err(Failure::Interrupted) => Ended::Interrupted,
-            Err(failure) => Ended::Failed(match failure.unhandled() {
-                Some(condition) => condition.abort.report.trim_end().to_owned(),
-                None => failure.to_string(),
-            }),
+            Err(failure) => match failure.unhandled() {
+                Some(condition) if condition.abort.class == REFUSED => {
+                    Ended::Refused(condition.abort.report.trim_end().to_owned())
+                }
+                Some(condition) => Ended::Failed(condition.abort.report.trim_end().to_owned()),
+                None => Ended::Failed(failure.to_string()),
+            },
         },
     };
     lock(both).running = None;
@@ -174,6 +184,7 @@ enum Why {
 /// Answers clients.
 struct Desk {
     servers: Vec<ActionServer>,
+    offered: Arc<[Offered]>,
     both: Both,
     orders: Sender<Order>,
     ended: Receiver<(Key, Ended)>,
@@ -199,7 +210,7 @@ impl Desk {
 
     /// Takes what clients want.
     fn hear(&mut self) {
-        for (action, offered) in OFFERED.into_iter().enumerate() {
+        for (action, offered) in self.offered.iter().enumerate() {
             let Some(server) = self.servers.get_mut(action) else {
                 continue;
             };
@@ -278,7 +289,7 @@ impl Desk {
                 (Ended::Interrupted, Some(Why::Canceled)) => GoalEnd::Canceled,
                 _ => GoalEnd::Aborted,
             };
-            let deed = OFFERED.get(key.0).map(|offered| offered.deed);
+            let deed = self.offered.get(key.0).map(|offered| offered.deed);
             let (Some(server), Some(deed)) = (self.servers.get_mut(key.0), deed) else {
                 continue;
             };
@@ -300,7 +311,7 @@ impl Desk {
                 continue;
             }
             goal.told = Some(now);
-            let deed = OFFERED.get(goal.key.0).map(|offered| offered.deed);
+            let deed = self.offered.get(goal.key.0).map(|offered| offered.deed);
             let stamp = SystemTime::now().duration_since(UNIX_EPOCH);
             let time = [stamp.unwrap_or_default(), now.duration_since(begun)];
             let state = self.newest.state();

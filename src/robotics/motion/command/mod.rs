@@ -7,6 +7,7 @@
 
 mod argument;
 mod detecting;
+mod following_trajectory;
 mod going;
 mod hands;
 mod looking;
@@ -82,6 +83,7 @@ commands! {
     Putting(putting),
     Pulling(pulling),
     MovingArmJoints(moving_arm_joints),
+    FollowingTrajectory(following_trajectory),
     Waiting(waiting),
 }
 

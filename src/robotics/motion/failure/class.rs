@@ -35,6 +35,7 @@ impl MotionFailure {
             Self::PoseUnreachable(_)
             | Self::NoGrasp(_)
             | Self::NoHandleGrasp(_)
+            | Self::WrongTrajectory(_)
             | Self::TorsoConflict { .. } => "MANIPULATION-POSE-UNREACHABLE",
             Self::JointLimit { .. }
             | Self::JointCount { .. }

@@ -16,3 +16,4 @@ pub(crate) mod stopped_part;
 pub(crate) mod stuck_object;
 pub(crate) mod unreachable;
 mod wording;
+pub(crate) mod wrong_trajectory;

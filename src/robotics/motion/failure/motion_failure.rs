@@ -22,6 +22,7 @@ use super::unreachable::{UnreachablePose, UnreachableReason};
 use super::wording::{
     heights, list, nearest, next_below, onto, place, sights, stopped, touch, why_slipped,
 };
+use super::wrong_trajectory::WrongTrajectory;
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
 use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial, Tilt};
@@ -209,6 +210,9 @@ pub enum MotionFailure {
         /// Number of joints of the arm.
         expected: usize,
     },
+    /// A trajectory that somebody else has planned cannot be followed.
+    #[error("{0}")]
+    WrongTrajectory(Box<WrongTrajectory>),
     /// No posture of the arm brings the hand to the pose.
     #[error("{0}")]
     PoseUnreachable(Box<UnreachablePose>),

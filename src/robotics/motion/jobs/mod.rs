@@ -2,6 +2,7 @@
 
 pub(crate) mod detect;
 pub(crate) mod drive;
+pub(crate) mod follow_trajectory;
 pub(crate) mod grasp_path;
 mod grip;
 pub(crate) mod gripper;

@@ -6,5 +6,6 @@ pub(crate) mod planned_trajectory;
 mod rounded_path;
 pub(crate) mod speeds;
 mod time_scaling;
+pub(crate) mod timed_path;
 pub(crate) mod trajectory;
 pub(crate) mod trajectory_follower;

@@ -54,9 +54,19 @@ impl Trajectory {
         // The averaged motion reaches a stop when both windows lie between samples in the pause.
         let pause = 3.0 * SAMPLE + JERK_WINDOW;
         let (samples, step) = samples(&pieces, &stretches, pause);
+        Self {
+            first: points.first().cloned().unwrap_or_default(),
+            last: points.last().cloned().unwrap_or_default(),
+            ..Self::through(samples, step, limits)
+        }
+    }
+
+    /// A motion through points at equal times (s), which keeps limits of velocity by itself. The limits are those
+    /// of braking.
+    pub(super) fn through(points: Vec<Vec<f64>>, step: f64, limits: &[AxisGroup]) -> Self {
         let windows = [step, JERK_WINDOW];
-        let duration = match samples.len().checked_sub(1) {
-            // There are far fewer samples than an f64 can count.
+        let duration = match points.len().checked_sub(1) {
+            // There are far fewer points than an f64 can count.
             Some(count) => step * count as f64 + windows[0] + windows[1],
             None => 0.0,
         };
@@ -64,7 +74,7 @@ impl Trajectory {
             limits: limits.to_vec(),
             first: points.first().cloned().unwrap_or_default(),
             last: points.last().cloned().unwrap_or_default(),
-            samples,
+            samples: points,
             windows,
             duration,
         }

@@ -3,6 +3,7 @@
 mod arms;
 mod drive;
 pub(crate) mod fixture;
+mod follow_trajectory;
 mod gripper;
 mod handles;
 mod level;

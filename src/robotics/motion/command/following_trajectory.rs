@@ -1,0 +1,83 @@
+//! Following a trajectory that somebody else has planned.
+
+use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
+use crate::motion::jobs::follow_trajectory::{FollowArm, FollowTorso};
+use crate::motion::jobs::job::Motion;
+use crate::motion::trajectories::timed_path::TimedPoint;
+use crate::robot::Side;
+
+/// Moves an arm, or the torso, along a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowingTrajectory {
+    /// The arm; without one, it is the torso that moves.
+    side: Option<Side>,
+    points: Vec<TimedPoint>,
+}
+
+impl Command for FollowingTrajectory {
+    const TYPE: MotionType = MotionType {
+        name: "FOLLOWING-TRAJECTORY",
+        aliases: &[],
+        keys: &[
+            MotionKey::optional(
+                "ARM",
+                ArgumentKind::Side,
+                "the arm; without one, the torso moves",
+            ),
+            MotionKey::required(
+                "TIMES",
+                ArgumentKind::Numbers,
+                "when the points are to be reached (s)",
+            ),
+            MotionKey::required(
+                "POSITIONS",
+                ArgumentKind::Numbers,
+                "the positions (rad or m) of all joints at the first point, from the shoulder to the wrist, then those \
+                 at the second one, and so on",
+            ),
+            MotionKey::optional(
+                "VELOCITIES",
+                ArgumentKind::Numbers,
+                "their velocities (rad/s or m/s) there, in the same order; without them the joints move evenly from \
+                 point to point",
+            ),
+        ],
+        one_of: &[],
+        about: &[],
+        is_known_by_keys: false,
+        doc: "Moves an arm, or the torso, along a trajectory that somebody else has planned. It is refused if joints \
+              would have to be faster than they can, or beyond their limits, and stops where something is in the way.",
+        example: "(a motion (type following-trajectory) (times ?times) (positions ?positions))",
+    };
+
+    fn new(arguments: &Arguments) -> Result<Self, ArgumentError> {
+        let numbers = |key: &'static str| {
+            let given = arguments.numbers(key);
+            given.ok_or(ArgumentError::Missing(key))
+        };
+        let (times, positions) = (numbers("TIMES")?, numbers("POSITIONS")?);
+        let velocities = arguments.numbers("VELOCITIES");
+        let row = |numbers: &[f64], number: usize| {
+            // Each point gets its share; a remainder makes the rows too long, which is refused.
+            let width = numbers.len().div_ceil(times.len().max(1)).max(1);
+            let row = numbers.chunks(width).nth(number);
+            row.map(<[f64]>::to_vec).unwrap_or_default()
+        };
+        let points = times.iter().enumerate().map(|(number, time)| TimedPoint {
+            time: *time,
+            positions: row(&positions, number),
+            velocities: velocities.as_deref().map(|all| row(all, number)),
+        });
+        Ok(Self {
+            side: arguments.side("ARM").ok(),
+            points: points.collect(),
+        })
+    }
+
+    fn job(self) -> Box<dyn Motion> {
+        match self.side {
+            Some(side) => Box::new(FollowArm::new(side, self.points)),
+            None => Box::new(FollowTorso::new(self.points)),
+        }
+    }
+}
