@@ -47,10 +47,18 @@ const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 /// Reports what was written to standard output, and changes in the states of tasks.
 pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn FnMut(Event)) {
     host.audience.tell_tasks(image);
-    let text = image.output.take();
+    let (text, cuts) = image.output.take_with_cuts();
     if !text.is_empty() {
-        let told = WatchEvent::Output(text.clone());
-        host.audience.tell(host.simulation.now(), &told);
+        let ends = cuts.iter().copied().chain([text.len()]);
+        let mut begin = 0;
+        for end in ends.filter(|end| *end > 0) {
+            let piece = text.get(begin..end).filter(|piece| !piece.is_empty());
+            begin = end;
+            if let Some(piece) = piece {
+                let told = WatchEvent::Output(piece.to_owned());
+                host.audience.tell(host.simulation.now(), &told);
+            }
+        }
         sink(Event::Output(text));
     }
 }

@@ -15,6 +15,7 @@ const EXERCISE: &str = "(in-package :pp-tut)
     (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
     (visualize-coordinates :bottle)
     (roslisp:ros-info (test) \"Here \\\"we\\\" go\")
+    (progn (roslisp:ros-warn (test) \"one~%two\") (format t \"three~%\"))
     (with-simulated-robot
       (cpl:par
         (perform (a motion (type moving-torso) (joint-angle 0.3)))
@@ -103,6 +104,11 @@ fn a_recording_shows_what_happened() {
     }
     let line = WatchEvent::Output("[(TEST) INFO] 0.000: Here \"we\" go\n".to_owned());
     assert!(news.iter().any(|n| n.1 == line), "{news:?}");
+    // A warning of several lines is one message, and what is printed after it another one.
+    for text in ["[(TEST) WARN] 0.000: one\ntwo\n", "three\n"] {
+        let told = WatchEvent::Output(text.to_owned());
+        assert!(news.iter().any(|n| n.1 == told), "{text}: {news:?}");
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@
 #[derive(Default)]
 pub struct Output {
     text: String,
+    /// Where in the text its pieces begin, but for the first.
+    cuts: Vec<usize>,
     column: usize,
     /// Is there somebody who shows what is written, line by line?
     is_shown: bool,
@@ -88,16 +90,47 @@ impl Output {
         self.is_due && self.is_shown
     }
 
+    /// What is written next begins a piece of its own, as messages of a log do.
+    pub fn begin_piece(&mut self) {
+        if self.instead.is_none() && self.cuts.last().is_none_or(|cut| *cut < self.text.len()) {
+            self.cuts.push(self.text.len());
+        }
+    }
+
     /// Takes what was written.
     pub fn take(&mut self) -> String {
         self.is_due = false;
+        self.cuts.clear();
         std::mem::take(&mut self.text)
+    }
+
+    /// Takes what was written, and where in it its pieces begin, but for the first.
+    pub fn take_with_cuts(&mut self) -> (String, Vec<usize>) {
+        let cuts = std::mem::take(&mut self.cuts);
+        (self.take(), cuts)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pieces_begin_where_they_are_said_to() {
+        let mut output = Output::default();
+        output.begin_piece();
+        output.write("a");
+        output.begin_piece();
+        output.begin_piece();
+        output.write("b\nc\n");
+        output.begin_piece();
+        assert_eq!(
+            output.take_with_cuts(),
+            ("ab\nc\n".to_owned(), vec![0, 1, 5])
+        );
+        output.write("d");
+        assert_eq!(output.take_with_cuts(), ("d".to_owned(), vec![]));
+    }
 
     #[test]
     fn what_is_muted_is_dropped() {

@@ -176,7 +176,10 @@ impl Simulation {
         let text = text.trim_end_matches('\n');
         image.output.fresh_line();
         let line = format!("[{tags} {level}] {:.3}: {text}\n", self.now());
+        // Several lines are one message to who follows the session.
+        image.output.begin_piece();
         image.output.write(&visible(&line));
+        image.output.begin_piece();
     }
 }
 

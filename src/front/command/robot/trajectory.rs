@@ -84,6 +84,10 @@ impl Trajectory {
         for (number, point) in list(goal.at(&["trajectory", "points"])).enumerate() {
             let floats = |name| floats(point.get(name));
             let (given, speeds) = (floats("positions"), floats("velocities"));
+            if !given.iter().chain(&speeds).all(|number| number.is_finite()) {
+                let why = format!("point {number} has a number that is not finite");
+                return Err(Ended::Refused(why));
+            }
             for (numbers, may_lack) in [(&given, false), (&speeds, true)] {
                 if numbers.len() != named.len() && !(may_lack && numbers.is_empty()) {
                     let why = format!(

@@ -345,6 +345,10 @@ impl<W: Write> RecordingWriter<W> {
     /// Writes an event.
     pub(super) fn event(&mut self, time: f64, what: &WatchEvent) -> Result<(), RecordingError> {
         match what {
+            // A message of the log comes by itself, with all its lines.
+            WatchEvent::Output(text) if self.line.is_empty() && logged(text).is_some() => {
+                self.log(time, text.trim_end_matches('\n'))
+            }
             WatchEvent::Output(text) => {
                 self.line.push_str(text);
                 let text = std::mem::take(&mut self.line);
@@ -365,16 +369,7 @@ impl<W: Write> RecordingWriter<W> {
     }
 
     fn log(&mut self, time: f64, line: &str) -> Result<(), RecordingError> {
-        // A log message is `[(TAG …) LEVEL] seconds: text`; everything else was printed.
-        let parts = line.strip_prefix("[(").and_then(|rest| {
-            let (tags, rest) = rest.split_once(") ")?;
-            let (level, rest) = rest.split_once("] ")?;
-            let (_, text) = rest.split_once(": ")?;
-            let levels = ["DEBUG", "INFO", "WARN", "ERROR"];
-            let level = (1..).zip(levels).find(|(_, name)| *name == level)?.0;
-            Some((tags, level, text))
-        });
-        match parts {
+        match logged(line) {
             Some((tags, level, text)) => self.log_at(time, level, tags, text),
             None if line.trim().is_empty() => Ok(()),
             None => self.log_at(time, PRINTED, "", line),
@@ -468,4 +463,15 @@ pub(super) fn all_deleted(time: f64) -> SceneEntityDeletion {
         kind: 1,
         id: String::new(),
     }
+}
+
+/// The tags, the level and the text of a log message, `[(TAG …) LEVEL] seconds: text`; everything else was printed.
+fn logged(text: &str) -> Option<(&str, u8, &str)> {
+    let rest = text.strip_prefix("[(")?;
+    let (tags, rest) = rest.split_once(") ")?;
+    let (level, rest) = rest.split_once("] ")?;
+    let (_, text) = rest.split_once(": ")?;
+    let levels = ["DEBUG", "INFO", "WARN", "ERROR"];
+    let level = (1..).zip(levels).find(|(_, name)| *name == level)?.0;
+    Some((tags, level, text))
 }
