@@ -7,6 +7,10 @@ use lisp::value::known;
 use view::picture::{Image, View};
 
 impl Illustrate for Session {
+    fn show_errors_apart(&mut self) {
+        self.evaluator.image.output.set_errors_apart(true);
+    }
+
     fn description(&self, text: &str, at: usize) -> Option<String> {
         self.assistant().description_at(text, at)
     }

@@ -47,19 +47,22 @@ const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 /// Reports what was written to standard output, and changes in the states of tasks.
 pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn FnMut(Event)) {
     host.audience.tell_tasks(image);
-    let (text, cuts) = image.output.take_with_cuts();
-    if !text.is_empty() {
-        let ends = cuts.iter().copied().chain([text.len()]);
-        let mut begin = 0;
-        for end in ends.filter(|end| *end > 0) {
-            let piece = text.get(begin..end).filter(|piece| !piece.is_empty());
-            begin = end;
-            if let Some(piece) = piece {
-                let told = WatchEvent::Output(piece.to_owned());
-                host.audience.tell(host.simulation.now(), &told);
-            }
+    let is_apart = image.output.has_errors_apart();
+    let pieces = image.output.take_pieces();
+    for (piece, _) in &pieces {
+        let told = WatchEvent::Output(piece.clone());
+        host.audience.tell(host.simulation.now(), &told);
+    }
+    let mut pieces = pieces.into_iter().peekable();
+    while let Some((mut text, is_error)) = pieces.next() {
+        let goes_on = |next: &(String, bool)| next.1 == is_error || !is_apart;
+        while let Some((more, _)) = pieces.next_if(goes_on) {
+            text.push_str(&more);
         }
-        sink(Event::Output(text));
+        sink(match is_error && is_apart {
+            true => Event::ErrorOutput(text),
+            false => Event::Output(text),
+        });
     }
 }
 

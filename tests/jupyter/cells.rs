@@ -29,6 +29,28 @@ fn a_cell_has_output_and_a_value() {
 }
 
 #[test]
+fn what_is_written_about_errors_is_a_stream_of_its_own() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let answer = client.run(
+        "(format t \"one~%\") (format *error-output* \"two~%\") (warn \"three\") (format t \"four~%\")",
+    );
+    let streams: Vec<(&str, &str)> = answer
+        .of("stream")
+        .into_iter()
+        .filter_map(|content| Some((content["name"].as_str()?, content["text"].as_str()?)))
+        .collect();
+    assert_eq!(
+        streams,
+        [
+            ("stdout", "one\n"),
+            ("stderr", "two\nWARNING: three\n"),
+            ("stdout", "four\n")
+        ]
+    );
+}
+
+#[test]
 fn a_condition_that_nobody_answers_ends_the_cell_as_in_a_transcript() {
     let kernel = start();
     let mut client = Client::new(&kernel, "a");

@@ -403,5 +403,5 @@ fn what_carries_what_is_recorded_with_parameters_and_joints() {
     });
     let about = about.unwrap();
     assert_eq!(about.keys, [("joint-angle".to_owned(), "0.3".to_owned())]);
-    assert_eq!(about.place, "test:8:9");
+    assert_eq!(about.place, "test:9:9");
 }

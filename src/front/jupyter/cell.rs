@@ -248,6 +248,9 @@ impl Cell<'_> {
     fn take(&self, event: Event, shown: &mut Shown) {
         match event {
             Event::Output(text) => self.write(shown, self.ahead.unseen(&text)),
+            Event::ErrorOutput(text) => {
+                self.write_to("stderr", shown, self.ahead.unseen(&text));
+            }
             Event::Values(values) => {
                 shown.values = (!values.is_empty()).then(|| values.join("\n"));
             }
@@ -287,12 +290,16 @@ impl Cell<'_> {
     }
 
     fn write(&self, shown: &mut Shown, text: &str) {
+        self.write_to("stdout", shown, text);
+    }
+
+    fn write_to(&self, stream: &'static str, shown: &mut Shown, text: &str) {
         if !text.is_empty() {
             shown.is_in_line = !text.ends_with('\n');
         }
         let is_hurried = || self.interrupter.is_interrupted();
         self.publisher.wait_for_room(is_hurried);
-        self.publisher.write("stdout", &self.request.header, text);
+        self.publisher.write(stream, &self.request.header, text);
     }
 
     fn publish(&self, kind: &str, content: &Value) {

@@ -158,6 +158,7 @@ impl Kernel {
 
     /// Answers requests until a client or a program ends the kernel; returns the exit status.
     pub(crate) fn serve(mut self, session: &mut impl Illustrate) -> u8 {
+        session.show_errors_apart();
         let mut status = None;
         while status.is_none() && !self.interrupter.is_ending() {
             match self.requests.recv_timeout(LOOK) {

@@ -340,8 +340,10 @@ impl<'s> Engine<'s> {
         let mut aborted = None;
         let mut is_in_line = false;
         let outcome = self.give(source, text, &mut |event| match event {
-            Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
-            Event::Output(text) => {
+            Event::Output(text) | Event::ErrorOutput(text) if answer.takes_output() => {
+                yielded.printed.push_str(&text);
+            }
+            Event::Output(text) | Event::ErrorOutput(text) => {
                 let unseen = questions.unseen(&text);
                 // After a question, the client has ended the line.
                 if let Some(last) = unseen.chars().last() {

@@ -4,8 +4,10 @@
 #[derive(Default)]
 pub struct Output {
     text: String,
-    /// Where in the text its pieces begin, but for the first.
-    cuts: Vec<usize>,
+    /// Where in the text its pieces begin, but for the first, and whether each is about errors.
+    cuts: Vec<(usize, bool)>,
+    /// Are errors shown apart?
+    has_errors_apart: bool,
     column: usize,
     /// Is there somebody who shows what is written, line by line?
     is_shown: bool,
@@ -22,6 +24,7 @@ impl Output {
         is_idle.then(|| Output {
             column: self.column,
             is_shown: self.is_shown,
+            has_errors_apart: self.has_errors_apart,
             ..Output::default()
         })
     }
@@ -92,9 +95,35 @@ impl Output {
 
     /// What is written next begins a piece of its own, as messages of a log do.
     pub fn begin_piece(&mut self) {
-        if self.instead.is_none() && self.cuts.last().is_none_or(|cut| *cut < self.text.len()) {
-            self.cuts.push(self.text.len());
+        self.cut(false);
+    }
+
+    fn cut(&mut self, is_error: bool) {
+        if self.instead.is_some() {
+            return;
         }
+        let at = self.text.len();
+        match self.cuts.last_mut() {
+            Some((last, is_about)) if *last == at => *is_about = is_error,
+            _ => self.cuts.push((at, is_error)),
+        }
+    }
+
+    /// Writes a text about errors.
+    pub(crate) fn write_error(&mut self, text: &str) {
+        self.cut(true);
+        self.write(text);
+        self.cut(false);
+    }
+
+    /// Sets whether who shows the output shows errors apart.
+    pub fn set_errors_apart(&mut self, is_apart: bool) {
+        self.has_errors_apart = is_apart;
+    }
+
+    /// Are errors shown apart?
+    pub fn has_errors_apart(&self) -> bool {
+        self.has_errors_apart
     }
 
     /// Takes what was written.
@@ -104,10 +133,20 @@ impl Output {
         std::mem::take(&mut self.text)
     }
 
-    /// Takes what was written, and where in it its pieces begin, but for the first.
-    pub fn take_with_cuts(&mut self) -> (String, Vec<usize>) {
+    /// Takes what was written, in its pieces, and whether each is about errors.
+    pub fn take_pieces(&mut self) -> Vec<(String, bool)> {
         let cuts = std::mem::take(&mut self.cuts);
-        (self.take(), cuts)
+        let text = self.take();
+        let mut pieces = Vec::new();
+        let mut begin = (0, false);
+        for next in cuts.into_iter().chain([(text.len(), false)]) {
+            let piece = text.get(begin.0..next.0).unwrap_or_default();
+            if !piece.is_empty() {
+                pieces.push((piece.to_owned(), begin.1));
+            }
+            begin = next;
+        }
+        pieces
     }
 }
 
@@ -124,12 +163,20 @@ mod tests {
         output.begin_piece();
         output.write("b\nc\n");
         output.begin_piece();
-        assert_eq!(
-            output.take_with_cuts(),
-            ("ab\nc\n".to_owned(), vec![0, 1, 5])
-        );
+        let piece = |text: &str, is_error| (text.to_owned(), is_error);
+        let pieces = [piece("a", false), piece("b\nc\n", false)];
+        assert_eq!(output.take_pieces(), pieces);
         output.write("d");
-        assert_eq!(output.take_with_cuts(), ("d".to_owned(), vec![]));
+        output.write_error("e");
+        output.write_error("f");
+        output.write("g");
+        let pieces = [
+            piece("d", false),
+            piece("e", true),
+            piece("f", true),
+            piece("g", false),
+        ];
+        assert_eq!(output.take_pieces(), pieces);
     }
 
     #[test]

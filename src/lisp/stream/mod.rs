@@ -34,13 +34,11 @@ pub fn install(image: &mut Image) {
         }))
     };
     image.define_special(known::V_STANDARD_INPUT, Value::Stream(input.clone()));
-    for name in [
-        known::V_STANDARD_OUTPUT,
-        known::V_ERROR_OUTPUT,
-        known::V_TRACE_OUTPUT,
-    ] {
+    for name in [known::V_STANDARD_OUTPUT, known::V_TRACE_OUTPUT] {
         image.define_special(name, Value::Stream(output.clone()));
     }
+    let errors = Rc::new(Stream::new(StreamKind::ErrorOutput));
+    image.define_special(known::V_ERROR_OUTPUT, Value::Stream(errors));
     for name in [known::V_TERMINAL_IO, known::V_QUERY_IO, known::V_DEBUG_IO] {
         image.define_special(name, both());
     }
@@ -118,6 +116,10 @@ fn write_to(
             image.output.write(text);
             return Ok(());
         }
+        StreamKind::ErrorOutput => {
+            image.output.write_error(text);
+            return Ok(());
+        }
         StreamKind::StringOutput { text: collected } => {
             collected.push_str(text);
             return Ok(());
@@ -189,7 +191,9 @@ pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Ra
     let mut stream = output_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
-            StreamKind::StandardOutput => return Ok(Some(image.output.column())),
+            StreamKind::StandardOutput | StreamKind::ErrorOutput => {
+                return Ok(Some(image.output.column()));
+            }
             StreamKind::StringOutput { text } => return Ok(Some(column_after(text, 0))),
             StreamKind::Pretty { document, start } => return Ok(Some(document.column(*start))),
             StreamKind::StringTarget { string } => {
@@ -533,7 +537,7 @@ pub fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     // The streams of the session stay open.
     if !matches!(
         *kind,
-        StreamKind::StandardOutput | StreamKind::StandardInput
+        StreamKind::StandardOutput | StreamKind::ErrorOutput | StreamKind::StandardInput
     ) {
         *kind = StreamKind::Closed;
     }

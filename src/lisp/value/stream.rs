@@ -59,6 +59,8 @@ pub struct Target {
 pub enum StreamKind {
     /// The image's standard output.
     StandardOutput,
+    /// The same, for errors and warnings: who shows the output may show this apart.
+    ErrorOutput,
     /// The image's standard input, which is at its end unless somebody can be asked.
     StandardInput,
     /// Collects what is written.
@@ -148,9 +150,10 @@ impl StreamKind {
             StreamKind::Concatenated { .. } => known::CONCATENATED_STREAM,
             StreamKind::TwoWay { echo: true, .. } => known::ECHO_STREAM,
             StreamKind::TwoWay { .. } => known::TWO_WAY_STREAM,
-            StreamKind::StandardOutput | StreamKind::StandardInput | StreamKind::Synonym { .. } => {
-                known::SYNONYM_STREAM
-            }
+            StreamKind::StandardOutput
+            | StreamKind::ErrorOutput
+            | StreamKind::StandardInput
+            | StreamKind::Synonym { .. } => known::SYNONYM_STREAM,
             StreamKind::Closed => known::STREAM,
         }
     }
@@ -275,6 +278,7 @@ impl Stream {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardOutput
+                | StreamKind::ErrorOutput
                 | StreamKind::StringOutput { .. }
                 | StreamKind::Pretty { .. }
                 | StreamKind::StringTarget { .. }

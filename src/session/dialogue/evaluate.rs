@@ -12,6 +12,9 @@ use view::picture::Image;
 pub enum Event {
     /// Text printed by the program, or log lines; not necessarily whole lines.
     Output(String),
+    /// Text that the program has written about errors, if the image's output is to have it apart; otherwise it is
+    /// output.
+    ErrorOutput(String),
     /// A form has been evaluated: its printed values. Empty if there are none.
     Values(Vec<String>),
     /// A picture was made, for front ends that can show it.

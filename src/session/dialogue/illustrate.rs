@@ -7,6 +7,9 @@ use view::picture::{Image, View};
 
 /// An evaluator for a face that has room for pictures and longer texts.
 pub trait Illustrate: Converse {
+    /// Lets what is written about errors come as [`Event::ErrorOutput`](super::Event::ErrorOutput) from now on.
+    fn show_errors_apart(&mut self);
+
     /// All that is known about the name at byte `at` of an input, or about the operator of the form
     /// there, in lines.
     fn description(&self, text: &str, at: usize) -> Option<String>;

@@ -102,7 +102,7 @@ impl<W: Write> Screen<W> {
         }
         self.end_progress()?;
         match event {
-            Event::Output(text) => {
+            Event::Output(text) | Event::ErrorOutput(text) => {
                 let text = self.own(text);
                 self.write(&text)
             }

@@ -34,6 +34,7 @@ impl Copier {
     pub(super) fn stream_kind(&mut self, kind: &StreamKind) -> StreamKind {
         match kind {
             StreamKind::StandardOutput => StreamKind::StandardOutput,
+            StreamKind::ErrorOutput => StreamKind::ErrorOutput,
             StreamKind::StandardInput => StreamKind::StandardInput,
             StreamKind::StringOutput { text } => StreamKind::StringOutput { text: text.clone() },
             StreamKind::Pretty { document, start } => StreamKind::Pretty {
