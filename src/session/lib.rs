@@ -219,11 +219,12 @@ impl Session {
         self.evaluator.deadline = limit.and_then(|limit| now.checked_add(limit));
     }
 
-    /// Remembers in a file what is done of lessons, and tells what was done in earlier sessions.
-    pub fn remember_lessons(&mut self, path: &Path) {
+    /// Remembers in a file what is done of lessons, and tells what was done in earlier sessions. `mark` is part of the name of a
+    /// file beside it that is written first: another one for each process.
+    pub fn remember_lessons(&mut self, path: &Path, mark: &str) {
         let files = Arc::clone(&self.options.outside.files);
         let path = path.display().to_string();
-        self.evaluator.host.person.progress = Some(person::Progress::new(path, files));
+        self.evaluator.host.person.progress = Some(person::Progress::new(path, mark, files));
     }
 
     /// Where the last evaluation of this session was when a limit or an interrupt ended it.

@@ -1,6 +1,7 @@
 //! A session as a page sees it: requests come in, messages go out.
 
 use std::cell::RefCell;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,6 +21,9 @@ use view::watch::live::{Updates, embedded_page};
 use crate::files::MemoryFiles;
 use crate::request::Request;
 use crate::sweeping::Sweep;
+
+/// The file of the page in which is kept what has been done of lessons; the page does not list it.
+const LESSONS: &str = ".lessons";
 
 /// Where messages go.
 pub trait Outbox {
@@ -228,6 +232,7 @@ impl Page {
             Err(error) => return self.fail(&error.to_string()),
         };
         session.set_interactive(true);
+        session.remember_lessons(Path::new(LESSONS), "page");
         self.interrupt.replace(session.interrupt_handle());
         self.updates.replace(Some(session.updates()));
         self.send(

@@ -331,7 +331,7 @@ fn the_tour_is_solved_by_what_it_shows() {
 /// A session in which what is done of lessons is remembered in a file.
 fn remembering(path: &std::path::Path) -> Talk {
     let mut talk = Talk::new();
-    talk.session.remember_lessons(path);
+    talk.session.remember_lessons(path, "test");
     talk
 }
 

@@ -255,7 +255,7 @@ fn run(
     let connection = Connection::read(connection).map_err(KernelError::from)?;
     let mut session = open_session(options)?;
     if let Some(path) = lessons_file() {
-        session.remember_lessons(&path);
+        session.remember_lessons(&path, &std::process::id().to_string());
     }
     let interrupter = Interrupter::new(session.interrupt_handle());
     let kernel = Kernel::listen(&connection, interrupter.clone(), behaviour.settings())?;

@@ -50,7 +50,7 @@ pub(crate) fn prompt(
     }
     let mut session = open_session(&options)?;
     if let Some(path) = lessons_file() {
-        session.remember_lessons(&path);
+        session.remember_lessons(&path, &std::process::id().to_string());
     }
     let _watched = watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());

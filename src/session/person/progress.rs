@@ -26,13 +26,16 @@ pub(crate) struct Done {
 #[derive(Clone, Debug)]
 pub(crate) struct Progress {
     path: String,
+    /// Part of the name of the file that is written first.
+    mark: String,
     files: Arc<dyn Files>,
 }
 
 impl Progress {
     /// The file with a path.
-    pub(crate) fn new(path: String, files: Arc<dyn Files>) -> Progress {
-        Progress { path, files }
+    pub(crate) fn new(path: String, mark: &str, files: Arc<dyn Files>) -> Progress {
+        let mark = mark.to_owned();
+        Progress { path, mark, files }
     }
 
     /// What it says. Lines that make no sense are left out, and so is a file that cannot be read.
@@ -70,7 +73,7 @@ impl Progress {
             self.files.create_folders(folder)?;
         }
         // The file is whole at any time.
-        let new = format!("{}.{}.new", self.path, std::process::id());
+        let new = format!("{}.{}.new", self.path, self.mark);
         self.files.write(&new, text.as_bytes())?;
         self.files.rename(&new, &self.path).inspect_err(|_| {
             // What is left over does no harm.
@@ -111,7 +114,7 @@ mod tests {
         let name = format!("planwright-progress-{test}-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         let path = folder.join("state").join("lessons");
-        let progress = Progress::new(path.display().to_string(), Arc::new(Disk));
+        let progress = Progress::new(path.display().to_string(), "test", Arc::new(Disk));
         work(&progress, &path);
         // It may not be there.
         let _ = std::fs::remove_dir_all(&folder);
@@ -161,7 +164,7 @@ mod tests {
             let beside = std::fs::read_dir(path.parent().unwrap()).unwrap().count();
             assert_eq!(beside, 1);
         });
-        let nowhere = Progress::new("/proc/no/such/lessons".to_owned(), Arc::new(Disk));
+        let nowhere = Progress::new("/proc/no/such/lessons".to_owned(), "test", Arc::new(Disk));
         assert!(nowhere.keep(done("a", 1, 1)).is_err());
     }
 }

@@ -96,7 +96,8 @@ export class UserFiles {
       made.setAttribute('aria-pressed', String(name === this.open));
       return made;
     };
-    const own = [...this.texts.keys()].sort().map((name) => button(name, true));
+    // What begins with a dot is the session's, such as what has been done of lessons.
+    const own = [...this.texts.keys()].filter((name) => !name.startsWith('.')).sort().map((name) => button(name, true));
     const given = Object.keys(this.plans).filter((name) => !this.texts.has(name)).map((name) => button(name, false));
     const head = (text) => Object.assign(document.createElement('h2'), { textContent: text });
     this.list.replaceChildren(...(own.length ? [head('Yours'), ...own] : []), head('With the program'), ...given);

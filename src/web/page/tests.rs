@@ -1,5 +1,7 @@
 use std::sync::Mutex;
 
+use lisp::files::Files;
+
 use super::*;
 
 /// Keeps what is sent.
@@ -87,6 +89,14 @@ fn a_lesson_goes_on_from_input_to_input() {
         messages.contains("Step 2 of 6: Drive to the table."),
         "{messages}"
     );
+    // It is remembered in a file, which the page keeps for the next session.
+    let contents = page.files.read_plan(".lessons").unwrap();
+    assert_eq!(contents, b"tour 1 6\n");
+    page.hear(r#"{"open": {"files": {}}}"#);
+    kept.take();
+    page.hear(r#"{"evaluate": {"text": "(lesson)"}}"#);
+    let messages = kept.take().join("\n");
+    assert!(messages.contains("(1 of 6 steps)"), "{messages}");
 }
 
 #[test]
