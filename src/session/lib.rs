@@ -178,8 +178,11 @@ impl Session {
 
     /// Ends the session together with the process, to which freeing its memory is left.
     pub fn end_with_process(self) {
-        let Evaluator { image, host, .. } = self.evaluator;
+        let Evaluator {
+            image, mut host, ..
+        } = self.evaluator;
         std::mem::forget(image);
+        std::mem::forget(std::mem::take(&mut host.simulation.facts));
         drop(host);
     }
 

@@ -10,6 +10,7 @@ mod division;
 pub mod draw;
 mod feature;
 pub mod influence;
+mod line;
 pub mod mark;
 mod normal;
 pub mod paired;
@@ -18,6 +19,7 @@ mod plural;
 pub mod rate;
 pub mod record;
 pub mod relations;
+pub mod sqlite;
 pub mod summary;
 mod tree;
 

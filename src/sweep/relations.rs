@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Map, Value as Json};
+use super::line::Line;
 
 /// A value in a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,19 +31,6 @@ impl Cell {
             }
             (Cell::Null, Cell::Bool(false)) | (Cell::Bool(false), Cell::Null) => true,
             _ => self == other,
-        }
-    }
-
-    fn of(json: &Json) -> Cell {
-        match json {
-            Json::Null => Cell::Null,
-            Json::Bool(is) => Cell::Bool(*is),
-            Json::Number(number) => match number.as_i64() {
-                Some(int) => Cell::Int(int),
-                None => number.as_f64().map_or(Cell::Null, Cell::Number),
-            },
-            Json::String(text) => Cell::Text(text.as_str().into()),
-            Json::Array(_) | Json::Object(_) => Cell::Text(json.to_string().into()),
         }
     }
 }
@@ -104,10 +91,16 @@ impl Relation {
     }
 
     /// Adds a row; columns that it does not name are empty in it, and new ones in those before.
-    fn add(&mut self, cells: Vec<(&str, Cell)>) {
+    fn add<'c>(&mut self, cells: impl Iterator<Item = (&'c str, Cell)>) {
         let mut row = vec![Cell::Null; self.columns.len()];
-        for (name, cell) in cells {
-            match self.columns.iter().position(|column| column == name) {
+        for (number, (name, cell)) in cells.enumerate() {
+            // Rows name their columns in the same order as a rule.
+            let expected = self.columns.get(number).filter(|column| *column == name);
+            let at = match expected {
+                Some(_) => Some(number),
+                None => self.columns.iter().position(|column| column == name),
+            };
+            match at {
                 Some(at) => {
                     if let Some(place) = row.get_mut(at) {
                         *place = cell;
@@ -145,21 +138,6 @@ pub struct MalformedLine {
     pub problem: String,
 }
 
-/// What a record of a sweep says by name, and the relation and the column that it becomes.
-const OF_RECORD: &[(&str, &str, &str)] = &[
-    ("expectations", "expectation", "held"),
-    ("draws", "draw", "value"),
-    ("measures", "measure", "value"),
-    ("failures", "failed", "count"),
-    ("handlers", "handled", "count"),
-];
-
-/// The columns by which rows belong to runs and tasks.
-const KEYS: &[&str] = &["run", "task"];
-
-/// What a record lists, and the relation that it becomes.
-const LISTED: &[(&str, &str)] = &[("faults", "fault"), ("bodies", "body")];
-
 impl Relations {
     /// The relation of that name, in any case of letters.
     pub fn get(&self, name: &str) -> Option<&Relation> {
@@ -178,66 +156,27 @@ impl Relations {
     pub fn add(&mut self, relation: &str, text: &str) -> Result<usize, MalformedLine> {
         let lines = text.lines().enumerate();
         let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-        let objects: Vec<Map<String, Json>> = lines
+        let objects: Vec<Line<'_>> = lines
             .map(|(number, line)| {
-                serde_json::from_str(line).map_err(|error| MalformedLine {
+                Line::read(line).map_err(|problem| MalformedLine {
                     line: number + 1,
-                    problem: error.to_string(),
+                    problem,
                 })
             })
             .collect::<Result<_, _>>()?;
-        for object in &objects {
-            match object
-                .get("world")
-                .filter(|_| object.contains_key("outcome"))
-            {
-                Some(world) => self.add_record(&Cell::of(world), object),
-                None => {
-                    let cells = object.iter();
-                    let cells = cells.map(|(name, json)| (name.as_str(), Cell::of(json)));
-                    let mut cells: Vec<(&str, Cell)> = cells.collect();
-                    // What rows are found by comes first.
-                    cells.sort_by_key(|(name, _)| {
-                        KEYS.iter()
-                            .position(|key| key == name)
-                            .unwrap_or(KEYS.len())
-                    });
-                    self.relation(relation).add(cells);
-                }
-            }
+        let count = objects.len();
+        for object in objects {
+            object.rows(relation, &mut |relation, fields| {
+                let cells = fields.into_iter();
+                self.relation(relation)
+                    .add(cells.map(|(name, field)| (name, field.cell())));
+            });
         }
-        Ok(objects.len())
+        Ok(count)
     }
 
     fn relation(&mut self, name: &str) -> &mut Relation {
         self.all.entry(name.to_ascii_lowercase()).or_default()
-    }
-
-    fn add_record(&mut self, world: &Cell, record: &Map<String, Json>) {
-        let mut run = vec![("run", world.clone())];
-        for (name, json) in record {
-            if name != "world" && !json.is_object() && !json.is_array() {
-                run.push((name, Cell::of(json)));
-            }
-        }
-        self.relation("run").add(run);
-        for (part, relation, column) in OF_RECORD {
-            let named = record.get(*part).and_then(Json::as_object);
-            for (name, json) in named.into_iter().flatten() {
-                self.relation(relation).add(vec![
-                    ("run", world.clone()),
-                    ("name", Cell::Text(name.as_str().into())),
-                    (column, Cell::of(json)),
-                ]);
-            }
-        }
-        for (part, relation) in LISTED {
-            let listed = record.get(*part).and_then(Json::as_array);
-            for json in listed.into_iter().flatten() {
-                self.relation(relation)
-                    .add(vec![("run", world.clone()), ("name", Cell::of(json))]);
-            }
-        }
     }
 }
 

@@ -165,6 +165,11 @@ fn recordings_answer_goals_and_damaged_ones_say_what_is_wrong() {
         recording.answers(&["(fact task :kind :performed :type ?type :status ?status)"]),
         "type          status\nmoving-torso  succeeded\nmoving-torso  succeeded\n"
     );
+    // Where things were: the base stays, and nothing else is there.
+    assert_eq!(
+        recording.answers(&["(fact robot :time ?time :x ?x :y ?y :yaw ?yaw)"]),
+        "time  x  y  yaw\n   0  0  0    0\n"
+    );
     let bytes = std::fs::read(&recording.0).expect("the recording is there");
     std::fs::write(&recording.0, &bytes[..bytes.len() / 3]).expect("it can be written");
     let (status, text) = recording.ask(&["(fact task :type ?type)"]);
@@ -213,4 +218,147 @@ fn what_was_performed_in_the_worlds_of_a_sweep_is_kept_in_order() {
         "{answers}"
     );
     let _ = std::fs::remove_dir_all(&folder);
+}
+
+/// A path in the folder for temporary files, at which nothing is.
+fn fresh(name: &str) -> PathBuf {
+    let name = format!("planwright-ask-{}-{name}", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let _ = std::fs::remove_file(&path);
+    path
+}
+
+#[test]
+fn facts_are_written_into_an_sqlite_file_that_is_not_there_yet() {
+    let records = File::new("sqlite.jsonl", RECORDS);
+    let path = fresh("facts.db");
+    let file = path.to_str().expect("it is text");
+    assert_eq!(
+        records.answers(&["--sqlite", file]),
+        "body                1\ndraw                4\nexpectation         3\nfailed              1\n\
+         measure             3\nrun                 3\n"
+    );
+    let bytes = std::fs::read(&path).expect("the file is there");
+    assert!(bytes.starts_with(b"SQLite format 3\0"));
+    assert_eq!(bytes.len() % 4096, 0);
+    // Neither it nor an input is overwritten.
+    for there in [file, records.0.to_str().expect("it is text")] {
+        let before = std::fs::read(there).expect("it is there");
+        let (status, error) = records.ask(&["--sqlite", there]);
+        assert_eq!(status, Some(2), "{error}");
+        assert!(error.starts_with("error: "), "{error}");
+        assert_eq!(std::fs::read(there).expect("it is there"), before);
+    }
+    // In the same order, the same bytes.
+    let again = fresh("again.db");
+    records.answers(&["--sqlite", again.to_str().expect("it is text")]);
+    assert_eq!(std::fs::read(&again).expect("the file is there"), bytes);
+    std::fs::remove_file(&again).expect("the file is there");
+    std::fs::remove_file(&path).expect("the file is there");
+}
+
+#[test]
+fn an_sqlite_file_that_cannot_be_written_leaves_nothing() {
+    let malformed = File::new(
+        "halfway.jsonl",
+        "{\"world\":0,\"outcome\":\"success\"}\n{\"world\":\n",
+    );
+    let path = fresh("halfway.db");
+    let file = path.to_str().expect("it is text");
+    for (arguments, why) in [
+        (vec!["--sqlite", file], "halfway.jsonl, line 2: "),
+        (
+            vec!["--sqlite", "/nowhere/at all.db"],
+            "cannot write /nowhere/at all.db",
+        ),
+        (vec!["--sqlite", "/tmp"], "/tmp"),
+        (
+            vec!["(fact run :run ?r)", "--sqlite", file],
+            "cannot be used with",
+        ),
+    ] {
+        let (status, error) = malformed.ask(&arguments);
+        assert_eq!(status, Some(2), "{error}");
+        assert!(error.contains(why), "{error}");
+    }
+    assert!(!path.exists() && !PathBuf::from(format!("{file}.part")).exists());
+}
+
+#[test]
+fn a_session_writes_its_own_episode_and_what_it_has_read() {
+    let records = File::new("read.jsonl", RECORDS);
+    let (own, read) = (fresh("own.db"), fresh("read.db"));
+    let plan = format!(
+        "(progn
+           (pp-tut:with-simulated-robot
+             (exe:perform (desig:an action (type positioning-arm) (left-configuration park) (right-configuration park))))
+           (print (pw:export-sqlite {own:?}))
+           (print (handler-case (pw:export-sqlite {own:?}) (error (e) (princ-to-string e))))
+           (pw:read-facts {:?})
+           (print (pw:export-sqlite {read:?})))",
+        records.0
+    );
+    let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["run", "--eval", &plan])
+        .output()
+        .expect("the program runs");
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(done.status.success(), "{done:?}");
+    assert!(text.contains("own.db is there already"), "{text}");
+    // The same rows as on the command line.
+    assert!(text.trim_end().ends_with("15"), "{text}");
+    for path in [&own, &read] {
+        let bytes = std::fs::read(path).expect("the file is there");
+        assert!(bytes.starts_with(b"SQLite format 3\0"));
+        std::fs::remove_file(path).expect("the file is there");
+    }
+}
+
+#[test]
+fn a_recording_tells_where_things_were_when_it_is_asked_for_that() {
+    let path = std::env::temp_dir().join(format!("planwright-where-{}.mcap", std::process::id()));
+    let plan = File::new(
+        "where.plan",
+        "(in-package :pp-tut)
+         (init-projection)
+         (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+         (with-simulated-robot
+           (perform (an action (type transporting)
+                               (object (an object (type bottle)))
+                               (target (a location (on (an object (type counter-top)
+                                                                  (urdf-name sink-area-surface)
+                                                                  (part-of kitchen))))))))",
+    );
+    let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["run", "--record"])
+        .arg(&path)
+        .arg(&plan.0)
+        .output()
+        .expect("the program runs");
+    assert!(done.status.success(), "{done:?}");
+    let recording = File(path);
+    let rows = recording.answers(&[
+        "(fact object :object ?o :type ?type :on ?on :in-hand ?hand)",
+        "--count",
+    ]);
+    for row in [
+        "bottle-1  bottle  table_area_main ",
+        "bottle-1  bottle  sink_area_surface ",
+        "bottle-1  bottle  - ",
+    ] {
+        assert!(rows.contains(row), "{rows}");
+    }
+    // Where it stands first and last, and how far the robot has driven.
+    let times = recording.answers(&["(fact object :time ?time :x ?x :y ?y :z ?z)"]);
+    let mut lines = times.lines().skip(1);
+    assert!(
+        lines.next().is_some_and(|line| line.contains("-1.6  -0.9")),
+        "{times}"
+    );
+    assert!(
+        lines.last().is_some_and(|line| line.contains(" 1.4")),
+        "{times}"
+    );
+    let robot = recording.answers(&["(fact robot :time ?time :x ?x :y ?y)"]);
+    assert!(robot.lines().count() > 5, "{robot}");
 }

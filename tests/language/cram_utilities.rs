@@ -184,8 +184,158 @@ fn goals_that_are_written_wrong_are_told_once() {
     });
     assert_eq!(
         said,
-        "WARNING: The Prolog goal MEMBER does not take 1 argument; it is written (MEMBER item list).\n\
+        "WARNING: The Prolog goal MEMBER does not take 1 argument; it is written (MEMBER item LIST).\n\
          WARNING: Trying to prove goal (MEMBR 1 2) with undefined functor MEMBR. Did you mean MEMBER?\n\
          WARNING: The Prolog goal LINKED does not take 0 arguments; it is written (LINKED A B) or (LINKED A . ?REST).\n"
+    );
+}
+
+/// What forms print in a session.
+fn said(forms: &str) -> String {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let mut said = String::new();
+    session.evaluate("test", forms, &mut |event| match event {
+        Event::Output(text) => said.push_str(&text),
+        Event::Aborted(abort) => said.push_str(&format!("!! {}\n", abort.report)),
+        _ => {}
+    });
+    said
+}
+
+const FAMILY: &str = "(prolog:def-fact-group family (parent older)
+  (prolog:<- (parent ann bob)) (prolog:<- (parent bob cid)) (prolog:<- (parent bob dan))
+  (prolog:<- (older ?a ?b) (parent ?a ?b))
+  (prolog:<- (older ?a ?c) (parent ?a ?b) (older ?b ?c))
+  (prolog:<- (first-child ?a ?b) (parent ?a ?b) (prolog:cut)))";
+
+#[test]
+fn traced_goals_show_their_four_ports_with_bindings() {
+    let text = said(&format!(
+        "{FAMILY} (prolog:trace-prolog 'parent 'older) (prolog:prolog '(older ann dan))"
+    ));
+    assert_eq!(
+        text,
+        "  0: call (OLDER ANN DAN)\n\
+         \x20   1: call (PARENT ANN DAN)\n\
+         \x20   1: fail (PARENT ANN DAN)\n\
+         \x20   1: call (PARENT ANN ?B)\n\
+         \x20   1: exit (PARENT ANN BOB)\n\
+         \x20   1: call (OLDER BOB DAN)\n\
+         \x20     2: call (PARENT BOB DAN)\n\
+         \x20     2: exit (PARENT BOB DAN)\n\
+         \x20   1: exit (OLDER BOB DAN)\n\
+         \x20 0: exit (OLDER ANN DAN)\n\
+         \x20 0: redo (OLDER ANN DAN)\n\
+         \x20   1: redo (OLDER BOB DAN)\n\
+         \x20     2: call (PARENT BOB ?B)\n\
+         \x20     2: exit (PARENT BOB CID)\n\
+         \x20     2: call (OLDER CID DAN)\n\
+         \x20       3: call (PARENT CID DAN)\n\
+         \x20       3: fail (PARENT CID DAN)\n\
+         \x20       3: call (PARENT CID ?B)\n\
+         \x20       3: fail (PARENT CID ?B)\n\
+         \x20     2: fail (OLDER CID DAN)\n\
+         \x20     2: redo (PARENT BOB CID)\n\
+         \x20     2: exit (PARENT BOB DAN)\n\
+         \x20     2: call (OLDER DAN DAN)\n\
+         \x20       3: call (PARENT DAN DAN)\n\
+         \x20       3: fail (PARENT DAN DAN)\n\
+         \x20       3: call (PARENT DAN ?B)\n\
+         \x20       3: fail (PARENT DAN ?B)\n\
+         \x20     2: fail (OLDER DAN DAN)\n\
+         \x20   1: fail (OLDER BOB DAN)\n\
+         \x20   1: redo (PARENT ANN BOB)\n\
+         \x20   1: fail (PARENT ANN ?B)\n\
+         \x20 0: fail (OLDER ANN DAN)\n"
+    );
+}
+
+#[test]
+fn a_trace_changes_no_proof() {
+    let queries = [
+        "(older ?a ?b)",
+        "(and (older ?a ?b) (not (older ?b ?a)))",
+        "(first-child bob ?x)",
+        "(and (parent ?a ?x) (once (older ?x ?y)))",
+        "(-> (parent ?a dan) (older ?b ?a) (true))",
+        "(*-> (parent ?a ?x) (older ?x ?y))",
+        "(findall ?x (older ann ?x) ?all)",
+        "(setof ?a (older ?a ?x) ?all)",
+        "(forall (parent ?a ?b) (older ?a ?b))",
+        "(or (first-child ann ?x) (first-child bob ?x))",
+        "(and (member ?x (1 2 3)) (lisp-pred oddp ?x))",
+        "(lisp-fun + 1 2 ?x)",
+        "(and (parent ?a ?b) (lisp-fun list ?a ?b ?c))",
+    ];
+    for query in queries {
+        let ask = format!("(print (cut:force-ll (prolog:prolog '{query})))");
+        let plain = said(&format!("{FAMILY} {ask}"));
+        for traced in [
+            "t",
+            "'parent 'older",
+            "'and 'or 'not '-> '*-> 'once 'member 'findall",
+        ] {
+            let text = said(&format!(
+                "{FAMILY} (prolog:trace-prolog {traced}) (setf *trace-output* (make-broadcast-stream)) {ask}"
+            ));
+            assert_eq!(text, plain, "{query} with {traced} traced");
+        }
+    }
+}
+
+#[test]
+fn a_trace_is_as_lazy_as_what_it_shows() {
+    let text = said(
+        "(prolog:trace-prolog 'member)
+         (defparameter *all* (prolog:prolog '(and (member ?x (1 2 3)) (lisp-pred identity ?x))))
+         (format t \"one~%\") (cut:lazy-cdr *all*)",
+    );
+    assert_eq!(
+        text,
+        "  0: call (MEMBER ?X (1 2 3))\n  0: exit (MEMBER 1 (1 2 3))\n\
+         \x20 0: redo (MEMBER 1 (1 2 3))\n  0: exit (MEMBER 2 (1 2 3))\none\n\
+         \x20 0: redo (MEMBER 2 (1 2 3))\n  0: exit (MEMBER 3 (1 2 3))\n"
+    );
+}
+
+#[test]
+fn a_trace_without_end_ends() {
+    let text = said(
+        "(prolog:def-fact-group endless () (prolog:<- (going ?x) (going ?x) (and)))
+         (prolog:trace-prolog 'going) (prolog:prolog '(going 0))",
+    );
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 1002, "{}", lines.last().unwrap());
+    assert_eq!(
+        lines[1000],
+        "  … the trace of this query ends after 1000 lines"
+    );
+    assert!(
+        lines[1001].starts_with("!! A Prolog goal"),
+        "{}",
+        lines[1001]
+    );
+    let long = said(
+        "(prolog:trace-prolog '==) (prolog:prolog `(== ?x ,(make-list 500 :initial-element \"two
+lines\")))",
+    );
+    assert!(
+        long.lines().all(|line| line.chars().count() < 220),
+        "{long}"
+    );
+    assert_eq!(long.lines().count(), 2);
+}
+
+#[test]
+fn what_is_traced_is_told_and_can_be_ended() {
+    assert_eq!(
+        said(
+            "(print (list (prolog:trace-prolog 'member 'append) (prolog:trace-prolog 'member) (prolog:untrace-prolog 'append)
+                (prolog:trace-prolog) (prolog:trace-prolog t) (prolog:untrace-prolog) (prolog:trace-prolog)))
+             (prolog:prolog '(member ?x (1)))
+             (prolog:trace-prolog 'membr)"
+        ),
+        "\n((:MEMBER :APPEND) (:MEMBER :APPEND) (:MEMBER) (:MEMBER) T NIL NIL) \
+         !! There are no Prolog goals (membr …); did you mean MEMBER?\n"
     );
 }

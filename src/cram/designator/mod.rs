@@ -71,6 +71,8 @@ pub fn install(image: &mut Image) {
     image.install(prolog, prolog_rules::builtins::TABLE);
     image.install(PackageTable::SYSTEM, prolog_rules::builtins::SYSTEM_TABLE);
     image.install(prolog, prolog_rules::facts::TABLE);
+    image.install(PackageTable::SYSTEM, prolog_rules::facts::SYSTEM_TABLE);
+    image.install(PackageTable::SYSTEM, prolog_rules::tracing::SYSTEM_TABLE);
     image.install_operators(prolog, prolog_rules::facts::OPERATORS);
     prolog_rules::facts::install_functors(image, prolog_rules::functors::TABLE);
     prolog_rules::facts::install_functors(image, functors::TABLE);

@@ -25,3 +25,39 @@
     (if more
         (append proofs (%tail (lambda () (%proofs search))))
         proofs)))
+
+(defun cram-prolog:trace-prolog (&rest functors)
+  "Shows on *TRACE-OUTPUT* how goals with these functors are proved, in whatever package they are written: a line
+  when one is called, when it exits with a proof, when a further proof of it is searched for (redo), and
+  when it fails, with what its variables are bound to. T stands for all goals. Returns what is traced now, and
+  without functors nothing else. UNTRACE-PROLOG ends it.
+  Examples:
+  (prog1 (prolog:trace-prolog (quote prolog:member)) (prolog:untrace-prolog)) => (:MEMBER)"
+  (dolist (functor functors)
+    (let ((known (or (eq functor t) (%functor-named (string functor)))))
+      (unless (eq known t)
+        (error "There are no Prolog goals (~(~a~) …)~@[; did you mean ~a?~]" functor known))))
+  (let ((traced (%traced-goals)))
+    (cond ((member t functors) (%trace-goals t))
+          ((and functors (listp traced))
+           (%trace-goals (remove-duplicates (append traced (mapcar #'string functors))
+                                            :test #'string= :from-end t)))))
+  (%traced-functors))
+
+(defun cram-prolog:untrace-prolog (&rest functors)
+  "Ends TRACE-PROLOG for these functors, or altogether. Returns what is traced still.
+  Examples:
+  (prolog:untrace-prolog) => NIL"
+  (let ((traced (%traced-goals)))
+    (%trace-goals (and functors
+                       (if (listp traced)
+                           (remove-if (lambda (name) (member name functors :test #'string=)) traced)
+                           (error "All goals are traced; (untrace-prolog) ends that."))))
+    (%traced-functors)))
+
+(defun %traced-functors ()
+  "The functors of goals that are traced, or T."
+  (let ((traced (%traced-goals)))
+    (if (listp traced)
+        (mapcar (lambda (name) (intern name :keyword)) traced)
+        traced)))

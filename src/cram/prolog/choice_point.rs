@@ -7,6 +7,7 @@ use super::facts::Clause;
 use super::goal::{Collection, Goal};
 use super::goal_chain::Goals;
 use super::term::{Mark, Naming};
+use super::tracing::TracedGoal;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::equality::equal;
@@ -23,7 +24,10 @@ pub(super) enum Alternative {
         next: usize,
     },
     /// Unify a term with the next items of a list.
-    Items { term: Value, rest: Vec<Value> },
+    Items {
+        term: Value,
+        rest: std::vec::IntoIter<Value>,
+    },
     /// Continue with other goals.
     Goals,
     /// The collection is complete: unify it with a term.
@@ -34,6 +38,10 @@ pub(super) enum Alternative {
     },
     /// Nothing any more.
     Forgotten,
+    /// Nothing: a traced goal has failed.
+    Failed(Rc<TracedGoal>),
+    /// Nothing: another proof of a traced goal is searched for.
+    Redone(Rc<TracedGoal>),
 }
 
 pub(super) struct Choice {
@@ -41,6 +49,8 @@ pub(super) struct Choice {
     pub(super) mark: Mark,
     pub(super) goals: Goals,
     pub(super) alternative: Alternative,
+    /// In how many traced goals it was made.
+    pub(super) depth: usize,
 }
 
 impl Engine {
@@ -55,6 +65,7 @@ impl Engine {
             mark,
             goals,
             alternative,
+            depth: self.depth,
         });
         self.numbers += 1;
     }
@@ -94,15 +105,18 @@ impl Engine {
     }
 
     /// Unifies a term with the first item that matches; leaves a choice point for the others.
-    pub(super) fn choose_item(&mut self, term: Value, items: Vec<Value>) -> bool {
+    pub(super) fn choose_item(
+        &mut self,
+        term: Value,
+        mut items: std::vec::IntoIter<Value>,
+    ) -> bool {
         let mark = self.bindings.mark();
-        let mut items = items.into_iter();
         while let Some(item) = items.next() {
             if self.bindings.unify(&term, &item) {
-                let rest: Vec<Value> = items.collect();
-                if !rest.is_empty() {
+                if !items.as_slice().is_empty() {
                     let goals = self.goals.clone();
-                    self.push_choice_at(mark, goals, Alternative::Items { term, rest });
+                    let alternative = Alternative::Items { term, rest: items };
+                    self.push_choice_at(mark, goals, alternative);
                 }
                 return true;
             }
@@ -112,12 +126,15 @@ impl Engine {
     }
 
     /// Backtracks to the last choice point with an alternative left; false if there is none.
-    pub(super) fn backtrack(&mut self, image: &Image) -> Result<bool> {
+    pub(super) fn backtrack(&mut self, image: &mut Image) -> Result<bool> {
         while let Some(choice) = self.choices.pop() {
             self.bindings.undo(choice.mark);
             self.goals = choice.goals;
+            self.depth = choice.depth;
             match choice.alternative {
                 Alternative::Forgotten => {}
+                Alternative::Failed(goal) => self.show(image, "fail", &goal)?,
+                Alternative::Redone(goal) => self.show(image, "redo", &goal)?,
                 Alternative::Goals => return Ok(true),
                 Alternative::Items { term, rest } => {
                     if self.choose_item(term, rest) {

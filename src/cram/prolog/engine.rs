@@ -70,6 +70,10 @@ pub struct Engine {
     pub(super) query: Naming,
     pub(super) is_started: bool,
     pub(super) numbers: u64,
+    /// In how many traced goals the proof is.
+    pub(super) depth: usize,
+    /// How many lines have been shown of traced goals.
+    pub(super) lines: usize,
     /// Functors with numbers of arguments that a warning has been given of.
     pub(super) warned: HashSet<(Sym, usize)>,
 }
@@ -114,6 +118,8 @@ impl Engine {
             query: naming,
             is_started: false,
             numbers: 0,
+            depth: 0,
+            lines: 0,
             warned: HashSet::new(),
         })
     }
@@ -126,7 +132,12 @@ impl Engine {
     /// Is anything left to try after the proof that was found?
     pub(super) fn has_choices(&self) -> bool {
         let mut choices = self.choices.iter();
-        choices.any(|choice| !matches!(choice.alternative, Alternative::Forgotten))
+        choices.any(|choice| {
+            !matches!(
+                choice.alternative,
+                Alternative::Forgotten | Alternative::Failed(_) | Alternative::Redone(_)
+            )
+        })
     }
 
     /// The bindings of the query's variables: a list of pairs, the last variable first.
@@ -158,10 +169,10 @@ impl Engine {
             Some(Awaited::Result(term)) => self.bindings.unify(&term, &value),
             Some(Awaited::OneOf(term)) => {
                 let items = value.list_to_vec().unwrap_or_default();
-                self.choose_item(term, items)
+                self.choose_item(term, items.into_iter())
             }
             Some(Awaited::OneOfBindings(variables)) => {
-                let items = value
+                let items: Vec<Value> = value
                     .iter_list()
                     .map(|pairs| {
                         Value::list(
@@ -172,7 +183,7 @@ impl Engine {
                         )
                     })
                     .collect();
-                self.choose_item(Value::list(variables.clone()), items)
+                self.choose_item(Value::list(variables.clone()), items.into_iter())
             }
         };
         if !holds && !self.backtrack(image)? {
@@ -213,6 +224,10 @@ impl Engine {
                     }
                     false
                 }
+                Goal::Exit(goal) => {
+                    self.trace_exit(image, goal)?;
+                    true
+                }
                 Goal::Fail => false,
                 Goal::Clauses(term) => {
                     let functor = term.car_or_nil().as_symbol();
@@ -237,6 +252,9 @@ impl Engine {
                 }
                 Goal::Prove(term) => {
                     let term = self.bindings.walk(term);
+                    if self.facts.is_tracing() {
+                        self.trace_call(image, &term)?;
+                    }
                     match self.prove(image, &term, node.clause)? {
                         Ok(holds) => holds,
                         Err(call) => return Ok(call),
@@ -393,7 +411,9 @@ impl Engine {
                 self.push_goals(first, clause);
                 return Ok(true);
             }
-            Action::Items(term, items) => return Ok(self.choose_item(term, items)),
+            Action::Items(term, items) => {
+                return Ok(self.choose_item(term, items.into_iter()));
+            }
             Action::Collect {
                 template,
                 goal,

@@ -9,6 +9,7 @@ use super::facts::Facts;
 use super::goal::Goal;
 use super::goal_chain::{GoalNode, Goals};
 use super::term::Naming;
+use super::tracing::TracedGoal;
 use lisp::value::copy::{Copied, Copier};
 
 /// Copies of nodes by the addresses of the originals: choice points share the goals after them.
@@ -29,6 +30,7 @@ impl Engine {
                     mark: choice.mark,
                     goals: goals(&choice.goals, &mut nodes, copier),
                     alternative: alternative(&choice.alternative, copier),
+                    depth: choice.depth,
                 })
                 .collect(),
             collections: self
@@ -48,6 +50,8 @@ impl Engine {
             },
             is_started: self.is_started,
             numbers: self.numbers,
+            depth: self.depth,
+            lines: self.lines,
             warned: self.warned.clone(),
         }
     }
@@ -79,6 +83,7 @@ fn goal(goal: &Goal, copier: &mut Copier) -> Goal {
         Goal::Collect(collection, template) => Goal::Collect(*collection, copier.value(template)),
         Goal::Clauses(term) => Goal::Clauses(copier.value(term)),
         Goal::Handler(term) => Goal::Handler(copier.value(term)),
+        Goal::Exit(goal) => Goal::Exit(traced(goal, copier)),
         Goal::Fail => Goal::Fail,
     }
 }
@@ -96,7 +101,12 @@ fn alternative(alternative: &Alternative, copier: &mut Copier) -> Alternative {
         },
         Alternative::Items { term, rest } => Alternative::Items {
             term: copier.value(term),
-            rest: rest.iter().map(|item| copier.value(item)).collect(),
+            rest: rest
+                .as_slice()
+                .iter()
+                .map(|item| copier.value(item))
+                .collect::<Vec<_>>()
+                .into_iter(),
         },
         Alternative::Goals => Alternative::Goals,
         Alternative::Collected {
@@ -109,7 +119,17 @@ fn alternative(alternative: &Alternative, copier: &mut Copier) -> Alternative {
             kind: *kind,
         },
         Alternative::Forgotten => Alternative::Forgotten,
+        Alternative::Failed(goal) => Alternative::Failed(traced(goal, copier)),
+        Alternative::Redone(goal) => Alternative::Redone(traced(goal, copier)),
     }
+}
+
+fn traced(goal: &TracedGoal, copier: &mut Copier) -> Rc<TracedGoal> {
+    Rc::new(TracedGoal {
+        term: copier.value(&goal.term),
+        depth: goal.depth,
+        number: goal.number,
+    })
 }
 
 fn awaited(awaited: &Awaited, copier: &mut Copier) -> Awaited {

@@ -51,6 +51,7 @@ fn goals(goals: &Goals, nodes: &mut Nodes, visit: &mut dyn FnMut(&Value)) {
             | Goal::Clauses(term)
             | Goal::Handler(term)
             | Goal::Collect(_, term) => visit(term),
+            Goal::Exit(goal) => visit(&goal.term),
             Goal::Cut(_) | Goal::Forget(_) | Goal::Fail => {}
         }
         rest = &node.next;
@@ -62,9 +63,10 @@ fn alternative(alternative: &Alternative, visit: &mut dyn FnMut(&Value)) {
         Alternative::Clauses { goal, .. } => visit(goal),
         Alternative::Items { term, rest } => {
             visit(term);
-            rest.iter().for_each(visit);
+            rest.as_slice().iter().for_each(visit);
         }
         Alternative::Collected { result, .. } => visit(result),
+        Alternative::Failed(goal) | Alternative::Redone(goal) => visit(&goal.term),
         Alternative::Goals | Alternative::Forgotten => {}
     }
 }

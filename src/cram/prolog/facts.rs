@@ -1,12 +1,13 @@
 //! Fact groups: rules by the symbol that begins their heads.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use indexmap::IndexMap;
 
 use super::functor::Functor;
+use super::tracing::Tracing;
 use crate::packages;
 use closest_name::closest_name;
 use lisp::builtin::{Builtin, Operator};
@@ -39,7 +40,14 @@ pub struct Facts {
     index: RefCell<Option<HashMap<Sym, Rc<[Clause]>>>>,
     handlers: RefCell<IndexMap<Sym, Value>>,
     functors: RefCell<IndexMap<&'static str, &'static Functor>>,
+    /// Which arguments of goals must be given, by functor and number of arguments; written once, so that copies share them.
+    given: RefCell<Rc<Given>>,
+    /// Which goals are traced.
+    pub(super) tracing: RefCell<Tracing>,
 }
+
+/// The numbers of arguments that cannot be unbound variables, by functor and number of arguments, or of any number.
+type Given = BTreeMap<(Sym, Option<usize>), Vec<usize>>;
 
 impl Facts {
     /// The clauses of a functor, in order of definition; `None` if there is none.
@@ -74,6 +82,41 @@ impl Facts {
         let mut defined = defined.chain(handlers.keys().copied());
         let named = defined.find(|other| image.name(*other) == name);
         named.unwrap_or(functor)
+    }
+
+    /// Whether any goal is traced.
+    pub(super) fn is_tracing(&self) -> bool {
+        !self.tracing.borrow().is_off()
+    }
+
+    /// Whether there is a functor of that name, in whatever package.
+    pub fn has(&self, image: &Image, name: &str) -> bool {
+        let handlers = self.handlers.borrow();
+        let groups = self.groups.borrow();
+        let defined = groups.values().flatten().map(|(name, _)| *name);
+        let mut defined = defined.chain(handlers.keys().copied());
+        self.functors.borrow().contains_key(name) || defined.any(|other| image.name(other) == name)
+    }
+
+    /// What is known of goals with a symbol as their functor, which may be of another package.
+    pub fn known(&self, image: &Image, functor: Sym) -> Known {
+        let meant = self.meant(image, functor);
+        Known {
+            meant,
+            heads: self
+                .clauses(meant)
+                .map(|clauses| clauses.iter().map(|clause| clause.head.clone()).collect()),
+            handler: self.handler(meant),
+            functor: self.functor(image.name(meant)),
+        }
+    }
+
+    /// The numbers of those arguments that must be given in a goal with so many.
+    pub fn given(&self, functor: Sym, count: usize) -> Vec<usize> {
+        let given = self.given.borrow();
+        let of_count = given.get(&(functor, Some(count)));
+        let found = of_count.or_else(|| given.get(&(functor, None)));
+        found.cloned().unwrap_or_default()
     }
 
     /// The function of `def-prolog-handler` for a functor.
@@ -155,6 +198,8 @@ impl Extension for Facts {
             index: RefCell::default(),
             handlers: RefCell::new(handlers.collect()),
             functors: self.functors.clone(),
+            given: self.given.clone(),
+            tracing: self.tracing.clone(),
         })
     }
 }
@@ -162,6 +207,18 @@ impl Extension for Facts {
 /// Installs an empty collection of facts in an image.
 pub fn install(image: &mut Image) {
     image.extend(Facts::default());
+}
+
+/// What is known of goals with a functor.
+pub struct Known {
+    /// The functor that is meant.
+    pub meant: Sym,
+    /// The heads of its rules, if any fact group has some.
+    pub heads: Option<Vec<Value>>,
+    /// The function of `def-prolog-handler`.
+    pub handler: Option<Value>,
+    /// The functor that is implemented in Rust.
+    pub functor: Option<&'static Functor>,
 }
 
 /// The facts of an image; empty if it has no Prolog.
@@ -184,6 +241,24 @@ fn functor_defined_p(image: &mut Image, functor: &Value) -> bool {
     let facts = of(image);
     let is_defined = |s: Sym| facts.knows(s) || facts.handler(s).is_some();
     functor.as_symbol().is_some_and(is_defined)
+}
+
+/// In goals of a functor with so many arguments, or with any number, those with these numbers, from 0, cannot be
+/// unbound variables.
+#[builtin("%NOTE-GIVEN", "functor count numbers")]
+fn note_given(image: &mut Image, functor: &Value, count: &Value, numbers: &Value) -> Result<Value> {
+    let Some(name) = functor.as_symbol() else {
+        return Err(Raise::type_error(functor, known::SYMBOL));
+    };
+    let number = |number: &Value| match number {
+        Value::Int(number) => usize::try_from(*number).ok(),
+        _ => None,
+    };
+    let numbers = numbers.iter_list().filter_map(|one| number(&one));
+    let facts = of(image);
+    let mut given = facts.given.borrow_mut();
+    Rc::make_mut(&mut given).insert((name, number(count)), numbers.collect());
+    Ok(functor.clone())
 }
 
 /// What DEF-PROLOG-HANDLER expands into.
@@ -315,3 +390,6 @@ fn define_group(image: &mut Image, name_value: &Value, rules: &Value) -> Result<
 
 /// Functions of package `CRAM-PROLOG`: those into which its macros expand, and a question.
 pub(crate) static TABLE: &[Builtin] = builtins![functor_defined_p, define_group, define_handler,];
+
+/// What the library makes of them.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![note_given,];

@@ -11,7 +11,7 @@ use lisp::value::symbol::Sym;
 pub struct Functor {
     /// The name in upper case.
     pub name: &'static str,
-    /// The arguments of a goal, which also determine their number.
+    /// The arguments of a goal, which also determine their number. Those in capitals cannot be unbound variables.
     pub arguments: &'static str,
     /// When the goal holds.
     pub doc: &'static str,
@@ -50,6 +50,14 @@ impl Functor {
             }
         }
         count >= least && most.is_none_or(|most| count <= most)
+    }
+
+    /// The numbers of those arguments, from 0, that cannot be unbound variables.
+    pub fn given(&self) -> Vec<usize> {
+        let words = self.arguments.split_whitespace();
+        let words = words.filter(|word| *word != "&optional").enumerate();
+        let capitals = words.filter(|(_, word)| word.chars().all(|c| c.is_uppercase()));
+        capitals.map(|(number, _)| number).collect()
     }
 }
 

@@ -77,7 +77,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "CALL",
-        "goal argument…",
+        "GOAL argument…",
         "The goal holds, or that of a functor and arguments.",
         |call| {
             let goal = match call.rest(1) {
@@ -128,19 +128,19 @@ pub static TABLE: &[Functor] = &[
     ),
     functor("==", "a b", "Both terms are made equal.", unify),
     functor("EQUAL", "a b", "Both terms are made equal.", unify),
-    functor("=", "a b", "Both numbers are equal.", |call| {
+    functor("=", "A B", "Both numbers are equal.", |call| {
         compare(&call, number::number_equal)
     }),
-    functor("<", "a b", "The first number is less.", |call| {
+    functor("<", "A B", "The first number is less.", |call| {
         compare(&call, number::less)
     }),
-    functor(">", "a b", "The first number is greater.", |call| {
+    functor(">", "A B", "The first number is greater.", |call| {
         compare(&call, number::greater)
     }),
-    functor("<=", "a b", "The first number is not greater.", |call| {
+    functor("<=", "A B", "The first number is not greater.", |call| {
         compare(&call, number::less_equal)
     }),
-    functor(">=", "a b", "The first number is not less.", |call| {
+    functor(">=", "A B", "The first number is not less.", |call| {
         compare(&call, number::greater_equal)
     }),
     functor(
@@ -160,7 +160,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "MEMBER",
-        "item list",
+        "item LIST",
         "The item is each element in turn.",
         |call| {
             let list = call.bindings.resolve(&call.arg(1))?;
@@ -185,7 +185,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "MAX",
-        "list number",
+        "LIST number",
         "The greatest number of the list.",
         |call| {
             let list = call.bindings.resolve(&call.arg(0))?;
@@ -198,7 +198,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "SORT",
-        "list predicate sorted",
+        "LIST PREDICATE sorted",
         "The list in order.",
         |mut call| {
             let list = call.bindings.resolve(&call.arg(0))?;
@@ -213,7 +213,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "REDUCE",
-        "function list result",
+        "FUNCTION LIST result",
         "What the function makes of the list.",
         |mut call| {
             let reducer = function(&call, &call.arg(0))?;
@@ -223,7 +223,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "LISP-FUN",
-        "function argument… result",
+        "FUNCTION argument… result",
         "The value of a Lisp function.",
         |call| {
             let (result, args) = match call.rest(1).split_last() {
@@ -239,7 +239,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "LISP-PRED",
-        "function argument…",
+        "FUNCTION argument…",
         "A Lisp function returns something else than NIL.",
         |call| {
             Ok(Action::CallTest {
@@ -268,7 +268,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "SYMBOL-VALUE",
-        "symbol value",
+        "SYMBOL value",
         "The value of a variable.",
         |call| call_known(&call, known::SYMBOL_VALUE, 1),
     ),
@@ -284,7 +284,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "SLOT-VALUE",
-        "object slot value",
+        "OBJECT SLOT value",
         "The value of a slot, which is stored if it is known.",
         |call| {
             if is_unbound(&call, 2) {
@@ -297,7 +297,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "GET-SLOT-VALUE",
-        "object slot value",
+        "OBJECT SLOT value",
         "The value of a slot.",
         |call| call_known(&call, known::SLOT_VALUE, 2),
     ),
@@ -320,7 +320,7 @@ pub static TABLE: &[Functor] = &[
     ),
     functor(
         "GENERATE-VALUES",
-        "value function argument…",
+        "value FUNCTION argument…",
         "The value is each element in turn of the list that a function returns.",
         |call| {
             Ok(Action::CallItems {

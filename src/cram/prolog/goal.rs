@@ -1,5 +1,8 @@
 //! The steps of a proof, and what a functor can request.
 
+use std::rc::Rc;
+
+use super::tracing::TracedGoal;
 use lisp::value::Value;
 
 /// A step of a proof.
@@ -17,6 +20,8 @@ pub enum Goal {
     Clauses(Value),
     /// Prove a term by the function of its functor.
     Handler(Value),
+    /// A traced goal has been proved.
+    Exit(Rc<TracedGoal>),
     /// Fail.
     Fail,
 }

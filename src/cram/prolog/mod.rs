@@ -18,4 +18,5 @@ pub mod goal;
 mod goal_chain;
 pub mod search;
 pub(crate) mod term;
-mod warnings;
+pub(crate) mod tracing;
+pub mod warnings;

@@ -1,6 +1,6 @@
 //! Goals that nothing can prove since they are written wrong: a warning tells how they would be right.
 
-use super::facts::Clause;
+use super::facts::{Clause, Known};
 use super::functor::Functor;
 use lisp::image::Image;
 use lisp::print;
@@ -29,21 +29,42 @@ pub(super) fn of_rules(
     {
         return None;
     }
+    let heads = clauses.iter().map(|clause| &clause.head);
+    Some(of_heads(image, functor, heads, count.saturating_sub(1)))
+}
+
+/// That a goal has another number of arguments than any of these heads.
+fn of_heads<'h>(
+    image: &Image,
+    functor: Sym,
+    heads: impl Iterator<Item = &'h Value>,
+    count: usize,
+) -> String {
     let mut lengths = Vec::new();
     let mut shapes = Vec::new();
-    for clause in clauses {
-        let length = clause.head.iter_list().count();
+    for head in heads {
+        let length = head.iter_list().count();
         if !lengths.contains(&length) {
             lengths.push(length);
-            shapes.push(print::to_string(image, &clause.head, true));
+            shapes.push(print::to_string(image, head, true));
         }
     }
-    Some(wrong_count(
-        image,
-        functor,
-        count.saturating_sub(1),
-        &shapes.join(" or "),
-    ))
+    wrong_count(image, functor, count, &shapes.join(" or "))
+}
+
+/// Why no goal of a functor has this number of arguments, as far as rules and functors implemented in Rust tell;
+/// `None` if one may.
+pub fn of_count(image: &Image, known: &Known, count: usize) -> Option<String> {
+    match (&known.heads, known.functor) {
+        (Some(heads), _) => {
+            let is_taken = heads.iter().any(|head| takes(head, count + 1));
+            (!is_taken).then(|| of_heads(image, known.meant, heads.iter(), count))
+        }
+        (None, Some(functor)) if !functor.takes(count) => {
+            Some(of_functor(image, known.meant, functor, count))
+        }
+        (None, _) => None,
+    }
 }
 
 /// Why a functor implemented in Rust is not for a goal with this number of arguments.

@@ -1,10 +1,11 @@
-//! Answers questions about many runs.
+//! Answers questions about many runs, or writes what can be asked into a file for other tools.
 
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap::Args;
 
+use super::ask_sqlite;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;
@@ -31,10 +32,16 @@ pub(crate) struct AskArguments {
     /// Print an object of JSON for each answer
     #[arg(long)]
     json: bool,
+    /// Write all facts into an SQLite file, which must not exist, instead of answering a goal
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["goal", "count", "show", "json"])]
+    sqlite: Option<PathBuf>,
 }
 
 /// Reads the facts and prints the answers.
 pub(crate) fn ask(options: &Options, wanted: &AskArguments) -> Result<Status, CommandError> {
+    if let Some(file) = &wanted.sqlite {
+        return ask_sqlite::write(&wanted.source, file);
+    }
     let source = std::path::absolute(&wanted.source)?;
     let source = quoted(&source.to_string_lossy());
     // Rules of files that are loaded may ask for more than the goal shows.

@@ -9,6 +9,7 @@
 
 mod arguments;
 mod ask;
+mod ask_sqlite;
 mod cache;
 mod check;
 mod completions;

@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::arguments;
+use super::goals;
 use super::known::KnownNames;
 use super::meant::{self, Meant};
 use super::types;
@@ -68,6 +69,7 @@ impl<'a> Judge<'a> {
             }
             let mistakes = self.judge(note).into_iter();
             all.extend(mistakes.map(|mistake| (note.place, mistake)));
+            all.extend(goals::judge(self.image, self.names, note));
         }
         all
     }
@@ -230,7 +232,7 @@ pub(super) fn strong(text: String, name: Option<&str>) -> Mistake {
 }
 
 /// A mistake in spite of which the program may work.
-fn weak(text: String, name: Option<&str>) -> Mistake {
+pub(super) fn weak(text: String, name: Option<&str>) -> Mistake {
     Mistake {
         is_style: true,
         ..strong(text, name)
@@ -302,7 +304,7 @@ fn symbols(list: &Value) -> Vec<Sym> {
 }
 
 /// Minimum and maximum number of arguments; `None` if not fixed.
-fn arity(image: &Image, function: &Function) -> Option<(usize, Option<usize>)> {
+pub(super) fn arity(image: &Image, function: &Function) -> Option<(usize, Option<usize>)> {
     match &function.body {
         Body::Deferred(_) => {
             let lambda_list = &definition_of(image, function)?.signature().lambda_list;

@@ -1,8 +1,9 @@
 //! What the texts checked so far define or mention, apart from what their definitions,
 //! which are evaluated, add to the image.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::goals;
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::known;
@@ -15,6 +16,9 @@ pub(crate) struct KnownNames {
     pub defined: BTreeSet<Sym>,
     /// Names in rules and definitions for designators, in upper case.
     pub(crate) in_rules: BTreeSet<String>,
+    /// Names of Prolog functors that rules and handlers define, in upper case, with the numbers of arguments that they
+    /// have; none if these may be any.
+    pub(crate) functors: BTreeMap<String, Option<BTreeSet<usize>>>,
     /// Whether anything may be defined, because another file is loaded or a form made at run
     /// time is evaluated.
     pub is_open: bool,
@@ -54,7 +58,15 @@ impl KnownNames {
         self.defined.extend(named);
         match head.map(|head| image.name(head)) {
             Some("DEFCLASS" | "DEFINE-CONDITION") => self.note_accessors(image, form),
-            Some("DEF-FACT-GROUP" | "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS") => {
+            Some("DEF-FACT-GROUP") => {
+                self.note_functors(image, form);
+                self.note_rules(image, form);
+            }
+            Some("DEF-PROLOG-HANDLER") => {
+                let name = name.as_symbol().map(|name| image.name(name).to_uppercase());
+                self.functors.extend(name.map(|name| (name, None)));
+            }
+            Some("DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS") => {
                 self.note_rules(image, form);
             }
             Some("DEF-OBJECT-TYPE") => self.note_object_type(image, form),
@@ -118,6 +130,29 @@ impl KnownNames {
         let names = names.iter().filter_map(Value::as_symbol);
         self.in_rules
             .extend(names.map(|name| image.name(name).to_uppercase()));
+    }
+
+    /// The functors of the heads of a fact group's rules.
+    fn note_functors(&mut self, image: &Image, form: &Value) {
+        let rules = form.cdr_or_nil().cdr_or_nil().cdr_or_nil();
+        for rule in rules.iter_list() {
+            let head = rule.cdr_or_nil().car_or_nil();
+            let (functor, args) = match head.as_cons() {
+                Some(cons) => (cons.car().as_symbol(), cons.cdr()),
+                None => (head.as_symbol(), Value::NIL),
+            };
+            let Some(functor) = functor else {
+                continue;
+            };
+            let name = image.name(functor).to_uppercase();
+            let counts = self.functors.entry(name).or_insert(Some(BTreeSet::new()));
+            match (goals::elements(&args), counts.as_mut()) {
+                ((args, true), Some(counts)) => {
+                    counts.insert(args.len());
+                }
+                _ => *counts = None,
+            }
+        }
     }
 
     fn note_rules(&mut self, image: &Image, form: &Value) {

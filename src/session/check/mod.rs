@@ -2,6 +2,7 @@
 //! nothing.
 
 mod arguments;
+mod goals;
 mod judge;
 mod known;
 mod meant;

@@ -1,5 +1,6 @@
 //! Wrong inputs and their diagnostics.
 
+mod goals;
 mod many_mistakes;
 mod no_false_alarms;
 mod typical_mistakes;

@@ -1,17 +1,23 @@
 //! Facts of other runs: records of sweeps and exported episodes.
 
+use std::fmt::Display;
+use std::io::BufWriter;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::host::call::{done, host};
 use crate::simulation::Simulation;
 use cram::Reply;
 use lisp::builtin::{Builtin, control};
+use lisp::files::{Contents, Opening};
 use lisp::image::Image;
 use lisp::value::Value;
+use lisp::value::equality::equal;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 use sweep::relations::{Cell, Relation};
-use view::watch::recording::read_episode;
+use sweep::sqlite::{Sqlite, SqliteError};
+use view::watch::recording::{Wanted, read_episode};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -33,8 +39,8 @@ pub(super) static TABLE: &[Builtin] = &[
     ),
     control(
         "%ADD-RECORDING",
-        "file",
-        "Adds what was performed in a recording, an MCAP file, to relations. Returns whether the file is whole.",
+        "file &optional places",
+        "Adds what was performed in a recording, an MCAP file, to relations; if PLACES, also where objects and the robot were. Returns whether the file is whole.",
         &[],
         host!(add_recording),
     ),
@@ -58,6 +64,20 @@ pub(super) static TABLE: &[Builtin] = &[
         "Rows of a relation: the values of the columns WANTED where the columns of the plist GIVEN have its values.",
         &[],
         host!(facts),
+    ),
+    control(
+        "%FACT-BINDINGS",
+        "relation given wanted variables",
+        "The bindings of variables to what %FACTS returns, a list for each row; T if there is no such relation. A variable that is there twice must be equal to itself.",
+        &[],
+        host!(fact_bindings),
+    ),
+    control(
+        "%WRITE-SQLITE",
+        "file relations",
+        "Writes facts into an SQLite file that does not exist: those that have been read, or those of RELATIONS, a list of names, each followed by a text with lines of JSON. Returns how many rows there are.",
+        &[],
+        host!(write_sqlite),
     ),
 ];
 
@@ -102,7 +122,11 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let file = name_of(image, &args[0]);
     let bytes = image.files.read(&file);
     let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
-    let episode = read_episode(&bytes).map_err(|error| Raise::simple(error.to_string()))?;
+    let wanted = match args.get(1).is_some_and(Value::is_true) {
+        true => Wanted::All,
+        false => Wanted::Performed,
+    };
+    let episode = read_episode(&bytes, wanted).map_err(|error| Raise::simple(error.to_string()))?;
     let facts = Rc::make_mut(&mut simulation.facts);
     for (relation, text) in &episode.relations {
         facts.add(relation, text).map_err(|wrong| {
@@ -135,10 +159,52 @@ fn fact_relations(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -
 }
 
 fn facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let rows = rows(simulation, image, args)?.unwrap_or_default();
+    done(Value::list(
+        rows.into_iter().map(Value::list).collect::<Vec<_>>(),
+    ))
+}
+
+fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let Some(rows) = rows(simulation, image, args)? else {
+        return done(Value::T);
+    };
+    let variables: Vec<Value> = args[3].iter_list().collect();
+    let former = |at: usize| {
+        let mut before = variables.iter().take(at);
+        before.position(|other| other.is_eq(&variables[at]))
+    };
+    let former: Vec<Option<usize>> = (0..variables.len()).map(former).collect();
+    let mut all = Vec::with_capacity(rows.len());
+    for values in rows {
+        let is_one = |(at, former): (usize, &Option<usize>)| match former {
+            None => true,
+            Some(former) => match (values.get(at), values.get(*former)) {
+                (Some(one), Some(other)) => equal(one, other),
+                _ => false,
+            },
+        };
+        if !former.iter().enumerate().all(is_one) {
+            continue;
+        }
+        let pairs = variables.iter().zip(values).zip(&former);
+        let pairs = pairs.filter(|(_, former)| former.is_none());
+        let pairs = pairs.map(|((variable, value), _)| Value::cons(variable.clone(), value));
+        all.push(Value::list(pairs.collect::<Vec<_>>()));
+    }
+    done(Value::list(all))
+}
+
+/// What [`facts`] returns; `None` if there is no such relation.
+fn rows(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Option<Vec<Vec<Value>>>> {
     let facts = Rc::clone(&simulation.facts);
     let name = name_of(image, &args[0]);
     let Some(relation) = facts.get(&name) else {
-        return done(Value::NIL);
+        return Ok(None);
     };
     let given: Vec<Value> = args[1].iter_list().collect();
     let given: Vec<(usize, Cell)> = given
@@ -165,9 +231,60 @@ fn facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
             let cell = row.get(*column).unwrap_or(&Cell::Null);
             value(image, cell, is_name.get(*column) == Some(&true))
         });
-        rows.push(Value::list(values.collect::<Vec<_>>()));
+        rows.push(values.collect());
     }
-    done(Value::list(rows))
+    Ok(Some(rows))
+}
+
+fn write_sqlite(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let file = name_of(image, &args[0]);
+    let files = Arc::clone(&image.files);
+    let refused = |why: &dyn Display| Raise::simple(format!("cannot write {file}: {why}"));
+    // SQLite would apply what it has left of an earlier file to the new one.
+    for end in ["", "-journal", "-wal"] {
+        let there = format!("{file}{end}");
+        let found = files.facts(&there);
+        if found.is_ok_and(|found| found.is_folder || found.length > 0) {
+            return Err(Raise::simple(format!(
+                "{there} is there already: delete it, or name another file"
+            )));
+        }
+    }
+    let unfinished = format!("{file}.part");
+    let opening = Opening {
+        creates: true,
+        contents: Contents::Drop,
+    };
+    let output = files
+        .open(&unfinished, opening)
+        .map_err(|error| refused(&error))?;
+    let texts: Vec<Value> = args[1].iter_list().collect();
+    let write = || -> std::result::Result<u64, SqliteError> {
+        let mut sqlite = Sqlite::begin(BufWriter::new(output))?;
+        if texts.is_empty() {
+            sqlite.add_relations(&simulation.facts)?;
+        }
+        for pair in texts.chunks_exact(2) {
+            let (relation, text) = (name_of(image, &pair[0]), name_of(image, &pair[1]));
+            for line in text.lines() {
+                sqlite.add_line(&relation, line)?;
+            }
+        }
+        let (_, counts) = sqlite.finish()?;
+        Ok(counts.iter().map(|(_, rows)| rows).sum())
+    };
+    let written = write().and_then(|rows| {
+        files.rename(&unfinished, &file)?;
+        Ok(rows)
+    });
+    match written {
+        Ok(rows) => done(Value::from(rows as i64)),
+        Err(error) => {
+            // An error is reported; what is left of the file is of no use.
+            let _ = files.remove(&unfinished);
+            Err(refused(&error))
+        }
+    }
 }
 
 /// The number of a column, or an error that tells which there are.

@@ -6,7 +6,7 @@ use indexmap::IndexMap;
 
 use super::Observation;
 use super::frame::{Frame, Hit, Hold, Path, Placed, Press};
-use super::node::{Kind, Node, VisualMesh};
+use super::node::{Kind, MAP_OF_LOCATION, Node, VisualMesh};
 use super::trajectory_lines::TrajectoryLines;
 use crate::picture::LocationMap;
 use crate::picture::scene::Scene;
@@ -309,7 +309,7 @@ impl FrameBuilder {
             id: 0,
             name: "location".to_owned(),
             kind: Kind::Object,
-            type_name: "map of a location".to_owned(),
+            type_name: MAP_OF_LOCATION.to_owned(),
             parent: None,
             still: None,
             mesh: VisualMesh::of(&scene).into(),

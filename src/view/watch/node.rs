@@ -7,6 +7,9 @@ use nalgebra::Vector3;
 use super::frame::Placed;
 use crate::picture::scene::{Finish, Scene};
 
+/// The type of the node that shows the map of a location: no thing in the world.
+pub(crate) const MAP_OF_LOCATION: &str = "map of a location";
+
 /// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

@@ -45,7 +45,7 @@ pub(super) fn decompressed(file: &[u8]) -> Result<Cow<'_, [u8]>, RecordingError>
 }
 
 /// The first record: opcode, content, and what follows it.
-fn record(bytes: &[u8]) -> Option<(u8, &[u8], &[u8])> {
+pub(super) fn record(bytes: &[u8]) -> Option<(u8, &[u8], &[u8])> {
     let (opcode, rest) = bytes.split_first()?;
     let (length, rest) = number(rest)?;
     let (content, after) = rest.split_at_checked(usize::try_from(length).ok()?)?;
@@ -53,13 +53,63 @@ fn record(bytes: &[u8]) -> Option<(u8, &[u8], &[u8])> {
 }
 
 /// The 64-bit number at the beginning.
-fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
+pub(super) fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (number, rest) = bytes.split_first_chunk()?;
     Some((u64::from_le_bytes(*number), rest))
 }
 
+/// The first two bytes of an LZ4 frame: the version, and that no block needs those before it; and what else they say.
+const VERSION: u8 = 0b1100_0000;
+const VERSION_1: u8 = 0b0100_0000;
+const INDEPENDENT: u8 = 0b0010_0000;
+const BLOCK_CHECKSUMS: u8 = 0b0001_0000;
+const CONTENT_SIZE: u8 = 0b0000_1000;
+const DICTIONARY: u8 = 0b0000_0001;
+
+/// Makes the contents of an LZ4 frame those of a buffer, without a copy in between, if the frame is one of independent
+/// blocks and unpacks to that size. Checksums are left to who knows that of the whole.
+fn unpack_frame(frame: &[u8], size: usize, buffer: &mut Vec<u8>) -> bool {
+    // What is there is overwritten.
+    buffer.resize(size, 0);
+    blocks_into(frame, buffer) == Some(size)
+}
+
+/// Unpacks the blocks of a frame; how many bytes they have.
+fn blocks_into(frame: &[u8], to: &mut [u8]) -> Option<usize> {
+    let rest = frame.strip_prefix(&0x184d_2204_u32.to_le_bytes())?;
+    let flags = *rest.first()?;
+    if flags & VERSION != VERSION_1 || flags & INDEPENDENT == 0 || flags & DICTIONARY != 0 {
+        return None;
+    }
+    let size = if flags & CONTENT_SIZE != 0 { 8 } else { 0 };
+    // The flags, the maximum size of a block, the size of the content, and a checksum of those.
+    let mut rest = rest.get(3 + size..)?;
+    let mut at = 0;
+    loop {
+        let (length, after) = rest.split_first_chunk()?;
+        let length = u32::from_le_bytes(*length);
+        if length == 0 {
+            return Some(at);
+        }
+        let is_packed = length >> 31 == 0;
+        let (block, after) = after.split_at_checked((length & 0x7fff_ffff) as usize)?;
+        let place = to.get_mut(at..)?;
+        at += match is_packed {
+            true => lz4_flex::block::decompress_into(block, place).ok()?,
+            false => {
+                place.get_mut(..block.len())?.copy_from_slice(block);
+                block.len()
+            }
+        };
+        rest = match flags & BLOCK_CHECKSUMS {
+            0 => after,
+            _ => after.get(4..)?,
+        };
+    }
+}
+
 /// A chunk record.
-struct Chunk<'a> {
+pub(super) struct Chunk<'a> {
     /// Times of the first and the last message.
     times: &'a [u8],
     size: u64,
@@ -70,7 +120,7 @@ struct Chunk<'a> {
 }
 
 impl<'a> Chunk<'a> {
-    fn of(record: &'a [u8]) -> Option<Self> {
+    pub(super) fn of(record: &'a [u8]) -> Option<Self> {
         let (times, rest) = record.split_at_checked(16)?;
         let (size, rest) = number(rest)?;
         let (checksum, rest) = rest.split_at_checked(4)?;
@@ -92,19 +142,40 @@ impl<'a> Chunk<'a> {
         !self.compression.is_empty()
     }
 
-    /// Appends this chunk as an uncompressed one.
-    fn unpack(&self, to: &mut Vec<u8>) -> Result<(), RecordingError> {
+    /// The records in this chunk. A buffer holds them if they have to be unpacked.
+    pub(super) fn content_in<'c>(
+        &'c self,
+        buffer: &'c mut Vec<u8>,
+    ) -> Result<&'c [u8], RecordingError> {
+        if !self.is_compressed() {
+            return Ok(self.content);
+        }
+        self.unpack_content(buffer)?;
+        Ok(buffer)
+    }
+
+    /// Is the content as its checksum says? Zero stands for none.
+    pub(super) fn is_whole(&self, content: &[u8]) -> bool {
+        let found = crc32fast::hash(content).to_le_bytes();
+        matches!(self.checksum, [0, 0, 0, 0]) || self.checksum == found
+    }
+
+    /// Replaces the contents of a buffer by those of this chunk.
+    fn unpack_content(&self, content: &mut Vec<u8>) -> Result<(), RecordingError> {
         if self.size > MAX_CHUNK {
             return Err(RecordingError::LargeChunk { size: self.size });
         }
-        let mut content = Vec::new();
+        if self.compression == b"lz4" && unpack_frame(self.content, self.size as usize, content) {
+            return Ok(());
+        }
+        content.clear();
         match self.compression {
-            b"lz4" => self.read_into(&mut content, &mut FrameDecoder::new(self.content))?,
+            b"lz4" => self.read_into(content, &mut FrameDecoder::new(self.content))?,
             b"zstd" => {
                 let mut frames = self.content;
                 while !frames.is_empty() && (content.len() as u64) < self.size {
                     let mut frame = StreamingDecoder::new(&mut frames).map_err(io::Error::other)?;
-                    self.read_into(&mut content, &mut frame)?;
+                    self.read_into(content, &mut frame)?;
                 }
             }
             other => {
@@ -120,6 +191,13 @@ impl<'a> Chunk<'a> {
             );
             return Err(io::Error::new(ErrorKind::InvalidData, text).into());
         }
+        Ok(())
+    }
+
+    /// Appends this chunk as an uncompressed one.
+    fn unpack(&self, to: &mut Vec<u8>) -> Result<(), RecordingError> {
+        let mut content = Vec::new();
+        self.unpack_content(&mut content)?;
         // Times, sizes, checksum, an empty name of the compression, and the content.
         let length = self.times.len() + 8 + self.checksum.len() + 4 + 8 + content.len();
         to.push(op::CHUNK);

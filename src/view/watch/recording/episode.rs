@@ -1,17 +1,16 @@
-//! What was performed in a recording, as relations: lines of JSON, as an exported episode has them. Pictures and
-//! poses are passed over.
+//! What was performed in a recording, as relations: lines of JSON, as an exported episode has them. Pictures are passed
+//! over, and so are poses unless they are wanted.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use indexmap::IndexMap;
-use mcap::read::Options;
-use mcap::{McapError, MessageStream};
 use serde_json::{Map, Value, json};
 
 use super::RecordingError;
 use super::channel::Channel;
-use super::decompress::decompressed;
 use super::message::{Log, Shown, Task};
+use super::messages::walk;
+use super::places::Places;
 use super::read::{data_of, panicked, parsed};
 use crate::watch::TaskState;
 
@@ -23,58 +22,69 @@ pub struct Episode {
     pub is_cut_off: bool,
 }
 
-/// Reads the relations of a recording's bytes: `task`, `param`, `failure`, `event`, `contact` and `log`.
-pub fn read_episode(bytes: &[u8]) -> Result<Episode, RecordingError> {
-    let read = AssertUnwindSafe(|| read(&decompressed(bytes)?));
+/// Which relations are wanted of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// What was performed and what happened: `task`, `param`, `failure`, `event`, `contact` and `log`.
+    Performed,
+    /// Also where objects and the robot were: `object` and `robot`.
+    All,
+}
+
+/// Reads the relations of a recording's bytes.
+pub fn read_episode(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
+    let read = AssertUnwindSafe(|| read(bytes, wanted));
     catch_unwind(read).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))
 }
 
-fn read(bytes: &[u8]) -> Result<Episode, RecordingError> {
+fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
     let mut rows = Rows::default();
-    let mut is_ours = false;
-    let mut is_cut_off = false;
+    let mut places = Places::default();
     let mut last_shown = Vec::new();
-    for message in MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into())? {
-        let message = match message {
-            Ok(message) => message,
-            Err(_) if is_ours => {
-                is_cut_off = true;
-                break;
-            }
-            // Whole chunks have been unpacked before.
-            Err(McapError::UnsupportedCompression(_)) => return Err(RecordingError::CutOff),
-            Err(error) => return Err(error.into()),
-        };
-        let Some(channel) = Channel::of_topic(&message.channel.topic) else {
-            continue;
-        };
-        is_ours = true;
-        if !matches!(channel, Channel::Tasks | Channel::Shown | Channel::Log) {
-            continue;
+    let is_wanted = |channel| match channel {
+        Channel::Tasks | Channel::Shown | Channel::Log => true,
+        Channel::Transforms | Channel::Objects => wanted == Wanted::All,
+        _ => false,
+    };
+    let walked = walk(bytes, &is_wanted, &mut |message| {
+        let (channel, time) = (message.channel, message.time);
+        if channel == Channel::Transforms {
+            return places.transforms(message);
         }
         if channel == Channel::Shown {
-            let shown = without_time(&message.data);
+            let shown = without_time(message.data);
             if shown == last_shown {
-                continue;
+                return Ok(());
             }
-            last_shown = shown.to_vec();
+            last_shown.clear();
+            last_shown.extend_from_slice(shown);
         }
-        let Some(data) = data_of(channel, &message)? else {
-            continue;
+        let Some(data) = data_of(channel, message.encoding, message.data)? else {
+            return Ok(());
         };
-        let time = message.log_time as f64 * 1e-9;
         match channel {
-            Channel::Tasks => rows.task(time, parsed(data)?),
-            Channel::Shown => rows.shown(time, &parsed(data)?),
+            Channel::Tasks => {
+                rows.task(time, parsed(data)?);
+                places.note();
+            }
+            Channel::Shown => {
+                let shown: Shown = parsed(data)?;
+                rows.shown(time, &shown);
+                places.shown(&shown);
+            }
+            Channel::Objects => places.objects(&parsed(data)?),
             _ => rows.log(time, &parsed(data)?),
         }
-    }
-    if !is_ours {
+        Ok(())
+    })?;
+    if !walked.is_ours {
         return Err(RecordingError::Foreign);
     }
+    let mut relations = rows.relations();
+    relations.extend(places.relations());
     Ok(Episode {
-        relations: rows.relations(),
-        is_cut_off,
+        relations,
+        is_cut_off: walked.is_cut_off,
     })
 }
 
@@ -113,7 +123,7 @@ struct Rows {
 }
 
 /// The name of an object, from that of its frame.
-fn object_name(frame: &str) -> String {
+pub(super) fn object_name(frame: &str) -> String {
     frame.trim_start_matches("object/").to_lowercase()
 }
 
@@ -330,7 +340,7 @@ mod tests {
     #[test]
     fn what_is_no_recording_is_refused() {
         for bytes in [&b""[..], b"hello", b"\x89MCAP0\r\n", &[0; 4096]] {
-            assert!(read_episode(bytes).is_err(), "{bytes:?}");
+            assert!(read_episode(bytes, Wanted::All).is_err(), "{bytes:?}");
         }
     }
 }

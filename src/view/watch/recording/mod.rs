@@ -14,6 +14,8 @@ mod follower;
 mod markers;
 mod mcap_file;
 mod message;
+mod messages;
+mod places;
 mod protobuf;
 pub mod read;
 mod schema;
@@ -21,7 +23,7 @@ mod shapes;
 mod wire;
 mod write;
 
-pub use episode::{Episode, read_episode};
+pub use episode::{Episode, Wanted, read_episode};
 pub use follower::{Recorder, RecordingResult};
 pub use read::read_recording;
 

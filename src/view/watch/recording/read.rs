@@ -111,12 +111,13 @@ struct Reader<'a> {
 /// The data of a message; `None` if it is encoded in a way that recordings of ours do not use.
 pub(super) fn data_of(
     channel: Channel,
-    message: &mcap::Message<'_>,
+    encoding: &str,
+    data: &[u8],
 ) -> Result<Option<Value>, RecordingError> {
-    Ok(match message.channel.message_encoding.as_str() {
-        "json" => Some(serde_json::from_slice(&message.data)?),
+    Ok(match encoding {
+        "json" => Some(serde_json::from_slice(data)?),
         "protobuf" => {
-            let data = decoded(channel.schema(), &message.data);
+            let data = decoded(channel.schema(), data);
             Some(data.ok_or(RecordingError::Malformed {
                 topic: channel.topic(),
             })?)
@@ -130,7 +131,8 @@ impl Reader<'_> {
         let Some(channel) = Channel::of_topic(&message.channel.topic) else {
             return Ok(());
         };
-        let Some(data) = data_of(channel, message)? else {
+        let encoding = &message.channel.message_encoding;
+        let Some(data) = data_of(channel, encoding, &message.data)? else {
             return Ok(());
         };
         let time = message.log_time as f64 * 1e-9;
