@@ -49,7 +49,7 @@
 (grip (apple) :effort 50 :opening 0.109)
 (grip (orange) :effort 30 :opening 0.109)
 (grip (shoe) :effort 40 :opening 0.1)
-(grip (sponge) :effort 30 :opening 0.1)
+(grip (sponge) :effort 60 :opening 0.1)
 (grip (big-knife) :effort 100 :opening 0.06)
 (grip (bread-slice weisswurst-slice apple-slice orange-slice) :effort 20 :opening 0.06)
 (grip (cap glasses glove) :effort 30 :opening 0.1)

@@ -195,8 +195,8 @@
  :shapes
   ((cylinder :radius 0.033 :length 0.02 :rpy (0 1.5707963267948966 0))))
 
-; For wiping: damp, with the soft side below.
-(object sponge :mass 0.06 :friction 0.4 :color (0.8 0.6 0.06)
+; For wiping: full of water, with the soft side below.
+(object sponge :mass 0.3 :friction 0.4 :color (0.8 0.6 0.06)
  :shapes
   ((box :size (0.11 0.075 0.04))))
 

@@ -18,7 +18,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "%BLADE",
         "name",
-        "The blade of an object, in the map (m): its middle (x y z), the direction across it, the more level one of its other directions, half its length along that, and the height of its lowest point; NIL if it has none.",
+        "The blade of an object, in its own frame (m): its middle (x y z), the direction of its tip, that of its edge, half its length, and half its height; NIL if it has none.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%blade 'bottle-1)) => NIL",
         ],
@@ -49,16 +49,12 @@ pub(super) static TABLE: &[Builtin] = &[
 
 fn blade(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
-    let blade = simulation.world.blade_of(&name).map_err(Raise::reporting)?;
+    let object = simulation.world.object(&name).map_err(Raise::reporting)?;
     let point = |p: [f64; 3]| Value::list(p.map(Value::Double));
-    done(blade.map_or(Value::NIL, |blade| {
-        Value::list([
-            point(blade.middle),
-            point(blade.normal),
-            point(blade.along.0),
-            Value::Double(blade.along.1),
-            Value::Double(blade.lowest),
-        ])
+    done(object.blade().map_or(Value::NIL, |blade| {
+        let [length, height] = blade.half.map(Value::Double);
+        let directions = [blade.middle, blade.tip, blade.edge].map(point);
+        Value::list(directions.into_iter().chain([length, height]).collect::<Vec<_>>())
     }))
 }
 
