@@ -64,6 +64,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "wiping.plan",
     "slicing.plan",
     "handing-over.plan",
+    "holding.plan",
     "projection-motions.plan",
     "tutorial-package.plan",
     "lisp-unit.plan",

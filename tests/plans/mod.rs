@@ -36,6 +36,7 @@ mod searching;
 mod session_copies;
 mod spawning;
 mod speeds;
+mod surface_chores;
 mod surfaces;
 mod sweeps;
 mod systems;
