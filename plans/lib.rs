@@ -63,6 +63,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "surface-paths.plan",
     "wiping.plan",
     "slicing.plan",
+    "mixing.plan",
     "handing-over.plan",
     "holding.plan",
     "projection-motions.plan",

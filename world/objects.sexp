@@ -13,7 +13,7 @@
            fork knife spatula cap glasses glove shoe)
 
 ; Types and their kinds; an object of a kind may be used wherever its type is asked for.
-(kinds household-item kitchen-item clothing-item wiping-tool)
+(kinds household-item kitchen-item clothing-item wiping-tool stirring-tool)
 (kinds kitchen-item cutlery plate tray bottle cup milk cereal bowl open-box pot spatula)
 (kinds food bread weisswurst)
 (kinds cutlery knife fork spoon)
@@ -22,6 +22,7 @@
 (kinds clothing-item shoe)
 (kinds wiping-tool sponge)
 (kinds knife big-knife)
+(kinds stirring-tool whisk)
 (kinds bread bread-slice)
 (kinds weisswurst weisswurst-slice)
 (kinds apple apple-slice)
@@ -200,15 +201,21 @@
  :shapes
   ((box :size (0.11 0.075 0.04))))
 
-(object cutting-board :mass 1.5 :friction 0.8 :color (0.45 0.24 0.09)
+(object cutting-board :mass 1.8 :friction 0.8 :color (0.45 0.24 0.09)
  :shapes
-  ((box :size (0.36 0.22 0.04))))
+  ((box :size (0.4 0.28 0.04))))
+
+; Lying, its long axis along y, the wires at +y.
+(object whisk :mass 0.12 :color (0.06 0.06 0.065)
+ :shapes
+  ((box :size (0.024 0.13 0.03) :at (0 -0.015 0))
+   (cylinder :radius 0.015 :length 0.13 :at (0 0.115 0) :rpy (1.5707963267948966 0 0))))
 
 ; Lying, its long axis along y and its edge at +x; the weight is in the handle.
 (object big-knife :mass 0.2 :color (0.06 0.06 0.065)
  :shapes
   ((box :size (0.03 0.13 0.02) :at (0 -0.015 0))
-   (box :size (0.057 0.21 0.0024) :at (0.0165 0.155 -0.0088))))
+   (box :size (0.057 0.25 0.0024) :at (0.0165 0.175 -0.0088))))
 
 (object open-box :mass 0.2 :color (0.5 0.5 0.5)
  :shapes

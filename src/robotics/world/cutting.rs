@@ -71,6 +71,8 @@ pub enum NotCut {
     World(WorldError),
     /// The tool has no blade.
     NoBlade(String),
+    /// No hand holds the tool.
+    NotHeld(String),
     /// The blade leans to a side, by so much (the vertical part of its normal).
     Leans(f64),
     /// The blade is beside the food.
@@ -88,6 +90,7 @@ impl std::fmt::Display for NotCut {
         match self {
             Self::World(error) => write!(f, "{error}"),
             Self::NoBlade(tool) => write!(f, "{tool} has no blade"),
+            Self::NotHeld(tool) => write!(f, "no hand holds {tool}"),
             Self::Leans(_) => write!(f, "the blade leans to a side"),
             Self::Beside => write!(f, "the blade is beside it"),
             Self::NotThrough(above) => {
@@ -164,6 +167,9 @@ impl World {
         if object.blade().is_none() {
             return Err(NotCut::NoBlade(tool.to_owned()));
         }
+        if object.hold().is_none() {
+            return Err(NotCut::NotHeld(tool.to_owned()));
+        }
         let (tool_body, food_body) = (object.body, self.object(food)?.body);
         self.end_cut(tool);
         self.physics.let_pass(tool_body, true);
@@ -197,6 +203,9 @@ impl World {
     /// whole holds the rest. Nothing changes if the blade is not all the way through.
     pub fn cut(&mut self, tool: &str, food: &str, names: PieceNames<'_>) -> Result<[Piece; 2], NotCut> {
         let knife = self.object(tool)?;
+        if knife.hold().is_none() {
+            return Err(NotCut::NotHeld(tool.to_owned()));
+        }
         let blade = knife.blade();
         let blade = blade.ok_or_else(|| NotCut::NoBlade(tool.to_owned()))?;
         let knife_at = to_parry(&self.physics.pose(knife.body));

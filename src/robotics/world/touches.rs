@@ -32,6 +32,7 @@ pub struct Touches {
     within: u64,
     sum: f64,
     peak: f64,
+    aside: f64,
     now: f64,
     patches: Arc<Vec<Patch>>,
 }
@@ -67,6 +68,11 @@ impl Touches {
     /// The greatest force (N).
     pub fn peak(&self) -> f64 {
         self.peak
+    }
+
+    /// The greatest force (N) from a side.
+    pub fn aside(&self) -> f64 {
+        self.aside
     }
 
     /// The force (N) in the last step.
@@ -121,6 +127,7 @@ impl World {
             within: 0,
             sum: 0.0,
             peak: 0.0,
+            aside: 0.0,
             now: 0.0,
             patches: Arc::default(),
         });
@@ -153,17 +160,19 @@ impl World {
     }
 
     fn note(&self, object: &Object, touches: &mut Touches) {
-        let mut up = 0.0;
+        let mut push = Vector3::zeros();
         let mut points: Vec<(u64, Vector3<f64>)> = Vec::new();
         self.physics.visit_touch_points(object.body, |point| {
             if matches!(PartKey::from_code(point.other), PartKey::Robot(_)) {
                 return;
             }
-            up += point.push.z;
+            push += point.push;
             if point.is_level {
                 points.push((point.other, point.at));
             }
         });
+        let up = push.z;
+        touches.aside = touches.aside.max(push.xy().norm());
         touches.now = up.max(0.0);
         if up < FORCE {
             return;
@@ -240,6 +249,9 @@ fn half_hull(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::world::fixture;
+    use crate::world::physics::GRAVITY;
+    use spatial::pose::from_xyz_rpy;
 
     fn patch(points: &[[f64; 3]]) -> Option<Patch> {
         let points: Vec<_> = points.iter().map(|p| Vector3::from(*p)).collect();
@@ -260,6 +272,33 @@ mod tests {
         assert!(patch.contains([0.02, 0.09, 1.005]));
         assert!(!patch.contains([0.02, 0.09, 1.02]));
         assert!(!patch.contains([0.11, 0.05, 1.0]));
+    }
+
+    #[test]
+    fn a_cube_touches_the_floor_where_it_has_come_to_rest() {
+        let models = fixture::models();
+        let robot = fixture::tucked(&models, [0.0, 0.0, 0.0], 0.1);
+        let mut world = World::new(models, robot);
+        let above = from_xyz_rpy([1.0, 0.5, 0.3], [0.0; 3]);
+        fixture::spawn(&mut world, "BOX", "cube", &above);
+        world.watch_touches("BOX", (1.5, 2.5)).unwrap();
+        assert_eq!(world.touches_of("BOX").unwrap().steps(), 0);
+        assert!(world.settle(3.0));
+        let at = world.object_pose("BOX").unwrap().translation;
+        let touches = world.touches_of("BOX").unwrap();
+        assert!(touches.has_touched([at.x + 0.02, at.y - 0.02, 0.0]));
+        assert!(!touches.has_touched([at.x + 0.04, at.y, 0.0]));
+        assert!(!touches.has_touched([at.x, at.y, 0.05]));
+        let weight = 0.2 * GRAVITY;
+        assert!((touches.now() - weight).abs() < 0.05, "{}", touches.now());
+        assert!(touches.peak() > weight && touches.within() <= touches.steps());
+        // A copy goes on by itself, and what was noted comes back with the world.
+        let before = world.snapshot();
+        let steps = touches.steps();
+        world.end_touches("BOX");
+        assert!(world.touches_of("BOX").is_none());
+        world.restore(&before);
+        assert_eq!(world.touches_of("BOX").unwrap().steps(), steps);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Builtins for cutting a thing with a blade.
 
-use crate::host::call::{done, edit, host};
+use crate::host::call::{done, host};
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, type_text_of};
 use cram::Reply;
@@ -41,9 +41,9 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "%CUT",
         "tool food slice slice-type rest rest-type",
-        "Parts what a tool cuts where its blade is. The smaller piece gets the name and the type SLICE, the other one, or the one that a hand holds, those of REST. The value is (slice rest), each as (name volume thickness) (m³, m); a text if the blade is not all the way through.",
+        "Parts what a tool in a hand cuts where its blade is. The smaller piece gets the name and the type SLICE, the other one, or the one that a hand holds, those of REST. The value is (slice rest), each as (name volume thickness) (m³, m); a text if the blade is not all the way through.",
         &[],
-        edit!(cut),
+        host!(cut),
     ),
 ];
 

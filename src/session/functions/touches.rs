@@ -34,7 +34,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "%TOUCHES",
         "name",
-        "What has been noted of the forces (N) from below on an object: (:steps n :within n :mean n :peak n :now n), the number of steps in which it was touched, of those with the right force, the mean, the greatest and the present force. NIL if nothing is noted.",
+        "What has been noted of the forces (N) from below on an object: (:steps n :within n :mean n :peak n :now n :aside n), the number of steps in which it was touched, of those with the right force, the mean, the greatest and the present force, and the greatest one from a side. NIL if nothing is noted.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%touches 'bottle-1)) => NIL",
         ],
@@ -106,6 +106,7 @@ fn touches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Re
         ("MEAN", Value::Double(touches.mean())),
         ("PEAK", Value::Double(touches.peak())),
         ("NOW", Value::Double(touches.now())),
+        ("ASIDE", Value::Double(touches.aside())),
     ];
     let mut list = Vec::new();
     for (name, value) in rows {
