@@ -59,7 +59,12 @@ fn refused(cook: &mut Cook, class: &str, form: &str, wanted: &str) {
 fn a_patch_is_wiped_around_a_cup_with_the_force_that_is_measured() {
     let mut cook = with_sponge();
     cook.done("(btr-utils:spawn-object 'cup-1 :cup :pose '((-0.8 1.9 0.95) (0 0 0 1)))");
-    let before = cook.session.simulation().world().object_pose("CUP-1").unwrap();
+    let before = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("CUP-1")
+        .unwrap();
     cook.done(&format!(
         "(with-simulated-robot (defparameter *account* {}))",
         wiping(-0.75, 1.9, "(area (0.4 0.4)) (tool ?sponge)")
@@ -69,7 +74,12 @@ fn a_patch_is_wiped_around_a_cup_with_the_force_that_is_measured() {
     let force = number(&mut cook, "(getf *account* :mean-force)");
     assert!((3.0..7.0).contains(&force), "{force} N");
     assert_eq!(cook.done("(getf *account* :left-out)"), "(CUP-1)\n");
-    let after = cook.session.simulation().world().object_pose("CUP-1").unwrap();
+    let after = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("CUP-1")
+        .unwrap();
     let moved = (after.translation.vector - before.translation.vector).norm();
     assert!(moved < 0.005, "{moved} m");
     // More force is more force.
@@ -84,8 +94,10 @@ fn a_patch_is_wiped_around_a_cup_with_the_force_that_is_measured() {
 #[test]
 fn wiping_is_refused_before_the_first_motion() {
     let mut cook = with_sponge();
-    cook.done("(btr-utils:spawn-object 'cup-1 :cup :pose '((-0.8 1.3 0.95) (0 0 0 1)))
-               (defparameter *cup* (seen :cup))");
+    cook.done(
+        "(btr-utils:spawn-object 'cup-1 :cup :pose '((-0.8 1.3 0.95) (0 0 0 1)))
+               (defparameter *cup* (seen :cup))",
+    );
     refused(
         &mut cook,
         "TOOL-MISSING",
@@ -199,11 +211,13 @@ fn cutting_gives_the_same_bits_again() {
 #[test]
 fn cutting_is_refused_before_the_first_motion() {
     let mut cook = with_bread();
-    cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((-0.8 1.3 0.95) (0 0 0 1)))
+    cook.done(
+        "(btr-utils:spawn-object 'bottle-1 :bottle :pose '((-0.8 1.3 0.95) (0 0 0 1)))
                (btr-utils:spawn-object 'fork-1 :fork :pose '((-0.8 1.2 0.95) (0 0 0 1)))
                (btr-utils:spawn-object 'knife-2 :knife :pose '((-0.7 1.2 0.95) (0 0 0 1)))
                (defparameter *bottle* (seen :bottle))
-               (defparameter *fork* (seen :fork))");
+               (defparameter *fork* (seen :fork))",
+    );
     let cutting = |what: &str, keys: &str| {
         format!(
             "(let ((?bread *bread*) (?bottle *bottle*) (?fork *fork*) (?knife *knife*))
@@ -271,16 +285,31 @@ fn a_hand_holds_what_stands_there_until_it_opens() {
                         (?there (a location (reachable-for pr2) (object ?milk))))
                    (perform (an action (type navigating) (location ?there)))
                    (setf *milk* (perform (an action (type detecting) (object (an object (type milk))))))))");
-    let before = cook.session.simulation().world().object_pose("MILK-1").unwrap();
+    let before = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("MILK-1")
+        .unwrap();
     let said = cook.done("(with-simulated-robot (let ((?milk *milk*)) (perform (an action (type holding) (object ?milk)))))");
-    assert!(said.ends_with(":RIGHT\n") || said.ends_with(":LEFT\n"), "{said}");
-    let after = cook.session.simulation().world().object_pose("MILK-1").unwrap();
+    assert!(
+        said.ends_with(":RIGHT\n") || said.ends_with(":LEFT\n"),
+        "{said}"
+    );
+    let after = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("MILK-1")
+        .unwrap();
     let moved = (after.translation.vector - before.translation.vector).norm();
     assert!(moved < 0.005, "{moved} m");
     assert_eq!(cook.done("(not (pp-plans::holder-of 'milk-1))"), "NIL\n");
-    cook.done("(with-simulated-robot
+    cook.done(
+        "(with-simulated-robot
                  (let ((?hand (pp-plans::holder-of 'milk-1)))
-                   (perform (an action (type releasing) (gripper ?hand)))))");
+                   (perform (an action (type releasing) (gripper ?hand)))))",
+    );
     assert_eq!(cook.done("(pp-plans::holder-of 'milk-1)"), "NIL\n");
 }
 
@@ -313,15 +342,35 @@ fn a_bowl_is_stirred_without_being_touched() {
         &mixing("?bowl", "(tool ?sponge)"),
         "SPONGE-1 cannot be used for mixing",
     );
-    refused(&mut cook, "ERROR", &mixing("?bowl", "(tool ?whisk) (rounds 0)"), "between 1 and 99");
-    let before = cook.session.simulation().world().object_pose("BOWL-1").unwrap();
+    refused(
+        &mut cook,
+        "ERROR",
+        &mixing("?bowl", "(tool ?whisk) (rounds 0)"),
+        "between 1 and 99",
+    );
+    let before = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("BOWL-1")
+        .unwrap();
     cook.done(&format!(
         "(with-simulated-robot (defparameter *account* {}))",
         mixing("?bowl", "(tool ?whisk)")
     ));
     assert!(number(&mut cook, "(getf *account* :radius)") > 0.01);
-    assert!(number(&mut cook, "(max (getf *account* :peak) (getf *account* :aside))") < 5.0);
-    let after = cook.session.simulation().world().object_pose("BOWL-1").unwrap();
+    assert!(
+        number(
+            &mut cook,
+            "(max (getf *account* :peak) (getf *account* :aside))"
+        ) < 5.0
+    );
+    let after = cook
+        .session
+        .simulation()
+        .world()
+        .object_pose("BOWL-1")
+        .unwrap();
     let moved = (after.translation.vector - before.translation.vector).norm();
     assert!(moved < 0.005, "{moved} m");
 }

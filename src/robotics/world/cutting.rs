@@ -94,7 +94,11 @@ impl std::fmt::Display for NotCut {
             Self::Leans(_) => write!(f, "the blade leans to a side"),
             Self::Beside => write!(f, "the blade is beside it"),
             Self::NotThrough(above) => {
-                write!(f, "the blade is still {:.0} mm above its bottom", above * 1e3)
+                write!(
+                    f,
+                    "the blade is still {:.0} mm above its bottom",
+                    above * 1e3
+                )
             }
             Self::TooShort(out) => {
                 write!(f, "it sticks out {:.0} mm beyond the blade", out * 1e3)
@@ -134,10 +138,13 @@ impl Object {
     /// Its blade: the longest of its boxes that are thin. The edge is on the side to which the blade sticks out
     /// from the middle of the tool's frame, where it is held.
     pub fn blade(&self) -> Option<Blade> {
-        let boxes = self.shapes().iter().filter_map(|placed| match placed.shape {
-            Shape::Box { size } => Some((placed, size)),
-            _ => None,
-        });
+        let boxes = self
+            .shapes()
+            .iter()
+            .filter_map(|placed| match placed.shape {
+                Shape::Box { size } => Some((placed, size)),
+                _ => None,
+            });
         let sorted = boxes.filter_map(|(placed, size)| {
             let mut axes = [0, 1, 2];
             axes.sort_by(|a, b| size[*b].total_cmp(&size[*a]));
@@ -201,7 +208,12 @@ impl World {
 
     /// Parts a thing where the blade of a tool is. The pieces are the slice and the rest; a hand that held the
     /// whole holds the rest. Nothing changes if the blade is not all the way through.
-    pub fn cut(&mut self, tool: &str, food: &str, names: PieceNames<'_>) -> Result<[Piece; 2], NotCut> {
+    pub fn cut(
+        &mut self,
+        tool: &str,
+        food: &str,
+        names: PieceNames<'_>,
+    ) -> Result<[Piece; 2], NotCut> {
         let knife = self.object(tool)?;
         if knife.hold().is_none() {
             return Err(NotCut::NotHeld(tool.to_owned()));
@@ -263,15 +275,27 @@ impl World {
             None => usize::from(volumes[1] > volumes[0]),
         };
         let kinds = [0, 1].map(|side| {
-            let wanted = if side == rest { names.rest_type } else { names.slice_type };
-            let known = self.models.objects.get(wanted).map(|known| known.name.clone());
+            let wanted = if side == rest {
+                names.rest_type
+            } else {
+                names.slice_type
+            };
+            let known = self
+                .models
+                .objects
+                .get(wanted)
+                .map(|known| known.name.clone());
             known.unwrap_or_else(|| whole.type_name.clone())
         });
         let held = whole.attachment;
         self.remove(&whole.name)?;
         let mut pieces = Vec::new();
         for (side, (shapes, kind)) in split.sides.into_iter().zip(kinds).enumerate() {
-            let name = if side == rest { names.rest } else { names.slice };
+            let name = if side == rest {
+                names.rest
+            } else {
+                names.slice
+            };
             let solids = Solid::all(&shapes);
             let bounds = bounds_of(&solids).ok_or(NotCut::Shape)?;
             let middle = from_parry_vector(bounds.center());

@@ -142,7 +142,11 @@ fn across_axis(placed: &PlacedShape, plane: &Plane) -> Option<[Option<PlacedShap
         })
     });
     let [before, after] = made;
-    Some(if sign > 0.0 { [before, after] } else { [after, before] })
+    Some(if sign > 0.0 {
+        [before, after]
+    } else {
+        [after, before]
+    })
 }
 
 /// The convex hull of points.
@@ -160,9 +164,8 @@ fn corners_of(placed: &PlacedShape) -> Option<Vec<Vector>> {
         Shape::Box { size } => {
             let [x, y, z] = size.map(|s| s / 2.0);
             let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
-            let all = (0..8u32).map(|i| {
-                Vector::new(x * sign(i & 1), y * sign(i & 2), z * sign(i & 4))
-            });
+            let all =
+                (0..8u32).map(|i| Vector::new(x * sign(i & 1), y * sign(i & 2), z * sign(i & 4)));
             all.collect()
         }
         Shape::Cylinder { radius, length } => {
@@ -252,7 +255,12 @@ mod tests {
                 let share = (behind + before) / volume(&whole);
                 // But for the gap.
                 assert!((0.995..1.0).contains(&share), "{share}");
-                assert!(split.section.iter().all(|p| plane.distance(*p).abs() < 1e-9));
+                assert!(
+                    split
+                        .section
+                        .iter()
+                        .all(|p| plane.distance(*p).abs() < 1e-9)
+                );
             }
         }
     }

@@ -141,10 +141,7 @@ impl World {
 
     /// What the object has touched since that is noted; `None` if it is not.
     pub fn touches_of(&self, name: &str) -> Option<&Touches> {
-        self.state
-            .touches
-            .iter()
-            .find(|known| known.object == name)
+        self.state.touches.iter().find(|known| known.object == name)
     }
 
     /// Notes what has been touched in the last step.

@@ -54,7 +54,12 @@ fn blade(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
     done(object.blade().map_or(Value::NIL, |blade| {
         let [length, height] = blade.half.map(Value::Double);
         let directions = [blade.middle, blade.tip, blade.edge].map(point);
-        Value::list(directions.into_iter().chain([length, height]).collect::<Vec<_>>())
+        Value::list(
+            directions
+                .into_iter()
+                .chain([length, height])
+                .collect::<Vec<_>>(),
+        )
     }))
 }
 
@@ -81,7 +86,10 @@ fn cut(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result
         name.ok_or_else(|| Raise::type_error(value, known::SYMBOL))
     };
     let (slice, rest) = (named(&args[2])?, named(&args[4])?);
-    let (slice_type, rest_type) = (type_text_of(image, &args[3])?, type_text_of(image, &args[5])?);
+    let (slice_type, rest_type) = (
+        type_text_of(image, &args[3])?,
+        type_text_of(image, &args[5])?,
+    );
     for name in [&slice, &rest] {
         if *name != food && simulation.world.object(name).is_ok() {
             return done(Value::from(format!("there is a {name} already")));

@@ -121,7 +121,10 @@ fn untouched(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
     let touches = simulation.world.touches_of(&name);
     let mut left = Vec::new();
     for point in args[1].iter_list() {
-        let numbers: Vec<f64> = point.iter_list().filter_map(|n| number::to_f64(&n)).collect();
+        let numbers: Vec<f64> = point
+            .iter_list()
+            .filter_map(|n| number::to_f64(&n))
+            .collect();
         let Ok(at) = <[f64; 3]>::try_from(numbers) else {
             return Err(Raise::simple(format!(
                 "{} is no point: a list of x, y and z was expected.",
