@@ -49,6 +49,9 @@
 (grip (apple) :effort 50 :opening 0.109)
 (grip (orange) :effort 30 :opening 0.109)
 (grip (shoe) :effort 40 :opening 0.1)
+(grip (sponge) :effort 60 :opening 0.1)
+(grip (big-knife whisk) :effort 100 :opening 0.06)
+(grip (bread-slice weisswurst-slice apple-slice orange-slice) :effort 20 :opening 0.06)
 (grip (cap glasses glove) :effort 30 :opening 0.1)
 (grip (weisswurst spatula visualization-box) :effort 30 :opening 0.07)
 
@@ -62,6 +65,7 @@
 (order (tray) left-side right-side top top-front top-left top-right)
 (order (tray-base) front back left-side right-side)
 (order (bowl cutlery spoon fork knife spatula weisswurst glasses glove cap) top)
+(order (sponge big-knife whisk bread-slice weisswurst-slice apple-slice orange-slice) top)
 (order (cube) top top2 back front left-side right-side)
 (order (buttermilk) left-side right-side back front top)
 (order (mug) back front top top-left top-right)
@@ -366,6 +370,23 @@
        :lift (0 0 0.1) :second-lift (0 0 0.1))
 (grasp top :types (spatula) :arms (left right)
        :translation (0 0 -0.004) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; By its upper half, so that the fingers stay away from what is wiped.
+(grasp top :types (sponge) :arms (left right)
+       :translation (0 0 0.005) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (big-knife) :arms (left right)
+       :translation (0 -0.035 -0.004) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (whisk) :arms (left right)
+       :translation (0 -0.03 -0.002) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (bread-slice weisswurst-slice apple-slice orange-slice) :arms (left right)
+       :translation (0 0 0) :rotation top-across-y
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
 ; By its visor; the cap itself is too wide.

@@ -230,6 +230,39 @@
                     (0.09 (0.0235 0.002) 0.002 (0 0.001))
                     (0.1655 (0.0245 0.0014) 0.001 (0 0.004))))))
 
+; A sponge with a rough side.
+(object sponge
+ :surfaces
+  ((lofted :axis z :ends (0.003 0)
+         :sections ((-0.02 (0.055 0.0375) 0.008)
+                    (0.01 (0.055 0.0375) 0.008)))
+   (lofted :axis z :color (0.03 0.16 0.05) :ends (0 0.002)
+         :sections ((0.01 (0.055 0.0375) 0.008)
+                    (0.02 (0.055 0.0375) 0.008)))))
+
+; A whisk: a handle, and wires like the outline of a pear.
+(object whisk
+ :surfaces
+  ((lofted :axis y :ends (0.004 0.003)
+         :sections ((-0.08 (0.013 0.01) 0.009 (0 0))
+                    (0.05 (0.011 0.009) 0.008 (0 0))))
+   (turned :axis y :color steel
+         :line ((0 0.045) (0.006 0.05) (0.009 0.08) (0.013 0.12) (0.015 0.15) (0.012 0.17) (0.005 0.179) (0 0.18)))))
+
+; A knife with a broad blade.
+(object big-knife
+ :surfaces
+  ((lofted :axis y :ends (0.004 0.002)
+         :sections ((-0.08 (0.009 0.013) 0.007 (0 0))
+                    (-0.04 (0.01 0.015) 0.008 (0 0))
+                    (0.03 (0.0085 0.012) 0.007 (0 0))
+                    (0.05 (0.01 0.014) 0.006 (0 0))))
+   (lofted :axis y :color steel
+         :sections ((0.045 (0.0012 0.0285) 0.001 (-0.0088 0.0165))
+                    (0.2 (0.0012 0.0265) 0.001 (-0.0088 0.0145))
+                    (0.27 (0.001 0.017) 0.001 (-0.0088 0.0055))
+                    (0.3 (0.0008 0.003) 0.0005 (-0.0088 -0.007))))))
+
 ; Lying, slightly curved.
 (object weisswurst
  :surfaces

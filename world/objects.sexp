@@ -13,13 +13,20 @@
            fork knife spatula cap glasses glove shoe)
 
 ; Types and their kinds; an object of a kind may be used wherever its type is asked for.
-(kinds household-item kitchen-item clothing-item)
+(kinds household-item kitchen-item clothing-item wiping-tool stirring-tool)
 (kinds kitchen-item cutlery plate tray bottle cup milk cereal bowl open-box pot spatula)
 (kinds food bread weisswurst)
 (kinds cutlery knife fork spoon)
 (kinds cereal breakfast-cereal)
 (kinds cup mug)
 (kinds clothing-item shoe)
+(kinds wiping-tool sponge)
+(kinds knife big-knife)
+(kinds stirring-tool whisk)
+(kinds bread bread-slice)
+(kinds weisswurst weisswurst-slice)
+(kinds apple apple-slice)
+(kinds orange orange-slice)
 
 (object tray :mass 0.2 :color (0.5 0.5 0.5)
  :shapes
@@ -171,6 +178,44 @@
 (object bread :mass 0.2 :color (0.5 0.1 0)
  :shapes
   ((box :size (0.2622 0.0972 0.065) :at (0.003 -0.0006 0.0032))))
+
+; Standing on its edge, as it is cut off; so are the slices of what is round.
+(object bread-slice :mass 0.02 :color (0.5 0.1 0)
+ :shapes
+  ((box :size (0.02 0.0972 0.065))))
+
+(object weisswurst-slice :mass 0.03 :color (0.5 0.1 0)
+ :shapes
+  ((cylinder :radius 0.0158 :length 0.02 :rpy (0 1.5707963267948966 0))))
+
+(object apple-slice :mass 0.05 :color (0.5 0.5 0.5)
+ :shapes
+  ((cylinder :radius 0.035 :length 0.02 :rpy (0 1.5707963267948966 0))))
+
+(object orange-slice :mass 0.05 :color (0.5 0.5 0.5)
+ :shapes
+  ((cylinder :radius 0.033 :length 0.02 :rpy (0 1.5707963267948966 0))))
+
+; For wiping: full of water, with the soft side below.
+(object sponge :mass 0.3 :friction 0.4 :color (0.8 0.6 0.06)
+ :shapes
+  ((box :size (0.11 0.075 0.04))))
+
+(object cutting-board :mass 1.8 :friction 0.8 :color (0.45 0.24 0.09)
+ :shapes
+  ((box :size (0.4 0.28 0.04))))
+
+; Lying, its long axis along y, the wires at +y.
+(object whisk :mass 0.12 :color (0.06 0.06 0.065)
+ :shapes
+  ((box :size (0.024 0.13 0.03) :at (0 -0.015 0))
+   (cylinder :radius 0.015 :length 0.13 :at (0 0.115 0) :rpy (1.5707963267948966 0 0))))
+
+; Lying, its long axis along y and its edge at +x; the weight is in the handle.
+(object big-knife :mass 0.2 :color (0.06 0.06 0.065)
+ :shapes
+  ((box :size (0.03 0.13 0.02) :at (0 -0.015 0))
+   (box :size (0.057 0.25 0.0024) :at (0.0165 0.175 -0.0088))))
 
 (object open-box :mass 0.2 :color (0.5 0.5 0.5)
  :shapes

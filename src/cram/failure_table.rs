@@ -144,6 +144,20 @@ const COMMON: &[Failure] = &[
         &[slot("OBJECT", "OBJECT", "WRONG-TOOL-OBJECT")],
     ),
     failure(
+        "WIPING-INCOMPLETE",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[
+            // The share of the free part that was wiped, up to 1, and points of what was not.
+            slot("SHARE", "SHARE", "WIPING-FAILURE-SHARE"),
+            slot("MISSED", "MISSED", "WIPING-FAILURE-MISSED"),
+        ],
+    ),
+    failure(
+        "CUTTING-FAILED",
+        &["MANIPULATION-LOW-LEVEL-FAILURE"],
+        &[slot("REASON", "REASON", "CUTTING-FAILURE-REASON")],
+    ),
+    failure(
         "HANDOVER-FAILED",
         &["MANIPULATION-LOW-LEVEL-FAILURE"],
         // The arm that holds the object, or NIL.

@@ -37,6 +37,7 @@ mod searching;
 mod session_copies;
 mod spawning;
 mod speeds;
+mod surface_chores;
 mod surfaces;
 mod sweeps;
 mod systems;

@@ -80,6 +80,8 @@ const FURNITURE: Group = Group::GROUP_1;
 const OBJECT: Group = Group::GROUP_2;
 const ROBOT: Group = Group::GROUP_3;
 const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
+/// What is being cut: solid for all but the tool that cuts it.
+const BEING_CUT: Group = Group::GROUP_6;
 
 /// A body of the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -279,11 +281,42 @@ impl Physics {
                 let hand = HANDS.get(hand).copied();
                 hand.map_or(solid, |hand| solid.difference(hand))
             }
-            Robot::Absent => FURNITURE.union(OBJECT),
+            Robot::Absent => FURNITURE.union(OBJECT).union(BEING_CUT),
         };
         let groups = InteractionGroups::new(OBJECT, filter, InteractionTestMode::And);
         for collider in body.colliders() {
             if let Some(collider) = s.colliders.get_mut(*collider) {
+                collider.set_collision_groups(groups);
+            }
+        }
+    }
+
+    /// Lets an object pass through what is being cut, or no more.
+    pub(crate) fn let_pass(&mut self, tool: BodyHandle, passes: bool) {
+        self.regroup(tool, |groups| {
+            groups.filter = match passes {
+                true => groups.filter.difference(BEING_CUT),
+                false => groups.filter.union(BEING_CUT),
+            };
+        });
+    }
+
+    /// Makes an object one that is being cut, or no more.
+    pub(crate) fn be_cut(&mut self, food: BodyHandle, is_cut: bool) {
+        self.regroup(food, |groups| {
+            groups.memberships = if is_cut { BEING_CUT } else { OBJECT };
+        });
+    }
+
+    fn regroup(&mut self, body: BodyHandle, change: impl Fn(&mut InteractionGroups)) {
+        let s = self.edit();
+        let Some(body) = s.bodies.get(body.0) else {
+            return;
+        };
+        for collider in body.colliders() {
+            if let Some(collider) = s.colliders.get_mut(*collider) {
+                let mut groups = collider.collision_groups();
+                change(&mut groups);
                 collider.set_collision_groups(groups);
             }
         }
@@ -574,9 +607,9 @@ impl Sets {
 fn groups(kind: BodyKind, surface: Surface) -> InteractionGroups {
     let (own, others) = match kind {
         BodyKind::Static | BodyKind::MovingFurniture | BodyKind::Fixed { .. } => {
-            (FURNITURE, OBJECT)
+            (FURNITURE, OBJECT.union(BEING_CUT))
         }
-        BodyKind::Robot => (robot_group(surface), OBJECT),
+        BodyKind::Robot => (robot_group(surface), OBJECT.union(BEING_CUT)),
         BodyKind::Object { .. } => (OBJECT, solid_for_objects()),
     };
     InteractionGroups::new(own, others, InteractionTestMode::And)
@@ -595,6 +628,7 @@ fn solid_for_objects() -> Group {
     let [left, right] = HANDS;
     FURNITURE
         .union(OBJECT)
+        .union(BEING_CUT)
         .union(ROBOT)
         .union(left)
         .union(right)

@@ -18,6 +18,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::content::Content;
+use super::cutting::Cut;
 use super::error::WorldError;
 use super::explored_floor::ExploredFloor;
 use super::handle_hold::{HandleHold, HandleSlip};
@@ -33,6 +34,7 @@ use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
 use super::tilt::Tilt;
+use super::touches::Touches;
 use crate::robot::{JointPositions, LinkId};
 use closest_name::closest_name;
 use spatial::Pose;
@@ -75,6 +77,10 @@ pub(super) struct State {
     pub(super) handle_slips: Vec<HandleSlip>,
     /// Errors of sensors and motors, if there are any.
     pub(super) noise: Option<Noise>,
+    /// What things have touched for which that is noted.
+    pub(super) touches: Vec<Touches>,
+    /// Tools that pass through what they cut.
+    pub(super) cuts: Vec<Cut>,
 }
 
 impl World {
@@ -143,6 +149,8 @@ impl World {
                 handles: Vec::new(),
                 handle_slips: Vec::new(),
                 noise: None,
+                touches: Vec::new(),
+                cuts: Vec::new(),
             },
             robot_bodies,
             kitchen_bodies,
@@ -198,6 +206,7 @@ impl World {
         self.physics.step();
         self.watch_holds();
         self.pour();
+        self.note_touches();
         self.state.steps += 1;
     }
 
@@ -377,6 +386,12 @@ impl World {
         }
         if let Some(noise) = &self.state.noise {
             noise.hash_into(&mut hasher);
+        }
+        for touches in &self.state.touches {
+            touches.hash_into(&mut hasher);
+        }
+        for cut in &self.state.cuts {
+            cut.hash_into(&mut hasher);
         }
         hasher.finish()
     }

@@ -135,6 +135,28 @@ impl World {
             return self.move_object(name, pose);
         }
         self.check_place(name, pose)?;
+        check_mass(name, kind.mass)?;
+        let solids = Solid::all(&kind.shapes);
+        let Some(bounds) = bounds_of(&solids) else {
+            return Err(WorldError::NoSolid {
+                type_name: kind.name.clone(),
+            });
+        };
+        let number = self.state.next_number;
+        let key = PartKey::Object(number);
+        let mut report = self.find_place(key, &solids, &bounds, pose);
+        report.is_new = true;
+        self.insert(name, kind, &report.pose)?;
+        Ok(report)
+    }
+
+    /// Adds an object of a kind exactly at a pose, whatever is there.
+    pub(super) fn insert(
+        &mut self,
+        name: &str,
+        kind: &ObjectType,
+        pose: &Pose,
+    ) -> Result<(), WorldError> {
         let (mass, friction) = (kind.mass, kind.friction);
         check_mass(name, mass)?;
         let solids = Solid::all(&kind.shapes);
@@ -146,15 +168,13 @@ impl World {
         let number = self.state.next_number;
         self.state.next_number += 1;
         let key = PartKey::Object(number);
-        let mut report = self.find_place(key, &solids, &bounds, pose);
-        report.is_new = true;
         let parts: Vec<_> = solids
             .iter()
             .map(|s| (s.clone(), key.code(), Surface::Plain))
             .collect();
         let body = self
             .physics
-            .add_body(BodyKind::Object { mass, friction }, &report.pose, &parts);
+            .add_body(BodyKind::Object { mass, friction }, pose, &parts);
         self.state.objects.insert(
             name.to_owned(),
             Object {
@@ -177,7 +197,7 @@ impl World {
                 cavity: std::sync::OnceLock::new(),
             },
         );
-        Ok(report)
+        Ok(())
     }
 
     /// Gives the object another colour or mass (kg).

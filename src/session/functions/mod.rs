@@ -5,6 +5,7 @@ mod carrying;
 mod choosing;
 mod containers;
 mod contents;
+mod cutting;
 mod explaining;
 mod grasps;
 mod kitchens;
@@ -34,6 +35,7 @@ mod sweep_things;
 mod sweeps;
 mod tables;
 mod timeline;
+mod touches;
 mod tutorial;
 mod watching;
 

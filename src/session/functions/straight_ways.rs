@@ -17,7 +17,7 @@ use lisp::value::raise::Raise;
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{WayBegin, can_stand, straight_way};
 use robotics::robot::{ArmPositions, Side};
-use robotics::world::World;
+use robotics::world::{BodyName, World};
 use spatial::{Pose, pose};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -25,8 +25,8 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// Builtins of package `CRAM-BULLET-REASONING`.
 pub(super) static TABLE: &[Builtin] = &[control(
     "%STRAIGHT-WAY",
-    "arm ways &key base-pose posture begin object",
-    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given.",
+    "arm ways &key base-pose posture begin object through",
+    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
     &[
         "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
     ],
@@ -39,8 +39,13 @@ fn straight_hand_way(
     args: &[Value],
 ) -> Result<Reply> {
     let side = side(image, &args[0])?;
-    let keys = ["BASE-POSE", "POSTURE", "BEGIN", "OBJECT"].map(|name| image.keyword(name));
-    let [base, posture, begin, object] = keywords::parse(image, &args[2..], keys)?;
+    let keys = ["BASE-POSE", "POSTURE", "BEGIN", "OBJECT", "THROUGH"];
+    let keys = keys.map(|name| image.keyword(name));
+    let [base, posture, begin, object, through] = keywords::parse(image, &args[2..], keys)?;
+    let mut passed = Vec::new();
+    for name in through.iter().flat_map(Value::iter_list) {
+        passed.push(BodyName::Object(simulation.object_named(image, &name)?));
+    }
     let begin = begin.and_then(|begin| name_text(image, &begin));
     let begin = match begin.as_deref() {
         Some("HERE") => WayBegin::Here,
@@ -78,7 +83,7 @@ fn straight_hand_way(
             let way: Vec<_> = way.iter().map(|pose| in_base * pose).collect();
             Some((
                 number,
-                straight_way(world, side, &way, begin, object.as_deref())?,
+                straight_way(world, side, &way, begin, object.as_deref(), &passed)?,
             ))
         })
     });

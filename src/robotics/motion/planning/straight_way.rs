@@ -6,8 +6,9 @@ use super::configuration_checker::ConfigurationChecker;
 use super::planning_group::PlanningGroup;
 use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
+use crate::motion::contact::holding::held_objects;
 use crate::robot::Side;
-use crate::world::World;
+use crate::world::{BodyName, World};
 use spatial::Pose;
 
 /// How many postures at the first pose are tried at each height of the torso.
@@ -34,25 +35,31 @@ pub enum WayBegin {
 }
 
 /// Where a hand can begin to move straight through poses, which are in the frame of the base, while the
-/// robot and what it holds touch nothing, but the hand the object, if one is named. If it begins where the
-/// hand is, a line leads to the first pose; else the best posture at the first pose is taken. The torso stays
-/// at one height.
+/// robot and what it holds touch nothing, but the hand the object, if one is named, and what it holds the
+/// bodies through which it goes. If it begins where the hand is, a line leads to the first pose; else the best
+/// posture at the first pose is taken. The torso stays at one height.
 pub fn straight_way(
     world: &World,
     side: Side,
     poses: &[Pose],
     begin: WayBegin,
     object: Option<&str>,
+    through: &[BodyName],
 ) -> Option<WayStart> {
     let first = *poses.first()?;
     let mode = match object {
         Some(_) => CollisionMode::AllowHand,
         None => CollisionMode::AvoidAll,
     };
+    let mut contacts = ExpectedContacts::of(world, [side].into_iter(), mode, object);
+    for held in held_objects(world, side).into_iter().map(BodyName::Object) {
+        let through = through.iter().cloned();
+        contacts.allowed = contacts.allowed.and_all(through, &held);
+    }
     let task = PoseGoalTask {
         world,
         goals: vec![(side, first)],
-        contacts: ExpectedContacts::of(world, [side].into_iter(), mode, object),
+        contacts,
     };
     let heights = match begin {
         WayBegin::AtAnyHeight => task.heights(REASON_STEP),

@@ -20,7 +20,70 @@ pub(crate) struct RawContact {
     pub at: Vector3<f64>,
 }
 
+/// Gap (m) up to which a point counts as touching.
+const TOUCHING: f64 = 0.0005;
+/// The least vertical part of the normal of a level contact.
+const LEVEL: f64 = 0.98;
+
+/// A point at which a body touches another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TouchPoint {
+    /// Key of the other body's part.
+    pub other: u64,
+    /// Where it is (m, map frame).
+    pub at: Vector3<f64>,
+    /// The normal force on the body (N), averaged over the last step.
+    pub push: Vector3<f64>,
+    /// Whether the other body is below it there, and level.
+    pub is_level: bool,
+}
+
 impl Physics {
+    /// Calls `visit` for every point at which the body touched another one in the last step, in the order of
+    /// the body's parts.
+    pub(crate) fn visit_touch_points(&self, body: BodyHandle, mut visit: impl FnMut(TouchPoint)) {
+        let Some(body) = self.sets.bodies.get(body.0) else {
+            return;
+        };
+        for &own in body.colliders() {
+            for pair in self.sets.narrow_phase.contact_pairs_with(own) {
+                let (other, sign) = if pair.collider1 == own {
+                    (pair.collider2, -1.0)
+                } else {
+                    (pair.collider1, 1.0)
+                };
+                let other = self.sets.colliders.get(other);
+                let place = self.sets.colliders.get(pair.collider1);
+                let (Some(other), Some(place)) = (other, place) else {
+                    continue;
+                };
+                let (Ok(other), place) = (u64::try_from(other.user_data), place.position()) else {
+                    continue;
+                };
+                for manifold in pair.solver_manifolds() {
+                    let normal = from_parry_vector(manifold.data.normal) * sign;
+                    for contact in &manifold.data.solver_contacts {
+                        for index in contact.contact_indices() {
+                            let index = usize::try_from(index).ok();
+                            let Some(point) = index.and_then(|i| manifold.points.get(i)) else {
+                                continue;
+                            };
+                            let impulse = point.data.impulse;
+                            if impulse > 0.0 || point.dist < TOUCHING {
+                                visit(TouchPoint {
+                                    other,
+                                    at: from_parry_vector(place * point.local_p1),
+                                    push: normal * (impulse / STEP_SECONDS),
+                                    is_level: normal.z > LEVEL,
+                                });
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// Calls `visit` for every contact of the body that carried load in the last step, in the
     /// order of the body's parts: those for whose two keys, the body's own first, `counts` is true.
     /// Finding out the force takes long, that is for no other contacts.
