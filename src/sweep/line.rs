@@ -55,6 +55,9 @@ impl Field<'_> {
 /// An object in a line, in the order in which it is written.
 pub(crate) struct Line<'a>(Vec<(Cow<'a, str>, Field<'a>)>);
 
+/// What is done with a row: the name of its relation, and its columns.
+pub(crate) type TakeRow<'t> = dyn FnMut(&str, Vec<(&str, Field<'_>)>) + 't;
+
 /// A name, which need not be copied if nothing in it is escaped.
 struct Name<'a>(Cow<'a, str>);
 
@@ -85,11 +88,7 @@ impl<'a> Line<'a> {
     }
 
     /// Hands the rows that it becomes to a function, each with the name of its relation.
-    pub(crate) fn rows(
-        mut self,
-        relation: &str,
-        take: &mut dyn FnMut(&str, Vec<(&str, Field<'_>)>),
-    ) {
+    pub(crate) fn rows(mut self, relation: &str, take: &mut TakeRow<'_>) {
         if let Some(world) = self.get("world").filter(|_| self.get("outcome").is_some()) {
             return self.rows_of_record(world, take);
         }
@@ -108,11 +107,7 @@ impl<'a> Line<'a> {
         take(relation, names.zip(fields).collect());
     }
 
-    fn rows_of_record(
-        &self,
-        world: &Field<'_>,
-        take: &mut dyn FnMut(&str, Vec<(&str, Field<'_>)>),
-    ) {
+    fn rows_of_record(&self, world: &Field<'_>, take: &mut TakeRow<'_>) {
         let run = || ("run", world.clone());
         let single = self
             .0

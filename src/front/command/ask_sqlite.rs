@@ -192,7 +192,7 @@ fn add_recording(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), C
         path: input.to_owned(),
         error,
     })?;
-    let episode = read_episode(&bytes, Wanted::All).map_err(|error| wrong(input, error))?;
+    let episode = read_episode(&bytes, Wanted::ALL).map_err(|error| wrong(input, error))?;
     if episode.is_cut_off {
         let text = "WARNING: {} ends abruptly: what came after that is not known.";
         // If standard error is closed, nobody wants to know.

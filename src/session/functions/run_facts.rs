@@ -39,8 +39,8 @@ pub(super) static TABLE: &[Builtin] = &[
     ),
     control(
         "%ADD-RECORDING",
-        "file &optional places",
-        "Adds what was performed in a recording, an MCAP file, to relations; if PLACES, also where objects and the robot were. Returns whether the file is whole.",
+        "file &optional relations",
+        "Adds what a recording, an MCAP file, says of relations, a list of their names, or else of all. Returns whether the file is whole.",
         &[],
         host!(add_recording),
     ),
@@ -122,9 +122,13 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let file = name_of(image, &args[0]);
     let bytes = image.files.read(&file);
     let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
-    let wanted = match args.get(1).is_some_and(Value::is_true) {
-        true => Wanted::All,
-        false => Wanted::Performed,
+    let names = args.get(1).into_iter().flat_map(Value::iter_list);
+    let names: Vec<String> = names
+        .map(|name| name_of(image, &name).to_lowercase())
+        .collect();
+    let wanted = match names.is_empty() {
+        true => Wanted::ALL,
+        false => Wanted::of(|name| names.iter().any(|other| other == name)),
     };
     let episode = read_episode(&bytes, wanted).map_err(|error| Raise::simple(error.to_string()))?;
     let facts = Rc::make_mut(&mut simulation.facts);

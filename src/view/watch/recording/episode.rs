@@ -22,13 +22,38 @@ pub struct Episode {
     pub is_cut_off: bool,
 }
 
-/// Which relations are wanted of a recording.
+/// Which relations are wanted of a recording: what is not is passed over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
-    /// What was performed and what happened: `task`, `param`, `failure`, `event`, `contact` and `log`.
-    Performed,
-    /// Also where objects and the robot were: `object` and `robot`.
-    All,
+pub struct Wanted {
+    /// What was performed: `task`, `param` and `failure`.
+    pub tasks: bool,
+    /// What happened: `event` and `contact`.
+    pub events: bool,
+    /// What was said: `log`.
+    pub log: bool,
+    /// Where objects and the robot were: `object` and `robot`.
+    pub places: bool,
+}
+
+impl Wanted {
+    /// All of them.
+    pub const ALL: Wanted = Wanted {
+        tasks: true,
+        events: true,
+        log: true,
+        places: true,
+    };
+
+    /// Those for which a test of their names holds.
+    pub fn of(is_wanted: impl Fn(&str) -> bool) -> Wanted {
+        let any = |names: &[&str]| names.iter().any(|name| is_wanted(name));
+        Wanted {
+            tasks: any(&["task", "param", "failure"]),
+            events: any(&["event", "contact"]),
+            log: any(&["log"]),
+            places: any(&["object", "robot"]),
+        }
+    }
 }
 
 /// Reads the relations of a recording's bytes.
@@ -42,8 +67,10 @@ fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
     let mut places = Places::default();
     let mut last_shown = Vec::new();
     let is_wanted = |channel| match channel {
-        Channel::Tasks | Channel::Shown | Channel::Log => true,
-        Channel::Transforms | Channel::Objects => wanted == Wanted::All,
+        Channel::Tasks => wanted.tasks || wanted.places,
+        Channel::Shown => wanted.events || wanted.places,
+        Channel::Log => wanted.log,
+        Channel::Transforms | Channel::Objects => wanted.places,
         _ => false,
     };
     let walked = walk(bytes, &is_wanted, &mut |message| {
@@ -340,7 +367,7 @@ mod tests {
     #[test]
     fn what_is_no_recording_is_refused() {
         for bytes in [&b""[..], b"hello", b"\x89MCAP0\r\n", &[0; 4096]] {
-            assert!(read_episode(bytes, Wanted::All).is_err(), "{bytes:?}");
+            assert!(read_episode(bytes, Wanted::ALL).is_err(), "{bytes:?}");
         }
     }
 }
