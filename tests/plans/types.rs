@@ -184,7 +184,13 @@ fn walk(class: Class) {
         assert!(row.example.is_some(), "{} has no example", row.name);
         let holds = matches!(
             &*row.name,
-            "GRIPPING" | "PICKING-UP" | "PLACING" | "FETCHING" | "DELIVERING" | "TRANSPORTING"
+            "GRIPPING"
+                | "PICKING-UP"
+                | "HOLDING"
+                | "PLACING"
+                | "FETCHING"
+                | "DELIVERING"
+                | "TRANSPORTING"
         );
         let mut table = Table::new();
         for (index, designator) in designators(row).into_iter().enumerate() {

@@ -83,7 +83,14 @@ impl Looks {
                 match looks.filter(|(edition, _)| *edition == object.edition()) {
                     Some((_, looks)) => add_object(object, looks, &pose, &mut bodies),
                     // Of a type for which these looks were not made.
-                    None => bodies.extend(object_scene(object).bodies),
+                    None => {
+                        let looks = Appearances::built_in().of_object(
+                            object.type_name(),
+                            object.shapes(),
+                            object.looks(),
+                        );
+                        add_object(object, &looks, &pose, &mut bodies);
+                    }
                 }
             }
         }
