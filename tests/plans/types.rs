@@ -32,6 +32,7 @@ const VARIABLES: &str = "
     (?pose (make-pose \"map\" '((-1.447 0 0) (0 0 -0.7071 0.7071))))
     (?hand-pose (make-pose \"base_footprint\" '((0.55 0.35 1.1) (0 0 0 1))))
     (?hand-poses (list ?hand-pose))
+    (?times '(5)) (?positions '(0.29)) (?velocities '(0))
     (?left-configuration '(0.9 0.3 1.2 -1.6 0.9 -1.2 0.3))
     (?right-configuration '(-0.9 0.3 -1.2 -1.6 -0.9 -1.2 -0.3))";
 
@@ -117,6 +118,9 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Text, "FRAME") => "\"l_gripper_tool_frame\"",
         (Kind::List | Kind::Anything, "LEFT-CONFIGURATION") => "?left-configuration",
         (Kind::List | Kind::Anything, "RIGHT-CONFIGURATION") => "?right-configuration",
+        (Kind::List, "TIMES") => "?times",
+        (Kind::List, "POSITIONS") => "?positions",
+        (Kind::List, "VELOCITIES") => "?velocities",
         (Kind::Poses, _) => "?hand-poses",
         (kind, name) => panic!("{}: what is a value of {name}, {kind:?}?", row.name),
     };

@@ -350,10 +350,10 @@ impl Goals<'_> {
                 continue;
             }
             match &term {
-                Value::Symbol(sym, ..) if self.is_variable(*sym) => {
-                    if self.image.name(*sym) != "?_" {
-                        self.bound.insert(*sym);
-                    }
+                Value::Symbol(sym, ..)
+                    if self.is_variable(*sym) && self.image.name(*sym) != "?_" =>
+                {
+                    self.bound.insert(*sym);
                 }
                 Value::Cons(cons) => pending.extend([cons.car(), cons.cdr()]),
                 _ => {}

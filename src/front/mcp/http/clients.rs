@@ -96,10 +96,10 @@ impl<O: Fn() -> Result<World, String> + Clone + Send + 'static> Clients<O> {
         let (open, name) = (self.open.clone(), random_word());
         let named = name.clone();
         let thread = thread::Builder::new().name("mcp-client".to_owned());
-        match thread.spawn(move || serve(&open, &named, job, &jobs)) {
-            Ok(_) => self.all.push(Client { name, jobs: to }),
-            // The job has gone with its thread: the connection learns that there is no answer.
-            Err(_) => {}
+        let begun = thread.spawn(move || serve(&open, &named, job, &jobs));
+        // Otherwise the job has gone with its thread: the connection learns that there is no answer.
+        if begun.is_ok() {
+            self.all.push(Client { name, jobs: to });
         }
     }
 }

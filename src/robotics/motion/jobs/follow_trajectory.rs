@@ -98,7 +98,7 @@ impl<const IS_TORSO: bool> TimedGoal<IS_TORSO> {
     }
 
     /// The points from where the joints are, with continuous joints unwound.
-    fn from_here(
+    fn starting_here(
         &self,
         joints: &[&Joint],
         now: &[f64],
@@ -174,7 +174,7 @@ impl<const IS_TORSO: bool> JointGoal for TimedGoal<IS_TORSO> {
         let joints: Vec<&Joint> = ids.iter().map(|id| tree.joint(*id)).collect();
         let configuration = &world.robot_configuration().joints;
         let now: Vec<f64> = ids.iter().map(|id| configuration.get(*id)).collect();
-        let points = self.from_here(&joints, &now)?;
+        let points = self.starting_here(&joints, &now)?;
         let (samples, step) = sampled(&points);
         let limit = |id: &JointId| {
             let speed = body.speed(*id).velocity;
