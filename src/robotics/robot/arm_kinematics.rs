@@ -109,6 +109,14 @@ impl ArmKinematics {
         }
     }
 
+    /// Whether it is certain, and soon found, that there is no solution.
+    pub(super) fn surely_misses(&self, wrist: &Pose) -> bool {
+        match &self.solver {
+            Solver::ClosedForm(solver) => !solver.reaches(wrist),
+            Solver::Numeric(_) => false,
+        }
+    }
+
     /// A solution near `seed`: continuous joints are within half a turn of the seed. If there is no
     /// solution, or none was found, the error says why.
     pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {

@@ -114,10 +114,28 @@ impl<'a> TorsoSearch<'a> {
         Ok(Reach { torso: height, arm })
     }
 
+    /// As [`Self::reach`], without a reason if there is none, which takes much longer to find.
+    pub fn any_reach(&self, wrist: &Pose) -> Option<Reach> {
+        let mut heights = self.heights().into_iter();
+        heights.find_map(|height| {
+            let is_missed = self
+                .arm
+                .kinematics
+                .surely_misses(&self.in_arm_base(wrist, height));
+            match is_missed {
+                true => None,
+                false => self.reach_at(wrist, height).ok(),
+            }
+        })
+    }
+
     /// The reach whose height is nearest to the current one; `wrist` is given in the
     /// robot's frame on the floor. If no height works, the reason is that of the height
     /// that comes nearest to reaching it.
     pub fn reach(&self, wrist: &Pose) -> Result<Reach, Unreachable> {
+        if let Some(reach) = self.any_reach(wrist) {
+            return Ok(reach);
+        }
         let mut nearest: Option<Unreachable> = None;
         for height in self.heights() {
             match self.reach_at(wrist, height) {

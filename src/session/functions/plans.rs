@@ -292,7 +292,7 @@ impl Simulation {
         let search = description.torso_search(&self.models.robot, joints, arm);
         poses.iter().all(|tool| {
             let wrist = description.arm(arm).wrist_for_tool(tool);
-            search.reach(&wrist).is_ok()
+            search.any_reach(&wrist).is_some()
         })
     }
 }
