@@ -114,8 +114,16 @@ fn another_robot_takes_the_place_of_the_first_and_goes_again() {
     let said = cook.done("(rewind) (list (rob-int::robot-name) (pp-plans::objects-in-hand :left))");
     assert_eq!(said.trim().lines().last(), Some("(:PR2 NIL)"));
     assert!(cook.session.simulation().world().object("BOTTLE-1").is_ok());
-    let (report, _) = cook.say("(use-robot :fitch)").expect_err("there is none");
-    assert!(report.contains("it has :PR2, :FETCH, :HSR"), "{report}");
+    for (name, said) in [
+        (":fitch", "did you mean :FETCH?"),
+        (":hrs", "did you mean :HSR?"),
+        (":toaster", "it has :PR2, :FETCH, :HSR"),
+    ] {
+        let (report, _) = cook
+            .say(&format!("(use-robot {name})"))
+            .expect_err("there is none");
+        assert!(report.contains(said), "{report}");
+    }
 }
 
 #[test]

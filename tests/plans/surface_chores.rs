@@ -130,9 +130,9 @@ fn wiping_is_refused_before_the_first_motion() {
     );
     refused(
         &mut cook,
-        "ERROR",
+        "DESIGNATOR-REFERENCE-FAILURE",
         "(let ((?sponge *sponge*)) (perform (an action (type wiping) (tool ?sponge))))",
-        "a surface, a pose, or both are missing",
+        "The action WIPING needs one of surface, pose.",
     );
     cook.done("(with-simulated-robot (let ((?sponge *sponge*)) (perform (an action (type fetching) (object ?sponge)))))");
     // Nobody reaches there.

@@ -32,6 +32,7 @@ const VARIABLES: &str = "
     (?pose (make-pose \"map\" '((-1.447 0 0) (0 0 -0.7071 0.7071))))
     (?hand-pose (make-pose \"base_footprint\" '((0.55 0.35 1.1) (0 0 0 1))))
     (?hand-poses (list ?hand-pose))
+    (?spot (make-pose \"map\" '((-1.3 -0.85 0.83) (0 0 0 1))))
     (?times '(5)) (?positions '(0.29)) (?velocities '(0))
     (?left-configuration '(0.9 0.3 1.2 -1.6 0.9 -1.2 0.3))
     (?right-configuration '(-0.9 0.3 -1.2 -1.6 -0.9 -1.2 -0.3))";
@@ -77,6 +78,8 @@ impl Table {
 fn value(row: &TypeRow, key: &Key, written: &str) -> String {
     let pose = match (row.class, &*row.name) {
         (Class::Motion, "MOVING-TCP" | "PUTTING") => "?hand-pose",
+        // Elsewhere many places to stand are tried.
+        (Class::Action, "DELIVERING" | "TRANSPORTING") if &*key.name == "TARGET" => "?spot",
         _ => "?pose",
     };
     let text = match (&key.kind, &*key.name) {
