@@ -1,9 +1,8 @@
 //! Following a trajectory that somebody else has planned.
 
 use super::{ArgumentError, ArgumentKind, Arguments, Command, MotionKey, MotionType};
-use crate::motion::jobs::follow_trajectory::{FollowArm, FollowTorso};
+use crate::motion::jobs::follow_trajectory::{FollowArm, FollowTorso, points_of_rows};
 use crate::motion::jobs::job::Motion;
-use crate::motion::trajectories::timed_path::TimedPoint;
 use crate::robot::Side;
 
 /// Moves an arm, or the torso, along a trajectory.
@@ -11,7 +10,12 @@ use crate::robot::Side;
 pub struct FollowingTrajectory {
     /// The arm; without one, it is the torso that moves.
     side: Option<Side>,
-    points: Vec<TimedPoint>,
+    /// When (s) the points are to be reached.
+    times: Vec<f64>,
+    /// The positions (rad or m) of all joints at the first point, then those at the second one, and so on.
+    positions: Vec<f64>,
+    /// Their velocities (rad/s or m/s) likewise.
+    velocities: Option<Vec<f64>>,
 }
 
 impl Command for FollowingTrajectory {
@@ -55,29 +59,19 @@ impl Command for FollowingTrajectory {
             let given = arguments.numbers(key);
             given.ok_or(ArgumentError::Missing(key))
         };
-        let (times, positions) = (numbers("TIMES")?, numbers("POSITIONS")?);
-        let velocities = arguments.numbers("VELOCITIES");
-        let row = |numbers: &[f64], number: usize| {
-            // Each point gets its share; a remainder makes the rows too long, which is refused.
-            let width = numbers.len().div_ceil(times.len().max(1)).max(1);
-            let row = numbers.chunks(width).nth(number);
-            row.map(<[f64]>::to_vec).unwrap_or_default()
-        };
-        let points = times.iter().enumerate().map(|(number, time)| TimedPoint {
-            time: *time,
-            positions: row(&positions, number),
-            velocities: velocities.as_deref().map(|all| row(all, number)),
-        });
         Ok(Self {
             side: arguments.side("ARM").ok(),
-            points: points.collect(),
+            times: numbers("TIMES")?,
+            positions: numbers("POSITIONS")?,
+            velocities: arguments.numbers("VELOCITIES"),
         })
     }
 
     fn job(self) -> Box<dyn Motion> {
+        let points = points_of_rows(&self.times, &self.positions, self.velocities.as_deref());
         match self.side {
-            Some(side) => Box::new(FollowArm::new(side, self.points)),
-            None => Box::new(FollowTorso::new(self.points)),
+            Some(side) => Box::new(FollowArm::new(side, points)),
+            None => Box::new(FollowTorso::new(points)),
         }
     }
 }

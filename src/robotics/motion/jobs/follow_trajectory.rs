@@ -25,6 +25,26 @@ const MAX_SECONDS: f64 = 600.0;
 /// A velocity (rad/s or m/s) below this is rest.
 const REST: f64 = 1e-3;
 
+/// Points at some times (s), of whose numbers, one row after the other, each has an equal share. A remainder makes rows too long,
+/// which is refused later.
+pub(crate) fn points_of_rows(
+    times: &[f64],
+    positions: &[f64],
+    velocities: Option<&[f64]>,
+) -> Vec<TimedPoint> {
+    let row = |numbers: &[f64], number: usize| {
+        let width = numbers.len().div_ceil(times.len().max(1)).max(1);
+        let row = numbers.chunks(width).nth(number);
+        row.map(<[f64]>::to_vec).unwrap_or_default()
+    };
+    let points = times.iter().enumerate().map(|(number, time)| TimedPoint {
+        time: *time,
+        positions: row(positions, number),
+        velocities: velocities.map(|all| row(all, number)),
+    });
+    points.collect()
+}
+
 /// A trajectory of an arm's joints, from the shoulder to the wrist, or of the torso's.
 #[derive(Clone, Debug)]
 pub(crate) struct TimedGoal<const IS_TORSO: bool> {
