@@ -146,13 +146,8 @@ fn what_cannot_be_asked_is_told() {
     );
 }
 
-#[test]
-fn recordings_answer_goals_and_damaged_ones_say_what_is_wrong() {
-    let path = std::env::temp_dir().join(format!("planwright-ask-{}.mcap", std::process::id()));
-    let plan = File::new(
-        "record.plan",
-        "(in-package :pp-tut) (with-simulated-robot (perform (an action (type moving-torso) (joint-angle upper-limit))))",
-    );
+/// The recording of a plan.
+fn recorded(path: PathBuf, plan: &File) -> File {
     let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
         .args(["run", "--record"])
         .arg(&path)
@@ -160,7 +155,17 @@ fn recordings_answer_goals_and_damaged_ones_say_what_is_wrong() {
         .output()
         .expect("the program runs");
     assert!(done.status.success(), "{done:?}");
-    let recording = File(path);
+    File(path)
+}
+
+#[test]
+fn recordings_answer_goals_and_damaged_ones_say_what_is_wrong() {
+    let path = std::env::temp_dir().join(format!("planwright-ask-{}.mcap", std::process::id()));
+    let plan = File::new(
+        "record.plan",
+        "(in-package :pp-tut) (with-simulated-robot (perform (an action (type moving-torso) (joint-angle upper-limit))))",
+    );
+    let recording = recorded(path, &plan);
     assert_eq!(
         recording.answers(&["(fact task :kind :performed :type ?type :status ?status)"]),
         "type          status\nmoving-torso  succeeded\nmoving-torso  succeeded\n"
@@ -284,6 +289,34 @@ fn an_sqlite_file_that_cannot_be_written_leaves_nothing() {
     assert!(!path.exists() && !PathBuf::from(format!("{file}.part")).exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing_of_an_sqlite_file() {
+    let pipe = fresh("endless.jsonl");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.expect("mkfifo runs").success());
+    let pipe = File(pipe);
+    let path = fresh("interrupted.db");
+    let unfinished = PathBuf::from(format!("{}.part", path.display()));
+    let mut asking = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .arg("ask")
+        .arg(&pipe.0)
+        .arg("--sqlite")
+        .arg(&path)
+        .spawn()
+        .expect("the program runs");
+    // It opens once the program reads, and more never comes.
+    let writer = std::fs::File::options().write(true).open(&pipe.0);
+    let _writer = writer.expect("it is read");
+    assert!(unfinished.exists());
+    let mut sent = Command::new("kill");
+    let sent = sent.args(["-INT", &asking.id().to_string()]).status();
+    assert!(sent.expect("kill runs").success());
+    let ended = asking.wait().expect("it ends");
+    assert_eq!(ended.code(), Some(130));
+    assert!(!path.exists() && !unfinished.exists());
+}
+
 #[test]
 fn a_session_writes_its_own_episode_and_what_it_has_read() {
     let records = File::new("read.jsonl", RECORDS);
@@ -329,14 +362,7 @@ fn a_recording_tells_where_things_were_when_it_is_asked_for_that() {
                                                                   (urdf-name sink-area-surface)
                                                                   (part-of kitchen))))))))",
     );
-    let done = Command::new(env!("CARGO_BIN_EXE_planwright"))
-        .args(["run", "--record"])
-        .arg(&path)
-        .arg(&plan.0)
-        .output()
-        .expect("the program runs");
-    assert!(done.status.success(), "{done:?}");
-    let recording = File(path);
+    let recording = recorded(path, &plan);
     let rows = recording.answers(&[
         "(fact object :object ?o :type ?type :on ?on :in-hand ?hand)",
         "--count",

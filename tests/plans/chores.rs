@@ -33,9 +33,10 @@ fn at_island() -> Cook {
     cook
 }
 
-fn number(cook: &mut Cook, form: &str) -> f64 {
+/// The number that is the value of a form.
+pub(super) fn number(cook: &mut Cook, form: &str) -> f64 {
     let said = cook.done(form);
-    let said = said.trim().trim_end_matches("d0");
+    let said = said.lines().last().unwrap_or("").trim().replace('d', "e");
     said.parse().unwrap_or_else(|_| panic!("{form}: {said}"))
 }
 
@@ -173,7 +174,7 @@ fn half_of_what_is_in_a_cup_is_poured_into_a_bowl() {
 }
 
 /// A form that fails with a class and a report that says that, before anything has moved.
-fn refused(cook: &mut Cook, class: &str, form: &str, wanted: &str) {
+pub(super) fn refused(cook: &mut Cook, class: &str, form: &str, wanted: &str) {
     let before = cook.session.simulation().world().steps();
     let report = cook.fails(class, form);
     assert!(report.contains(wanted), "{form}: {report}");

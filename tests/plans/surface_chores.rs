@@ -1,5 +1,6 @@
 //! Chores with a tool in a hand: wiping a surface, cutting food, and holding while the other hand works.
 
+use super::chores::{number, refused};
 use super::cook::Cook;
 
 /// A sponge on the island, seen from before it.
@@ -38,21 +39,6 @@ fn with_bread() -> Cook {
     let mut cook = with_sponge();
     cook.done(WITH_BREAD);
     cook
-}
-
-fn number(cook: &mut Cook, form: &str) -> f64 {
-    let said = cook.done(form);
-    let said = said.lines().last().unwrap_or("").trim().replace("d0", "");
-    let said = said.replace('d', "e");
-    said.parse().unwrap_or_else(|_| panic!("{form}: {said}"))
-}
-
-/// A form that fails with a class and a report that says that, before anything has moved.
-fn refused(cook: &mut Cook, class: &str, form: &str, wanted: &str) {
-    let before = cook.session.simulation().world().steps();
-    let report = cook.fails(class, form);
-    assert!(report.contains(wanted), "{form}: {report}");
-    assert_eq!(cook.session.simulation().world().steps(), before, "{form}");
 }
 
 #[test]

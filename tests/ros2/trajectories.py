@@ -144,6 +144,11 @@ def try_arm(client, torso, joints):
     check(result.status == SUCCEEDED, f"one joint: {result}")
     check(time.monotonic() - begun > 1.3, "it does not wait for its stamp")
     check(abs(joints()[elbow] - start[elbow]) < 0.01, "the elbow is not back")
+    told = [m for m in client.feedback.take(1000) if list(m.goal_id) == identity]
+    at_elbow = list(told[0].joint_names).index(elbow)
+    desired = [m.desired.positions[at_elbow] - start[elbow] for m in told]
+    check(any(0.02 < d < 0.28 for d in desired), f"feedback does not follow the stamp: {desired}")
+    check(max(abs(m.error.positions[at_elbow]) for m in told) < 0.1, "it lags behind its stamp")
 
     # Wrong ones: the reason is told, and nothing moves.
     late = ros.Time(1000, 0)

@@ -31,6 +31,9 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
         _ => Vec::new(),
     };
     for (key, value) in &written {
+        if class == Class::Action && key == "GOAL" {
+            image.note(place, || NoteKind::Goal(value.clone()));
+        }
         match not_evaluated(image, key, value) {
             Some(mistake) => mistakes.push(mistake),
             None => mistakes.extend(literal_values::mistake(image, class, &written, key, value)),

@@ -3,9 +3,11 @@
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
+use std::process;
 
 use super::failure::{CommandError, Status};
 use super::outputs::Outputs;
+use super::watching::INTERRUPTED;
 use sweep::sqlite::{Sqlite, SqliteError};
 use view::watch::recording::{Wanted, read_episode};
 
@@ -25,6 +27,7 @@ pub(super) fn write(source: &Path, file: &PathBuf) -> Result<Status, CommandErro
         .check()?;
     permit(file)?;
     let unfinished = beside(file, ".part");
+    remove_at_interrupt(unfinished.clone());
     let refused = |error: io::Error| CommandError::Rewrite {
         path: file.clone(),
         error,
@@ -45,6 +48,15 @@ pub(super) fn write(source: &Path, file: &PathBuf) -> Result<Status, CommandErro
     Ok(Status::Good)
 }
 
+/// Lets Ctrl-C end the program without a file that is half written.
+fn remove_at_interrupt(unfinished: PathBuf) {
+    // Without a handler the file stays, and its name tells what it is.
+    let _ = ctrlc::set_handler(move || {
+        let _ = fs::remove_file(&unfinished);
+        process::exit(INTERRUPTED);
+    });
+}
+
 /// A file whose name is that of another one, and an end.
 fn beside(file: &Path, end: &str) -> PathBuf {
     let mut name = file.as_os_str().to_owned();
@@ -55,7 +67,7 @@ fn beside(file: &Path, end: &str) -> PathBuf {
 /// An error if there is a file already, or what SQLite has left of one, which it would apply to the new one.
 fn permit(file: &Path) -> Result<(), CommandError> {
     let is_there = |path: &Path| fs::metadata(path).is_ok_and(|found| found.len() > 0);
-    let ends = ["", "-journal", "-wal"].map(|end| beside(file, end));
+    let ends = ["", ".part", "-journal", "-wal"].map(|end| beside(file, end));
     match ends.iter().find(|path| is_there(path)) {
         None => Ok(()),
         Some(path) => Err(CommandError::Ask(format!(

@@ -99,7 +99,7 @@ pub(crate) fn finish_at_interrupt(session: &Session, watch: &WatchArguments) -> 
 }
 
 /// Exit status after Ctrl-C, as shells tell it.
-const INTERRUPTED: i32 = 130;
+pub(super) const INTERRUPTED: i32 = 130;
 
 /// Whether files are being written.
 #[derive(Default)]

@@ -30,6 +30,9 @@ pub enum NoteKind {
     Assigned(Sym),
     /// A form whose operator defines something.
     Definition(Value),
+    /// A goal that is written in place and not as a value: what begins with a question mark in it is a variable of the
+    /// program.
+    Goal(Value),
     /// The type that a handler is for.
     Handled(Value),
     /// A variable that a program binds but never reads; is it assigned?

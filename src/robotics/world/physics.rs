@@ -15,6 +15,7 @@
 //!   continue with the same bits, since warm-start impulses and sleep belong to the state.
 //! - Reading changes nothing. In particular no collision detection runs outside a step.
 
+mod groups;
 mod raw_contact;
 
 use nalgebra::Vector3;
@@ -25,12 +26,13 @@ use rapier3d_f64::dynamics::{
     SpringCoefficients,
 };
 use rapier3d_f64::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, Group, InteractionGroups,
-    InteractionTestMode, NarrowPhase, SharedShape,
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, NarrowPhase, SharedShape,
 };
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
 
+pub use self::groups::Robot;
+use self::groups::groups;
 use super::hash::Hasher;
 use super::object_library::FRICTION;
 use super::solid::{Solid, from_parry, from_parry_vector, to_parry};
@@ -76,13 +78,6 @@ const ANGULAR_DAMPING: f64 = 1.0;
 /// The same for a ball, which nothing else stops: fruit comes to rest on a slope of some tenths of a degree.
 const BALL_DAMPING: f64 = 10.0;
 
-const FURNITURE: Group = Group::GROUP_1;
-const OBJECT: Group = Group::GROUP_2;
-const ROBOT: Group = Group::GROUP_3;
-const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
-/// What is being cut: solid for all but the tool that cuts it.
-const BEING_CUT: Group = Group::GROUP_6;
-
 /// A body of the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BodyHandle(RigidBodyHandle);
@@ -112,17 +107,6 @@ pub(crate) enum BodyKind {
         /// Coefficient of friction.
         friction: f64,
     },
-}
-
-/// How much of the robot is solid for an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Robot {
-    /// All of it.
-    Whole,
-    /// All but the hand with that number, 0 or 1.
-    WithoutHand(usize),
-    /// Nothing.
-    Absent,
 }
 
 /// What a part of a body is.
@@ -264,62 +248,6 @@ impl Physics {
                 .insert_with_parent(collider, handle, &mut self.sets.bodies);
         }
         BodyHandle(handle)
-    }
-
-    /// Sets what an object collides with, besides furniture and objects. What a hand holds cannot
-    /// move against the hand, and contacts that nothing can change cost a quarter of a plan's
-    /// time.
-    pub(crate) fn collide(&mut self, object: BodyHandle, with: Robot) {
-        let s = self.edit();
-        let Some(body) = s.bodies.get(object.0) else {
-            return;
-        };
-        let solid = solid_for_objects();
-        let filter = match with {
-            Robot::Whole => solid,
-            Robot::WithoutHand(hand) => {
-                let hand = HANDS.get(hand).copied();
-                hand.map_or(solid, |hand| solid.difference(hand))
-            }
-            Robot::Absent => FURNITURE.union(OBJECT).union(BEING_CUT),
-        };
-        let groups = InteractionGroups::new(OBJECT, filter, InteractionTestMode::And);
-        for collider in body.colliders() {
-            if let Some(collider) = s.colliders.get_mut(*collider) {
-                collider.set_collision_groups(groups);
-            }
-        }
-    }
-
-    /// Lets an object pass through what is being cut, or no more.
-    pub(crate) fn let_pass(&mut self, tool: BodyHandle, passes: bool) {
-        self.regroup(tool, |groups| {
-            groups.filter = match passes {
-                true => groups.filter.difference(BEING_CUT),
-                false => groups.filter.union(BEING_CUT),
-            };
-        });
-    }
-
-    /// Makes an object one that is being cut, or no more.
-    pub(crate) fn be_cut(&mut self, food: BodyHandle, is_cut: bool) {
-        self.regroup(food, |groups| {
-            groups.memberships = if is_cut { BEING_CUT } else { OBJECT };
-        });
-    }
-
-    fn regroup(&mut self, body: BodyHandle, change: impl Fn(&mut InteractionGroups)) {
-        let s = self.edit();
-        let Some(body) = s.bodies.get(body.0) else {
-            return;
-        };
-        for collider in body.colliders() {
-            if let Some(collider) = s.colliders.get_mut(*collider) {
-                let mut groups = collider.collision_groups();
-                change(&mut groups);
-                collider.set_collision_groups(groups);
-            }
-        }
     }
 
     /// Gives an object another mass (kg), spread over its solids by volume.
@@ -600,36 +528,4 @@ impl Sets {
             is_dynamic && self.impulse_joints.attached_joints(body).next().is_none()
         })
     }
-}
-
-/// Furniture never collides with furniture, and the robot only with objects: where a
-/// kinematic body goes is checked geometrically before and during a motion.
-fn groups(kind: BodyKind, surface: Surface) -> InteractionGroups {
-    let (own, others) = match kind {
-        BodyKind::Static | BodyKind::MovingFurniture | BodyKind::Fixed { .. } => {
-            (FURNITURE, OBJECT.union(BEING_CUT))
-        }
-        BodyKind::Robot => (robot_group(surface), OBJECT.union(BEING_CUT)),
-        BodyKind::Object { .. } => (OBJECT, solid_for_objects()),
-    };
-    InteractionGroups::new(own, others, InteractionTestMode::And)
-}
-
-fn robot_group(surface: Surface) -> Group {
-    let hand = match surface {
-        Surface::Plain => None,
-        Surface::Hand(hand) | Surface::Pad(hand) => HANDS.get(hand).copied(),
-    };
-    hand.unwrap_or(ROBOT)
-}
-
-/// What objects collide with unless a hand holds them.
-fn solid_for_objects() -> Group {
-    let [left, right] = HANDS;
-    FURNITURE
-        .union(OBJECT)
-        .union(BEING_CUT)
-        .union(ROBOT)
-        .union(left)
-        .union(right)
 }

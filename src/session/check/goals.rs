@@ -1,4 +1,4 @@
-//! Judges Prolog goals as written, in calls of what proves them and in rules of fact groups: functors that there are
+//! Judges Prolog goals as written, in calls of what proves them, in rules of fact groups and as goals of actions: functors that there are
 //! not, wrong numbers of arguments, and variables that cannot be bound yet where something must be given. What a
 //! program computes is not judged, and what it may bind is taken to be bound.
 
@@ -45,6 +45,10 @@ pub(super) fn judge(image: &Image, names: &KnownNames, note: &Note) -> Vec<(Plac
             if let Some(goal) = goal {
                 goals.prove(&goal, note.place);
             }
+        }
+        NoteKind::Goal(goal) => {
+            goals.is_open = true;
+            goals.prove(goal, note.place);
         }
         NoteKind::Definition(form) if is_named(image, &form.car_or_nil(), "DEF-FACT-GROUP") => {
             let rules = form.cdr_or_nil().cdr_or_nil().cdr_or_nil();

@@ -94,7 +94,7 @@ impl<'a> Judge<'a> {
                 let mistake = (!is_known).then(|| strong(text.clone(), Some(name)));
                 mistake.into_iter().collect()
             }
-            NoteKind::Assigned(_) => Vec::new(),
+            NoteKind::Assigned(_) | NoteKind::Goal(_) => Vec::new(),
             NoteKind::Unused(name, is_assigned) => {
                 let what = match is_assigned {
                     true => "is assigned but never read",

@@ -11,6 +11,9 @@ use lisp::value::known;
 use lisp::value::raise::Raise;
 use robotics::world::{NotCut, PieceNames};
 
+/// The kind of what can be cut.
+const FOOD: &str = "food";
+
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
@@ -66,6 +69,11 @@ fn blade(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
 fn begin_cut(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let tool = simulation.object_named(image, &args[0])?;
     let food = simulation.object_named(image, &args[1])?;
+    let object = simulation.world.object(&food).map_err(Raise::reporting)?;
+    let library = &simulation.world.models().objects;
+    if !library.is_kind_of(object.type_name(), FOOD) {
+        return done(Value::from(format!("{food} is no food")));
+    }
     match simulation.world.begin_cut(&tool, &food) {
         Ok(()) => done(Value::T),
         Err(why) => done(Value::from(why.to_string())),

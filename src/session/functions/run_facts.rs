@@ -245,7 +245,7 @@ fn write_sqlite(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     let files = Arc::clone(&image.files);
     let refused = |why: &dyn Display| Raise::simple(format!("cannot write {file}: {why}"));
     // SQLite would apply what it has left of an earlier file to the new one.
-    for end in ["", "-journal", "-wal"] {
+    for end in ["", ".part", "-journal", "-wal"] {
         let there = format!("{file}{end}");
         let found = files.facts(&there);
         if found.is_ok_and(|found| found.is_folder || found.length > 0) {

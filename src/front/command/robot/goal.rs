@@ -1,6 +1,6 @@
 //! Goals as the actions of ROS 2 have them, as calls of functions of the plan language.
 
-use super::trajectory::{Trajectory, part_joints, positions};
+use super::trajectory::{Trajectory, now, part_joints, positions};
 use robotics::robot::Side;
 use robotics::world::Models;
 use ros::Value;
@@ -108,7 +108,8 @@ impl Deed {
                 )
             }
             Self::Follow(arm) => {
-                let arguments = Trajectory::of(goal, arm, models, scene, state)?.arguments(arm);
+                let wanted = Trajectory::of(goal, arm, models, scene, state, now())?;
+                let arguments = wanted.arguments(arm);
                 ("planwright-robot::follow-trajectory", arguments)
             }
             Self::PointHead => {
@@ -148,9 +149,9 @@ impl Deed {
             Self::Follow(arm) => {
                 let joints = part_joints(arm, models);
                 let now = positions(&joints, scene, state);
-                let wanted = Trajectory::of(goal, arm, models, scene, state);
-                let wanted =
-                    wanted.map_or_else(|_| now.clone(), |t| t.at(since.as_secs_f64(), &now));
+                let begun = stamp.saturating_sub(since);
+                let wanted = Trajectory::of(goal, arm, models, scene, state, begun).ok()?;
+                let wanted = wanted.at(since.as_secs_f64(), &now);
                 let error = wanted
                     .iter()
                     .zip(&now)

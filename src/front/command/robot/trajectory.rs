@@ -46,13 +46,15 @@ pub(super) struct Trajectory {
 }
 
 impl Trajectory {
-    /// That of a goal. Joints that it does not name stay where they are.
+    /// That of a goal, with the times counted from when it is begun, a time since 1970. Joints that it does not name stay
+    /// where they are.
     pub(super) fn of(
         goal: &Value,
         arm: Option<Side>,
         models: &Models,
         scene: &SceneModel,
         state: &SceneState,
+        begun: Duration,
     ) -> Result<Trajectory, Ended> {
         let own = part_joints(arm, models);
         let now = positions(&own, scene, state);
@@ -65,7 +67,7 @@ impl Trajectory {
             let why = "a trajectory of joints with several degrees of freedom is not understood";
             return Err(Ended::Refused(why.to_owned()));
         }
-        let delay = delay(goal)?;
+        let delay = delay(goal, begun)?;
         let row = |numbers: &[f64], rest: &[f64]| {
             let mut row = rest.to_vec();
             for (place, number) in places.iter().zip(numbers) {
@@ -167,14 +169,19 @@ fn places(named: &[String], own: &[String]) -> Result<Vec<usize>, Ended> {
     }
 }
 
-/// How long (s) from now a trajectory is to begin: at once without a stamp.
-fn delay(goal: &Value) -> Result<f64, Ended> {
+/// The time since 1970.
+pub(super) fn now() -> Duration {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    now.unwrap_or_default()
+}
+
+/// How long (s) after it is begun a trajectory starts: at once without a stamp.
+fn delay(goal: &Value, begun: Duration) -> Result<f64, Ended> {
     let stamp = seconds(goal.at(&["trajectory", "header", "stamp"]));
     if stamp == 0.0 {
         return Ok(0.0);
     }
-    let now = SystemTime::now().duration_since(UNIX_EPOCH);
-    let delay = stamp - now.unwrap_or(Duration::ZERO).as_secs_f64();
+    let delay = stamp - begun.as_secs_f64();
     match delay {
         late if late < -MAX_LATE => Err(Ended::Late(format!(
             "the trajectory was to begin {:.1} s ago: a stamp of zero begins it at once",

@@ -1,5 +1,6 @@
 //! Ctrl-C during a sweep: the first one ends it in good order, the second one at once.
 
+use super::super::watching::INTERRUPTED;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static HAS_COME: AtomicBool = AtomicBool::new(false);
@@ -9,7 +10,7 @@ pub(super) fn expect() {
     // Without a handler an interrupt ends the process: no more is lost than that.
     let _ = ctrlc::set_handler(|| {
         if HAS_COME.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            std::process::exit(INTERRUPTED);
         }
     });
 }

@@ -50,6 +50,42 @@ fn functors_that_there_are_not_are_found_with_what_may_be_meant() {
 }
 
 #[test]
+fn goals_of_actions_are_looked_at() {
+    let moving = |goal: &str| {
+        format!(
+            "(defun f (?object)\n  (perform (an action (type picking-up) (object ?object)\n                      (goal {goal}))))"
+        )
+    };
+    let cases = [
+        (
+            "(cpoe:object-in-hand ?object :left)",
+            None,
+        ),
+        ("(object-in-hand ?object :left)", None),
+        ("(and (torso-at 0.2) (not (gripper-closed :left)))", None),
+        ("?object", None),
+        (
+            "(cpoe::object-in-hnd ?object :left)",
+            Some("4:29: There is no Prolog functor OBJECT-IN-HND; did you mean OBJECT-IN-HAND?"),
+        ),
+        (
+            "(cpoe:torso-at)",
+            Some("TORSO-AT"),
+        ),
+    ];
+    for (goal, expected) in cases {
+        let found = found("a.plan", &format!("(in-package :pp-tut)\n{}", moving(goal)));
+        match expected {
+            None => assert_eq!(found, Vec::<String>::new(), "{goal}"),
+            Some(part) => assert!(
+                found.len() == 1 && found[0].contains(part),
+                "{goal}: {found:#?}"
+            ),
+        }
+    }
+}
+
+#[test]
 fn wrong_numbers_of_arguments_are_found() {
     check(&[
         (

@@ -66,9 +66,16 @@ const BLOCK_CHECKSUMS: u8 = 0b0001_0000;
 const CONTENT_SIZE: u8 = 0b0000_1000;
 const DICTIONARY: u8 = 0b0000_0001;
 
+/// A byte of a block stands for at most so many.
+const MAX_RATIO: usize = 256;
+
 /// Makes the contents of an LZ4 frame those of a buffer, without a copy in between, if the frame is one of independent
 /// blocks and unpacks to that size. Checksums are left to who knows that of the whole.
 fn unpack_frame(frame: &[u8], size: usize, buffer: &mut Vec<u8>) -> bool {
+    // A size that cannot be true costs no memory.
+    if size > frame.len().saturating_mul(MAX_RATIO) {
+        return false;
+    }
     // What is there is overwritten.
     buffer.resize(size, 0);
     blocks_into(frame, buffer) == Some(size)
@@ -216,5 +223,24 @@ impl<'a> Chunk<'a> {
         let left = (self.size + 1).saturating_sub(to.len() as u64);
         from.take(left).read_to_end(to)?;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    #[test]
+    fn a_size_that_cannot_be_true_takes_no_memory() {
+        let mut writer = lz4_flex::frame::FrameEncoder::new(Vec::new());
+        writer.write_all(&[7; 5000]).unwrap();
+        let frame = writer.finish().unwrap();
+        let mut buffer = Vec::new();
+        assert!(!unpack_frame(&frame, 1 << 30, &mut buffer));
+        assert_eq!(buffer.capacity(), 0);
+        assert!(!unpack_frame(&frame, 4999, &mut buffer));
+        assert!(unpack_frame(&frame, 5000, &mut buffer));
+        assert_eq!(buffer, [7; 5000]);
     }
 }
