@@ -14,10 +14,11 @@ use super::super::failure::{CommandError, Status};
 use super::super::ros2::Publishing;
 use super::goal::{Deed, Ended};
 use super::offered::{Offered, offered};
+use super::sight::see;
 use robotics::world::Models;
 use ros::action::{GoalEnd, GoalId};
-use ros::wire::{ActionServer, Newest, Wish};
-use ros::{SceneModel, Value};
+use ros::wire::{ActionServer, Newest, RequestId, Service, Wish};
+use ros::{SceneModel, Value, service_type};
 use session::{Failure, InterruptHandle, Session};
 
 /// What the goals are for the robot.
@@ -25,6 +26,9 @@ const ACTIONS: &str = include_str!("actions.plan");
 
 /// The class of failures of what the arms cannot do, whatever is in the way.
 const REFUSED: &str = "MANIPULATION-POSE-UNREACHABLE";
+
+/// The service that tells what the camera sees.
+const DETECT: &str = "planwright_msgs/srv/DetectObjects";
 
 /// Real time between two looks at what clients have sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(3);
@@ -35,11 +39,20 @@ const BETWEEN_FEEDBACK: Duration = Duration::from_millis(100);
 /// A goal: which action it is of, and its identity.
 type Key = (usize, GoalId);
 
-/// A goal to be carried out.
-struct Order {
-    key: Key,
-    deed: Deed,
-    goal: Value,
+/// What the session is to do.
+enum Order {
+    /// Carry a goal out.
+    Goal(Key, Deed, Value),
+    /// Tell what the camera sees.
+    See(RequestId, Value),
+}
+
+/// What the session has done.
+enum Done {
+    /// A goal has ended.
+    Goal(Key, Ended),
+    /// What the camera sees, as a message.
+    Seen(RequestId, Value),
 }
 
 /// What both threads know.
@@ -73,6 +86,10 @@ pub(super) fn serve(
         .map(|offered| ActionServer::open(node, &offered.name, offered.action))
         .collect::<Result<Vec<_>, _>>();
     let servers = servers.map_err(|error| wrong(&error))?;
+    let camera = &models.description.interface.perception;
+    let [request, response] = service_type(DETECT);
+    let perception = node.service(camera, request, response);
+    let perception = perception.map_err(|error| wrong(&error))?;
     let stop = Arc::new(AtomicBool::new(false));
     let (flag, interrupter) = (Arc::clone(&stop), session.interrupter());
     let handled = ctrlc::set_handler(move || {
@@ -87,6 +104,7 @@ pub(super) fn serve(
     let (scene, newest) = (Arc::clone(broadcast.model()), broadcast.newest().clone());
     let desk = Desk {
         servers,
+        perception,
         offered: Arc::clone(&offered),
         both: Arc::clone(&both),
         orders,
@@ -104,12 +122,18 @@ pub(super) fn serve(
     for offered in &*offered {
         writeln!(io::stdout(), "{} ({})", offered.name, offered.action)?;
     }
+    writeln!(io::stdout(), "{camera} ({DETECT})")?;
     io::stdout().flush()?;
     while !stop.load(Ordering::Relaxed) {
         match ordered.recv_timeout(Duration::from_millis(50)) {
-            Ok(order) => {
-                let end = carry_out(&mut session, &both, &order, &models, &scene, &newest);
-                drop(ends.send((order.key, end)));
+            Ok(Order::Goal(key, deed, goal)) => {
+                let goal = (key, deed, &goal);
+                let end = carry_out(&mut session, &both, goal, &models, &scene, &newest);
+                drop(ends.send(Done::Goal(key, end)));
+            }
+            Ok(Order::See(request, question)) => {
+                let answer = see(&mut session, &question, scene.map);
+                drop(ends.send(Done::Seen(request, answer)));
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => break,
@@ -127,20 +151,20 @@ pub(super) fn serve(
 fn carry_out(
     session: &mut Session,
     both: &Both,
-    order: &Order,
+    (key, deed, goal): (Key, Deed, &Value),
     models: &Models,
     scene: &SceneModel,
     newest: &Newest,
 ) -> Ended {
     {
         let mut shared = lock(both);
-        if shared.unwanted.contains(&order.key) {
+        if shared.unwanted.contains(&key) {
             return Ended::Interrupted;
         }
-        shared.running = Some(order.key);
+        shared.running = Some(key);
     }
     let state = newest.state();
-    let ended = match order.deed.call(&order.goal, models, scene, &state) {
+    let ended = match deed.call(goal, models, scene, &state) {
         Err(ended) => ended,
         Ok((function, arguments)) => match session.call(function, &arguments) {
             Ok(_) => Ended::Reached,
@@ -184,10 +208,11 @@ enum Why {
 /// Answers clients.
 struct Desk {
     servers: Vec<ActionServer>,
+    perception: Service,
     offered: Arc<[Offered]>,
     both: Both,
     orders: Sender<Order>,
-    ended: Receiver<(Key, Ended)>,
+    ended: Receiver<Done>,
     under_way: Vec<UnderWay>,
     interrupter: InterruptHandle,
     models: Arc<Models>,
@@ -200,6 +225,7 @@ impl Desk {
     fn run(mut self) {
         while !self.stop.load(Ordering::Relaxed) {
             self.hear();
+            self.hear_questions();
             self.begin();
             self.interrupt();
             self.end();
@@ -228,13 +254,8 @@ impl Desk {
                             ending: None,
                             told: None,
                         });
-                        let order = Order {
-                            key,
-                            deed: offered.deed,
-                            goal,
-                        };
                         // Without the session there is nobody left to tell.
-                        drop(self.orders.send(order));
+                        drop(self.orders.send(Order::Goal(key, offered.deed, goal)));
                     }
                     Wish::Cancel(id) => {
                         let key = (action, id);
@@ -244,6 +265,14 @@ impl Desk {
                     }
                 }
             }
+        }
+    }
+
+    /// Takes questions to the camera.
+    fn hear_questions(&self) {
+        while let Some((request, question)) = self.perception.take() {
+            // Without the session there is nobody left to tell.
+            drop(self.orders.send(Order::See(request, question)));
         }
     }
 
@@ -277,7 +306,14 @@ impl Desk {
 
     /// Tells how goals have ended.
     fn end(&mut self) {
-        while let Ok((key, ended)) = self.ended.try_recv() {
+        while let Ok(done) = self.ended.try_recv() {
+            let (key, ended) = match done {
+                Done::Goal(key, ended) => (key, ended),
+                Done::Seen(request, answer) => {
+                    self.perception.reply(request, &answer);
+                    continue;
+                }
+            };
             let Some(at) = self.under_way.iter().position(|goal| goal.key == key) else {
                 continue;
             };
