@@ -250,8 +250,6 @@ impl ClientGoal {
             }
             self.told += 1;
             self.told_last = now;
-        } else {
-            self.oddities += 1;
         }
     }
 
@@ -454,16 +452,17 @@ mod tests {
         let mut goal = ClientGoal::new(PATIENCE, ms(0));
         goal.result(4, nothing(), ms(0));
         goal.answered(true, ms(0));
+        // What is told of how far it is may come before its acceptance: another topic carries it.
         goal.feedback(ms(0));
         goal.server(true, ms(0));
         goal.next(ms(0));
         // It is not accepted yet.
         goal.result(4, nothing(), ms(1));
-        assert_eq!((goal.end(), goal.oddities()), (None, 4));
+        assert_eq!((goal.end(), goal.oddities()), (None, 3));
         goal.answered(true, ms(2));
         goal.answered(false, ms(3));
         goal.answered(true, ms(3));
-        assert_eq!((goal.end(), goal.oddities()), (None, 6));
+        assert_eq!((goal.end(), goal.oddities()), (None, 5));
         // A result that is none.
         goal.result(2, nothing(), ms(4));
         goal.result(99, nothing(), ms(4));
@@ -471,7 +470,7 @@ mod tests {
         goal.result(6, nothing(), ms(5));
         goal.result(4, nothing(), ms(6));
         assert_eq!(goal.end(), Some(&ClientEnd::Aborted(nothing())));
-        assert_eq!(goal.oddities(), 9);
+        assert_eq!(goal.oddities(), 8);
     }
 
     #[test]

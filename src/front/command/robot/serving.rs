@@ -12,7 +12,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use super::super::failure::{CommandError, Status};
 use super::super::ros2::Publishing;
-use super::goal::{Deed, Ended};
+use super::goal::{Call, Deed, Ended};
 use super::offered::{Offered, offered};
 use super::sight::see;
 use robotics::world::Models;
@@ -29,6 +29,9 @@ const REFUSED: &str = "MANIPULATION-POSE-UNREACHABLE";
 
 /// The service that tells what the camera sees.
 const DETECT: &str = "planwright_msgs/srv/DetectObjects";
+
+/// How long the second arm's goal may come after the first one's if both are to move at once.
+const TOGETHER: Duration = Duration::from_millis(60);
 
 /// Real time between two looks at what clients have sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(3);
@@ -58,8 +61,8 @@ enum Done {
 /// What both threads know.
 #[derive(Default)]
 struct Shared {
-    /// The goal that is carried out.
-    running: Option<Key>,
+    /// The goals that are carried out: one, or one of each arm.
+    running: Vec<Key>,
     /// Goals that are to end.
     unwanted: Vec<Key>,
 }
@@ -124,12 +127,27 @@ pub(super) fn serve(
     }
     writeln!(io::stdout(), "{camera} ({DETECT})")?;
     io::stdout().flush()?;
+    let mut next = None;
     while !stop.load(Ordering::Relaxed) {
-        match ordered.recv_timeout(Duration::from_millis(50)) {
+        let order = match next.take() {
+            Some(order) => Ok(order),
+            None => ordered.recv_timeout(Duration::from_millis(50)),
+        };
+        match order {
             Ok(Order::Goal(key, deed, goal)) => {
-                let goal = (key, deed, &goal);
-                let end = carry_out(&mut session, &both, goal, &models, &scene, &newest);
-                drop(ends.send(Done::Goal(key, end)));
+                let mut goals = vec![(key, deed, goal)];
+                // Arms that are to move at once are sent their goals one after the other.
+                if let Deed::Follow(Some(side)) = deed {
+                    match ordered.recv_timeout(TOGETHER) {
+                        Ok(Order::Goal(key, deed @ Deed::Follow(Some(other)), goal)) if other != side => {
+                            goals.push((key, deed, goal));
+                        }
+                        other => next = other.ok(),
+                    }
+                }
+                for (key, end) in carry_out(&mut session, &both, &goals, &models, &scene, &newest) {
+                    drop(ends.send(Done::Goal(key, end)));
+                }
             }
             Ok(Order::See(request, question)) => {
                 let answer = see(&mut session, &question, scene.map);
@@ -147,43 +165,56 @@ pub(super) fn serve(
     Ok(Status::Good)
 }
 
-/// Carries out a goal, unless it is to end already.
+/// Carries out goals, except for those that are to end already.
 fn carry_out(
     session: &mut Session,
     both: &Both,
-    (key, deed, goal): (Key, Deed, &Value),
+    goals: &[(Key, Deed, Value)],
     models: &Models,
     scene: &SceneModel,
     newest: &Newest,
-) -> Ended {
+) -> Vec<(Key, Ended)> {
+    let state = newest.state();
+    let mut ends = Vec::new();
+    let mut calls = Vec::new();
+    for (key, deed, goal) in goals {
+        if lock(both).unwanted.contains(key) {
+            ends.push((*key, Ended::Interrupted));
+            continue;
+        }
+        match deed.prepare(goal, models, scene, &state) {
+            Ok(call) => calls.push((*key, call)),
+            Err(ended) => ends.push((*key, ended)),
+        }
+    }
+    let keys: Vec<Key> = calls.iter().map(|(key, _)| *key).collect();
+    let calls = calls.into_iter().map(|(_, call)| call);
+    let Some(call) = calls.reduce(Call::together) else {
+        return ends;
+    };
     {
         let mut shared = lock(both);
-        if shared.unwanted.contains(&key) {
-            return Ended::Interrupted;
-        }
-        shared.running = Some(key);
+        shared.running.clone_from(&keys);
     }
-    let state = newest.state();
-    let ended = match deed.call(goal, models, scene, &state) {
-        Err(ended) => ended,
-        Ok((function, arguments)) => match session.call(function, &arguments) {
-            Ok(_) => Ended::Reached,
-            Err(Failure::Interrupted) => Ended::Interrupted,
-            Err(failure) => match failure.unhandled() {
-                Some(condition) if condition.abort.class == REFUSED => {
-                    Ended::Refused(condition.abort.report.trim_end().to_owned())
-                }
-                Some(condition) => Ended::Failed(condition.abort.report.trim_end().to_owned()),
-                None => Ended::Failed(failure.to_string()),
-            },
+    let (function, arguments) = call.arguments();
+    let ended = match session.call(function, &arguments) {
+        Ok(_) => Ended::Reached,
+        Err(Failure::Interrupted) => Ended::Interrupted,
+        Err(failure) => match failure.unhandled() {
+            Some(condition) if condition.abort.class == REFUSED => {
+                Ended::Refused(condition.abort.report.trim_end().to_owned())
+            }
+            Some(condition) => Ended::Failed(condition.abort.report.trim_end().to_owned()),
+            None => Ended::Failed(failure.to_string()),
         },
     };
-    lock(both).running = None;
+    lock(both).running.clear();
     if ended != Ended::Reached {
         // What was under way brakes; whoever hears of the end finds a robot that stands.
         drop(session.call("planwright-robot::come-to-rest", &[]));
     }
-    ended
+    ends.extend(keys.into_iter().map(|key| (key, ended.clone())));
+    ends
 }
 
 /// A goal that has been accepted and has not ended.
@@ -278,9 +309,9 @@ impl Desk {
 
     /// Tells that a goal is carried out from now on.
     fn begin(&mut self) {
-        let running = lock(&self.both).running;
+        let running = lock(&self.both).running.clone();
         for goal in &mut self.under_way {
-            if Some(goal.key) == running && goal.begun.is_none() {
+            if running.contains(&goal.key) && goal.begun.is_none() {
                 goal.begun = Some(Instant::now());
                 if let Some(server) = self.servers.get_mut(goal.key.0) {
                     server.begin(&goal.key.1);
@@ -297,7 +328,7 @@ impl Desk {
             };
             // While this is locked, the session does not go on to another goal.
             let shared = lock(&self.both);
-            if shared.running == Some(goal.key) {
+            if shared.running.contains(&goal.key) {
                 // False while the evaluation is about to begin.
                 *interrupted = self.interrupter.interrupt();
             }

@@ -9,8 +9,13 @@ use robotics::world::{Models, RobotConfiguration, World};
 
 /// A joint has moved if it has moved by this much (rad or m).
 const MOVES: f64 = 1e-4;
-/// Steps between two points of a trajectory.
-const EVERY: usize = 12;
+/// Steps between two points of a trajectory, while velocities change, and otherwise.
+const EVERY: usize = 4;
+const SELDOM: usize = 3;
+/// Velocities that differ by less (rad/s or m/s) are the same.
+const EVEN: f64 = 1e-5;
+/// How much longer than it was tried a trajectory takes: controllers that interpolate otherwise stay within the limits.
+const SLOWER: f64 = 1.05;
 
 /// What a part is to do, and how it is known to have done it.
 #[derive(Clone, Debug)]
@@ -112,16 +117,36 @@ fn follow(
     let is_end = |step: &usize| ids.iter().all(|id| at(*step, *id) == at(last, *id));
     let end = (0..=last).rev().take_while(is_end).last().unwrap_or(last);
     let end = end.max(1);
-    let steps = (EVERY..end).step_by(EVERY).chain([end]);
-    let points = steps.map(|step| TrajectoryPoint {
-        time: step as f64 * STEP_SECONDS,
+    let velocity = |step: usize, id: JointId| match step < end {
+        true => (at(step + 1, id) - at(step - 1, id)) / (2.0 * STEP_SECONDS),
+        false => 0.0,
+    };
+    let is_even = |a: usize, b: usize| {
+        let mut ids = ids.iter();
+        ids.all(|id| (velocity(a, *id) - velocity(b, *id)).abs() < EVEN)
+    };
+    let mut steps = Vec::new();
+    let mut skipped = 0;
+    for step in (EVERY..end).step_by(EVERY) {
+        // Where nothing changes, before and behind it, a point says nothing.
+        let is_dull = step > EVERY
+            && step + EVERY < end
+            && is_even(step - EVERY, step)
+            && is_even(step, step + EVERY);
+        if is_dull && skipped + 1 < SELDOM {
+            skipped += 1;
+            continue;
+        }
+        skipped = 0;
+        steps.push(step);
+    }
+    steps.push(end);
+    let points = steps.into_iter().map(|step| TrajectoryPoint {
+        time: step as f64 * STEP_SECONDS * SLOWER,
         positions: ids.iter().map(|id| at(step, *id) + turns(*id)).collect(),
         velocities: ids
             .iter()
-            .map(|id| match step < end {
-                true => (at(step + 1, *id) - at(step - 1, *id)) / (2.0 * STEP_SECONDS),
-                false => 0.0,
-            })
+            .map(|id| velocity(step, *id) / SLOWER)
             .collect(),
     });
     PartGoal::Follow {
