@@ -241,7 +241,8 @@ mod tests {
     }
 
     fn x(pose: Result<Pose, FrameError>) -> Result<f64, String> {
-        pose.map(|pose| pose.translation.x).map_err(|e| e.to_string())
+        pose.map(|pose| pose.translation.x)
+            .map_err(|e| e.to_string())
     }
 
     #[test]
@@ -286,9 +287,19 @@ mod tests {
 
     #[test]
     fn a_rotation_of_length_zero_is_none() {
-        let zero = || Value::record([("x", 0.0.into()), ("y", 0.0.into()), ("z", 0.0.into()), ("w", 0.0.into())]);
+        let zero = || {
+            Value::record([
+                ("x", 0.0.into()),
+                ("y", 0.0.into()),
+                ("z", 0.0.into()),
+                ("w", 0.0.into()),
+            ])
+        };
         let transform = Value::record([("translation", zero()), ("rotation", zero())]);
-        assert_eq!(pose(Some(&transform)), Err("its rotation has the length zero"));
+        assert_eq!(
+            pose(Some(&transform)),
+            Err("its rotation has the length zero")
+        );
         assert!(pose(None).is_err());
     }
 }

@@ -103,11 +103,13 @@ impl Joints {
             let velocity = velocities.get(number).and_then(Value::as_float);
             let velocity = velocity.filter(|_| velocities.len() == names.len());
             // Without one, what has become of the position tells.
-            let velocity = velocity.filter(|velocity| velocity.is_finite()).or_else(|| {
-                let known = known?;
-                let time = now.checked_sub(known.at)?.as_secs_f64();
-                (time > 0.0).then(|| (position - known.position) / time)
-            });
+            let velocity = velocity
+                .filter(|velocity| velocity.is_finite())
+                .or_else(|| {
+                    let known = known?;
+                    let time = now.checked_sub(known.at)?.as_secs_f64();
+                    (time > 0.0).then(|| (position - known.position) / time)
+                });
             let heard = Heard {
                 position,
                 velocity,
@@ -120,7 +122,12 @@ impl Joints {
     }
 
     /// Where a joint is (rad or m). It must have been heard within the last `max_age`.
-    pub fn position(&self, joint: &str, max_age: Duration, now: Duration) -> Result<f64, JointError> {
+    pub fn position(
+        &self,
+        joint: &str,
+        max_age: Duration,
+        now: Duration,
+    ) -> Result<f64, JointError> {
         let missing = |joint: &str| JointError::Missing {
             joint: joint.to_owned(),
         };
@@ -153,7 +160,9 @@ impl Joints {
         max_age: Duration,
         now: Duration,
     ) -> Option<f64> {
-        let heard = joints.into_iter().filter_map(|joint| self.joints.get(joint));
+        let heard = joints
+            .into_iter()
+            .filter_map(|joint| self.joints.get(joint));
         let heard = heard.filter(|heard| now.saturating_sub(heard.at) <= max_age);
         let velocities = heard.filter_map(|heard| Some(heard.velocity?.abs()));
         velocities.reduce(f64::max)
@@ -202,7 +211,10 @@ mod tests {
     #[test]
     fn what_is_not_known_has_a_reason() {
         let mut joints = Joints::default();
-        assert_eq!(at(&joints, "a", 0), wrong("no joint states have been heard"));
+        assert_eq!(
+            at(&joints, "a", 0),
+            wrong("no joint states have been heard")
+        );
         joints.hear(&message(1.0, &["a", "b"], &[1.0, f64::NAN]), ms(0));
         assert_eq!(at(&joints, "c", 0), wrong("the joint states lack c"));
         assert_eq!(

@@ -92,7 +92,8 @@ fn run_command_line() -> ExitCode {
 fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     if arguments.real_robot.is_some() && arguments.prompt.resume.is_some() {
         return Err(CommandError::Open(
-            "--resume would let the robot do again what it has done: leave out --real-robot".to_owned(),
+            "--resume would let the robot do again what it has done: leave out --real-robot"
+                .to_owned(),
         ));
     }
     let mut arguments = arguments;

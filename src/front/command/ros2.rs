@@ -41,7 +41,9 @@ mod node {
         let started = Broadcast::start(&mut node, session.models(), robot, remark);
         let (broadcast, follow) = started.map_err(|error| wrong(&error))?;
         session.show_to(Box::new(follow));
-        say(&format!("The session is a node of ROS 2 ({name}) in {reach}"));
+        say(&format!(
+            "The session is a node of ROS 2 ({name}) in {reach}"
+        ));
         Ok(Publishing { broadcast, node })
     }
 

@@ -104,7 +104,12 @@ impl Default for RobotInterface {
             parts: vec![
                 part(RobotPart::Base, "/navigate_to_pose", 60.0, 0.05),
                 part(RobotPart::Torso, torso, 20.0, 0.005),
-                part(RobotPart::Neck, "/head_controller/point_head_action", 5.0, 0.05),
+                part(
+                    RobotPart::Neck,
+                    "/head_controller/point_head_action",
+                    5.0,
+                    0.05,
+                ),
                 arm(Side::Left),
                 arm(Side::Right),
                 gripper(Side::Left),
@@ -127,6 +132,8 @@ impl RobotInterface {
     }
 
     pub(super) fn part_mut(&mut self, name: &str) -> Option<&mut PartInterface> {
-        self.parts.iter_mut().find(|known| known.part.name() == name)
+        self.parts
+            .iter_mut()
+            .find(|known| known.part.name() == name)
     }
 }

@@ -195,15 +195,15 @@ fn questions_are_answered_and_answers_for_others_are_passed_over() {
         std::thread::sleep(Duration::from_millis(5));
     }
     let question = |kind: &str| Value::record([("type", kind.into())]);
-    let sent = [
-        first.ask(&question("cup")),
-        second.ask(&question("bowl")),
-    ];
+    let sent = [first.ask(&question("cup")), second.ask(&question("bowl"))];
     let mut heard = 0;
     while heard < 2 {
         assert!(Instant::now() < until, "the questions are not heard");
         while let Some((id, value)) = service.take() {
-            let kind = value.get("type").and_then(Value::as_text).unwrap_or_default();
+            let kind = value
+                .get("type")
+                .and_then(Value::as_text)
+                .unwrap_or_default();
             let answer = Value::record([("error", kind.into())]);
             // The second answer answers nothing.
             assert!(service.reply(id, &answer) && service.reply(id, &answer));

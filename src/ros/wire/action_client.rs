@@ -195,7 +195,9 @@ impl ActionClient {
         while let Some(message) = self.status.take() {
             let list = message.get("status_list").and_then(Value::as_list);
             for goal in list.unwrap_or_default() {
-                let id = goal.at(&["goal_info", "goal_id", "uuid"]).and_then(Value::as_bytes);
+                let id = goal
+                    .at(&["goal_info", "goal_id", "uuid"])
+                    .and_then(Value::as_bytes);
                 let status = goal.get("status").and_then(Value::as_integer);
                 let mut sent = self.sent.iter_mut();
                 let sent = sent.find(|sent| id == Some(&sent.id[..]));

@@ -15,7 +15,8 @@ use lisp::value::copy::Copier;
 
 pub use clock::{Clock, MachineClock};
 pub use robot_link::{
-    FingersReport, GoalTicket, PartGoal, RobotEnd, RobotLink, RobotState, SeenObject, TrajectoryPoint,
+    FingersReport, GoalTicket, PartGoal, RobotEnd, RobotLink, RobotState, SeenObject,
+    TrajectoryPoint,
 };
 
 /// What a session has outside itself.

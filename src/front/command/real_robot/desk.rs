@@ -15,7 +15,9 @@ use robotics::robot::{PartInterface, RobotInterface, RobotPart};
 use ros::action::{GoalId, Patience};
 use ros::frames::Frames;
 use ros::joints::Joints;
-use ros::wire::{ActionClient, Answer, Node, NodeError, Sequence, ServiceClient, TopicQos, TopicReader};
+use ros::wire::{
+    ActionClient, Answer, Node, NodeError, Sequence, ServiceClient, TopicQos, TopicReader,
+};
 use ros::{Value, service_type};
 use session::outside::{PartGoal, RobotEnd, SeenObject};
 use spatial::Pose;
@@ -145,7 +147,8 @@ impl Desk {
         let still_transforms = node.reader("/tf_static", tf, still)?;
         let topics = interface.joint_states.iter();
         // Some robots send them without sending again what is lost.
-        let joint_states = topics.map(|topic| node.reader(topic, joints, TopicQos::best_effort(50)));
+        let joint_states =
+            topics.map(|topic| node.reader(topic, joints, TopicQos::best_effort(50)));
         Ok(Self {
             parts: clients,
             perception,
@@ -222,7 +225,10 @@ impl Desk {
     fn take(&mut self, order: Order, now: Duration) {
         match order {
             Order::Goal(ticket, part, goal, time_out) => {
-                let of = self.parts.iter().position(|known| known.interface.part == part);
+                let of = self
+                    .parts
+                    .iter()
+                    .position(|known| known.interface.part == part);
                 let Some(of) = of else {
                     let text = format!("the robot has no action for the part {}", part.name());
                     let trouble = Some(RobotTrouble::NotPossible(text));
@@ -322,7 +328,9 @@ impl Desk {
             is_news = true;
         }
         if is_news {
-            let pose = shared.frames.pose(&self.base, &self.interface.map, BASE_TIME, now);
+            let pose = shared
+                .frames
+                .pose(&self.base, &self.interface.map, BASE_TIME, now);
             if let Ok(pose) = pose {
                 shared.base.push_back((now, pose));
             }
@@ -356,7 +364,12 @@ impl Desk {
                 None => {
                     let waited = now.saturating_sub(question.since).as_secs_f64();
                     let is_over = waited >= self.interface.server_time_out;
-                    is_over.then(|| Err(RobotTrouble::Unserved { name: name(), waited }))
+                    is_over.then(|| {
+                        Err(RobotTrouble::Unserved {
+                            name: name(),
+                            waited,
+                        })
+                    })
                 }
                 Some((asked, sequence)) => {
                     let answer = answers.iter().find(|(to, _)| *to == sequence);
@@ -395,11 +408,19 @@ impl Desk {
         }
         let objects = answer.get("objects").and_then(Value::as_list);
         let objects = objects.unwrap_or_default().iter().map(|object| {
-            let text = |name| object.get(name).and_then(Value::as_text).unwrap_or_default();
-            let frame = object.at(&["pose", "header", "frame_id"]).and_then(Value::as_text);
+            let text = |name| {
+                object
+                    .get(name)
+                    .and_then(Value::as_text)
+                    .unwrap_or_default()
+            };
+            let frame = object
+                .at(&["pose", "header", "frame_id"])
+                .and_then(Value::as_text);
             let frame = frame.unwrap_or_default();
             let pose = pose(object.at(&["pose", "pose"]));
-            let pose = pose.ok_or_else(|| blind(format!("the pose of a {} is none", shown(text("type")))))?;
+            let pose = pose
+                .ok_or_else(|| blind(format!("the pose of a {} is none", shown(text("type")))))?;
             let max_age = seconds(self.interface.max_frame_age);
             let frames = &lock(&self.shared).frames;
             let carrier = frames.pose(frame, &self.interface.map, max_age, now);

@@ -65,7 +65,10 @@ pub(super) fn end_of(name: &str, part: RobotPart, end: &ClientEnd) -> RobotEnd {
 fn complaint(result: &Value) -> Option<String> {
     let code = result.get("error_code").and_then(Value::as_integer);
     let text = ["error_msg", "error_string"].map(|name| result.get(name).and_then(Value::as_text));
-    let text = text.into_iter().flatten().find(|text| !text.trim().is_empty());
+    let text = text
+        .into_iter()
+        .flatten()
+        .find(|text| !text.trim().is_empty());
     let text = text.map(shown);
     match (code.filter(|code| *code != 0), text) {
         (Some(code), Some(text)) => Some(format!("{text} (error {code})")),
@@ -106,7 +109,11 @@ mod tests {
 
     #[test]
     fn what_a_server_says_of_a_failure_is_in_one_short_line() {
-        let end = |end| end_of("/go", RobotPart::Base, &end).trouble.map(|t| t.to_string());
+        let end = |end| {
+            end_of("/go", RobotPart::Base, &end)
+                .trouble
+                .map(|t| t.to_string())
+        };
         let aborted = |code, text| end(ClientEnd::Aborted(record(code, text)));
         assert_eq!(
             aborted(7, "no\nway \u{7}there").as_deref(),

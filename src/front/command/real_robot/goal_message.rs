@@ -33,7 +33,10 @@ pub(super) fn goal_message(goal: &PartGoal, map: &str, camera: &str) -> Value {
                 let time = Duration::try_from_secs_f64(point.time).unwrap_or_default();
                 Value::record([
                     ("positions", Value::floats(point.positions.iter().copied())),
-                    ("velocities", Value::floats(point.velocities.iter().copied())),
+                    (
+                        "velocities",
+                        Value::floats(point.velocities.iter().copied()),
+                    ),
                     ("time_from_start", message::time(time)),
                 ])
             });
@@ -48,7 +51,10 @@ pub(super) fn goal_message(goal: &PartGoal, map: &str, camera: &str) -> Value {
         }
         PartGoal::Fingers { gap, effort } => Value::record([(
             "command",
-            Value::record([("position", (*gap).into()), ("max_effort", (*effort).into())]),
+            Value::record([
+                ("position", (*gap).into()),
+                ("max_effort", (*effort).into()),
+            ]),
         )]),
         PartGoal::Aim([x, y, z]) => {
             let point = Value::record([("x", (*x).into()), ("y", (*y).into()), ("z", (*z).into())]);

@@ -139,7 +139,9 @@ impl RobotLink for Link {
         };
         let joints = joints.iter().map(position).collect::<Result<_, _>>()?;
         let max_age = seconds(self.interface.max_frame_age);
-        let base = shared.frames.pose(&self.base, &self.interface.map, max_age, now);
+        let base = shared
+            .frames
+            .pose(&self.base, &self.interface.map, max_age, now);
         Ok(RobotState {
             base: base.map_err(|error| unknown(&error))?,
             joints,
@@ -171,7 +173,8 @@ impl RobotLink for Link {
         };
         let mut before = shared.base.iter();
         let before = before.find(|(at, _)| now.saturating_sub(*at) <= 2 * BASE_TIME);
-        let Some((since, first)) = before.filter(|(at, _)| now.saturating_sub(*at) >= BASE_TIME) else {
+        let Some((since, first)) = before.filter(|(at, _)| now.saturating_sub(*at) >= BASE_TIME)
+        else {
             return false;
         };
         let time = now.saturating_sub(*since).as_secs_f64().max(1e-3);

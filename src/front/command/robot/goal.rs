@@ -139,12 +139,10 @@ impl Deed {
                     vec![side, Datum::Float(opening)],
                 )
             }
-            Self::Follow(arm) => {
-                Call::Follow(
-                    arm.into_iter().collect(),
-                    Trajectory::of(goal, arm, models, scene, state)?,
-                )
-            }
+            Self::Follow(arm) => Call::Follow(
+                arm.into_iter().collect(),
+                Trajectory::of(goal, arm, models, scene, state)?,
+            ),
             Self::PointHead => {
                 let point = point(goal.at(&["target", "point"]));
                 let pose = point.map(|[x, y, z]| Pose::translation(x, y, z));

@@ -139,7 +139,9 @@ pub(super) fn serve(
                 // Arms that are to move at once are sent their goals one after the other.
                 if let Deed::Follow(Some(side)) = deed {
                     match ordered.recv_timeout(TOGETHER) {
-                        Ok(Order::Goal(key, deed @ Deed::Follow(Some(other)), goal)) if other != side => {
+                        Ok(Order::Goal(key, deed @ Deed::Follow(Some(other)), goal))
+                            if other != side =>
+                        {
                             goals.push((key, deed, goal));
                         }
                         other => next = other.ok(),

@@ -18,7 +18,9 @@ pub(super) fn see(session: &mut Session, question: &Value, map: &str) -> Value {
     let stamp = stamp.unwrap_or(Duration::ZERO);
     match seen.map(|values| values.into_iter().next()) {
         Ok(Some(Datum::List(seen))) => {
-            let objects = seen.iter().filter_map(|object| seen_object(object, stamp, map));
+            let objects = seen
+                .iter()
+                .filter_map(|object| seen_object(object, stamp, map));
             Value::record([("objects", Value::list(objects))])
         }
         Ok(_) => Value::record([]),

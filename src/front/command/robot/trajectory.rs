@@ -187,7 +187,10 @@ impl Trajectory {
             let slope = (3.0 * square - 4.0 * part + 1.0) * u + (3.0 * square - 2.0 * part) * v;
             6.0 * (part - square) * (b - a) / length + slope
         };
-        (ends().map(position).collect(), ends().map(velocity).collect())
+        (
+            ends().map(position).collect(),
+            ends().map(velocity).collect(),
+        )
     }
 
     /// Where the joints should be after a time (s), if they began where they are `now`: on straight lines between

@@ -170,7 +170,9 @@ impl JointGoal for LookGoal {
     fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
         let base = world.robot_configuration().base;
         let ahead = || base * Point3::new(STRAIGHT_AHEAD, 0.0, level_height(world, &base));
-        self.point(world).ok().map(|point| point.unwrap_or_else(ahead))
+        self.point(world)
+            .ok()
+            .map(|point| point.unwrap_or_else(ahead))
     }
 
     fn carriers(&self, _: &World) -> Vec<LinkId> {

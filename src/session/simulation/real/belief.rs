@@ -29,7 +29,9 @@ impl Told {
             joints.map(|joint| (*part, joint))
         });
         let joints: Vec<(RobotPart, JointId)> = parts.collect();
-        let names = joints.iter().map(|(_, id)| models.robot.joint(*id).name.as_str());
+        let names = joints
+            .iter()
+            .map(|(_, id)| models.robot.joint(*id).name.as_str());
         let names: Vec<&str> = names.collect();
         let state = robot.link.borrow().state(&names)?;
         robot.was_heard.set(true);
@@ -66,7 +68,12 @@ impl Told {
 
     /// Takes parts of the robot in a world to where they are. What a hand is not there to hold any more, it does not
     /// hold.
-    pub(super) fn believe(&self, world: &mut World, is_meant: impl Fn(RobotPart) -> bool, closed: f64) {
+    pub(super) fn believe(
+        &self,
+        world: &mut World,
+        is_meant: impl Fn(RobotPart) -> bool,
+        closed: f64,
+    ) {
         let mut next = world.robot_configuration().clone();
         let mut farthest: f64 = 0.0;
         if is_meant(RobotPart::Base) {
@@ -97,7 +104,13 @@ impl Told {
     }
 
     /// Whether the fingers of a hand hold something, in the world and as the robot tells; they are left alone then.
-    fn keeps(&self, world: &mut World, side: robotics::robot::Side, position: f64, closed: f64) -> bool {
+    fn keeps(
+        &self,
+        world: &mut World,
+        side: robotics::robot::Side,
+        position: f64,
+        closed: f64,
+    ) -> bool {
         let held = held_objects(world, side);
         let holds_handle = world.handle_hold(side).is_some();
         if held.is_empty() && !holds_handle {

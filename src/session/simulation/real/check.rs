@@ -30,7 +30,9 @@ pub(super) fn trouble(
     match &order.goal {
         PartGoal::Drive(goal) => {
             let base = told.base();
-            let way = (goal.translation.vector - base.translation.vector).xy().norm();
+            let way = (goal.translation.vector - base.translation.vector)
+                .xy()
+                .norm();
             let turn = trig::wrap(yaw(goal) - yaw(&base)).abs();
             if way > interface.tolerance {
                 return beside(format!("{way:.2} m from the goal"));
@@ -54,7 +56,11 @@ pub(super) fn trouble(
                 // False for what is no number, too.
                 let is_there = way <= interface.tolerance;
                 if !is_there {
-                    let unit = if order.part == RobotPart::Torso { "m" } else { "rad" };
+                    let unit = if order.part == RobotPart::Torso {
+                        "m"
+                    } else {
+                        "rad"
+                    };
                     let name = &joint.name;
                     return beside(format!("{way:.3} {unit} from the goal of {name}"));
                 }

@@ -99,7 +99,9 @@ pub(super) fn orders(
 }
 
 fn moved(joints: &[JointId], from: &RobotConfiguration, to: &RobotConfiguration) -> bool {
-    let mut ways = joints.iter().map(|joint| to.joints.get(*joint) - from.joints.get(*joint));
+    let mut ways = joints
+        .iter()
+        .map(|joint| to.joints.get(*joint) - from.joints.get(*joint));
     ways.any(|way| way.abs() > MOVES)
 }
 
@@ -144,10 +146,7 @@ fn follow(
     let points = steps.into_iter().map(|step| TrajectoryPoint {
         time: step as f64 * STEP_SECONDS * SLOWER,
         positions: ids.iter().map(|id| at(step, *id) + turns(*id)).collect(),
-        velocities: ids
-            .iter()
-            .map(|id| velocity(step, *id) / SLOWER)
-            .collect(),
+        velocities: ids.iter().map(|id| velocity(step, *id) / SLOWER).collect(),
     });
     PartGoal::Follow {
         points: points.collect(),

@@ -116,6 +116,11 @@ impl RealMotion {
 
     /// Hears how the robot is, tries the motion, and sends its goals.
     fn begin(&mut self, world: &mut World, since: Option<Duration>) -> MotionStatus {
+        // What is tried alone is carried out alone.
+        if !self.robot.busy.borrow().is_empty() {
+            self.stage = Stage::Begin(None);
+            return MotionStatus::Running;
+        }
         let now = self.now();
         let since = since.unwrap_or(now);
         self.stage = Stage::Begin(Some(since));
@@ -124,17 +129,15 @@ impl RealMotion {
             Err(trouble) => {
                 // At first, the robot has to be found.
                 let waited = now.saturating_sub(since).as_secs_f64();
-                let waits = !self.robot.was_heard.get() && waited < self.robot.interface.server_time_out;
+                let waits =
+                    !self.robot.was_heard.get() && waited < self.robot.interface.server_time_out;
                 if waits {
                     return MotionStatus::Running;
                 }
                 return self.fail(self.failure(trouble));
             }
         };
-        {
-            let busy = self.robot.busy.borrow();
-            told.believe(world, |part| !busy.contains(&part), self.closed());
-        }
+        told.believe(world, |_| true, self.closed());
         if let Some(query) = &self.query {
             let one = match query.types.as_slice() {
                 [one] => one.as_str(),

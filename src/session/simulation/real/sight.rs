@@ -11,7 +11,11 @@ const SAME_PLACE: f64 = 0.15;
 const UNMOVED: [f64; 2] = [0.003, 0.02];
 
 /// Puts what is seen into the world, and returns how the motion that has looked ends.
-pub(super) fn believe(world: &mut World, query: &DetectQuery, seen: Vec<SeenObject>) -> MotionStatus {
+pub(super) fn believe(
+    world: &mut World,
+    query: &DetectQuery,
+    seen: Vec<SeenObject>,
+) -> MotionStatus {
     let mut found: Vec<DetectedObject> = Vec::new();
     let mut strange: Vec<String> = Vec::new();
     for object in seen {

@@ -18,7 +18,10 @@ pub(super) struct Trial {
 }
 
 /// Carries out a motion in a copy of the world. May be abandoned by an interrupt, as searches are.
-pub(super) fn try_motion(world: &World, mut motion: Box<dyn Motion>) -> Result<Trial, Box<MotionFailure>> {
+pub(super) fn try_motion(
+    world: &World,
+    mut motion: Box<dyn Motion>,
+) -> Result<Trial, Box<MotionFailure>> {
     let mut world = world.clone();
     let mut trace = vec![world.robot_configuration().clone()];
     let steps = (MAX_SECONDS / STEP_SECONDS) as usize;
