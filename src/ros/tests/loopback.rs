@@ -164,6 +164,8 @@ fn a_server_that_dies_is_gone_and_gets_new_goals_when_it_returns() {
         }
     };
     assert_eq!(end, ClientEnd::Gone);
+    // It returns as another process would: with nothing of what the old one has heard.
+    pair.robot = node("robot", 192);
     let server = ActionServer::open(&mut pair.robot, "/hand", GRIPPER);
     pair.server = Some(server.expect("the other one is gone"));
     let again = pair.send(0.02);
