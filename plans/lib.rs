@@ -68,6 +68,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "handing-over.plan",
     "holding.plan",
     "projection-motions.plan",
+    "real-robot.plan",
     "tutorial-package.plan",
     "lisp-unit.plan",
     "cram-refused.plan",

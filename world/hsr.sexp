@@ -57,3 +57,9 @@
 
 (wheels base_r_drive_wheel_link base_l_drive_wheel_link)
 (idle-joints base_r_drive_wheel_joint base_l_drive_wheel_joint)
+
+; By which actions of ROS 2 programs outside drive the robot, where the names differ from those that are usual here. Time-outs
+; and tolerances that are not given are as in CRAM's process modules of the PR2. Not tried on the robot.
+(interface base :name /hsrb/move_base :time-out 60 :tolerance 0.05 :turn-tolerance 0.1)
+(interface right-arm :name /arm_trajectory_controller/follow_joint_trajectory)
+(interface right-gripper :tolerance 0.003)

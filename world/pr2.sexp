@@ -148,3 +148,17 @@
              torso_lift_motor_screw_joint laser_tilt_mount_joint
              l_gripper_motor_slider_joint l_gripper_motor_screw_joint l_gripper_joint
              r_gripper_motor_slider_joint r_gripper_motor_screw_joint r_gripper_joint)
+
+; By which actions of ROS 2 programs outside drive the robot, how long (s) a goal of theirs may take, and how far (m or rad)
+; beside its goal a part counts as there. What is not said here is as in CRAM's process modules.
+(interface base :name /navigate_to_pose :time-out 60 :tolerance 0.05 :turn-tolerance 0.1)
+(interface torso :name /torso_controller/follow_joint_trajectory :time-out 20 :tolerance 0.005)
+(interface neck :name /head_controller/point_head_action :time-out 5)
+(interface left-arm :name /left_arm_controller/follow_joint_trajectory :time-out 10 :tolerance 0.17)
+(interface right-arm :name /right_arm_controller/follow_joint_trajectory :time-out 10 :tolerance 0.17)
+(interface left-gripper :name /left_gripper_controller/gripper_cmd :time-out 10 :tolerance 0.001)
+(interface right-gripper :name /right_gripper_controller/gripper_cmd :time-out 10 :tolerance 0.001)
+(interface map :name map :max-age 1)
+(interface joint-states :names (/joint_states) :max-age 0.5)
+(interface perception :name /detect_objects)
+(interface server :time-out 10)

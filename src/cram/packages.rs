@@ -80,7 +80,7 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
     row("CRAM-PR2-PROJECTION", &["PR2-PROJ"], ""),
     row("CRAM-URDF-PROJECTION", &["URDF-PROJ"], ""),
-    row("CRAM-PR2-PROCESS-MODULES", &["PR2-PMS"], ""),
+    row("CRAM-PR2-PROCESS-MODULES", &["PR2-PMS"], "WITH-REAL-ROBOT"),
     row(
         "CRAM-MOBILE-PICK-PLACE-PLANS",
         &["PP-PLANS"],
@@ -490,6 +490,12 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
         "CRAM-PICK-PLACE-TUTORIAL",
         "CRAM-PR2-PROJECTION",
         "WITH-SIMULATED-ROBOT WITH-PROJECTED-ROBOT",
+        false,
+    ),
+    (
+        "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-PR2-PROCESS-MODULES",
+        "WITH-REAL-ROBOT",
         false,
     ),
     (

@@ -7,6 +7,8 @@
 pub mod action;
 pub mod cdr;
 mod distribution;
+pub mod frames;
+pub mod joints;
 mod layout;
 pub mod message;
 mod names;

@@ -56,6 +56,7 @@ use lisp::source::Location;
 use lisp::value::release::FreesAll;
 use robotics::world::Models;
 use simulation::Simulation;
+use simulation::real::RobotAccess;
 use view::picture::ViewError;
 use view::picture::animation::Shot;
 use view::watch::Follower;
@@ -305,6 +306,15 @@ impl Session {
         let host = &mut self.evaluator.host;
         host.audience
             .show_to(&host.simulation, &self.evaluator.image, follower);
+    }
+
+    /// Lets plans drive a robot elsewhere, by `with-real-robot`. Simulated time passes as real time does from now on,
+    /// unless another pace has been set.
+    pub fn drive(&mut self, robot: Box<dyn outside::RobotLink>) {
+        let host = &mut self.evaluator.host;
+        let interface = host.simulation.models.description.interface.clone();
+        host.simulation.robot = Some(RobotAccess::new(robot, interface));
+        host.audience.keep_real_time();
     }
 
     /// What a page of the program's own shows of the session from now on, as the live view does. The

@@ -228,38 +228,6 @@ fn a_client_does_not_wait_for_the_plan_of_another_one() {
 }
 
 #[test]
-fn clients_that_lose_their_places_do_not_pile_up() {
-    let server = Server::new();
-    let mut busy = Vec::new();
-    let endless = run(1, "(loop)").to_string();
-    let begin = request(0, "initialize", json!({"protocolVersion": "2025-06-18"})).to_string();
-    let kind = "Content-Type: application/json\r\n";
-    let refused = (0..12).find_map(|_| {
-        let begun = server.ask("POST", kind, &begin);
-        let Some(session) = begun.header("Mcp-Session-Id") else {
-            return Some(begun);
-        };
-        let headers = format!("{kind}Mcp-Session-Id: {session}\r\n");
-        let mut stream = server.connect();
-        let asked = server.request("POST", &headers, &endless);
-        stream.write_all(asked.as_bytes()).expect("it reads");
-        busy.push(stream);
-        None
-    });
-    let refused = refused.expect("there is an end");
-    assert_eq!((refused.status, busy.len()), (503, 6), "{}", refused.body);
-    // Those that run are answered, also without a place; then there is room.
-    for stream in busy {
-        assert!(read(stream).body.contains("It calculates without end"));
-    }
-    let deadline = Instant::now() + Duration::from_secs(20);
-    while server.ask("POST", kind, &begin).status != 200 {
-        assert!(Instant::now() < deadline, "nobody can begin any more");
-        thread::sleep(Duration::from_millis(20));
-    }
-}
-
-#[test]
 fn requests_that_are_wrong_or_not_from_this_machine_are_refused() {
     let server = Server::new();
     let session = server.begin();

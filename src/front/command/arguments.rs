@@ -53,6 +53,17 @@ pub(crate) struct Arguments {
         default_missing_value = ""
     )]
     pub(crate) ros2: Option<String>,
+    /// Let with-real-robot drive the robot whose actions are served over ROS 2, with messages of a distribution such as
+    /// humble [default: ROS_DISTRO, or jazzy]; joints then move no faster than the URDF says, and time is real
+    #[arg(
+        long,
+        value_name = "DISTRIBUTION",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "ros2"
+    )]
+    pub(crate) real_robot: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }

@@ -27,6 +27,7 @@ mod paint;
 mod picture;
 mod pipe;
 mod prompt;
+mod real_robot;
 mod reference;
 mod replay;
 mod robot;
@@ -89,8 +90,23 @@ fn run_command_line() -> ExitCode {
 }
 
 fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
+    if arguments.real_robot.is_some() && arguments.prompt.resume.is_some() {
+        return Err(CommandError::Open(
+            "--resume would let the robot do again what it has done: leave out --real-robot"
+                .to_owned(),
+        ));
+    }
+    let mut arguments = arguments;
+    let real_robot = match &arguments.command {
+        Some(Command::Run(wanted)) => wanted.watch.real_robot.clone(),
+        _ => None,
+    };
+    let real_robot = arguments.real_robot.take().or(real_robot);
+    // A robot's controllers refuse what is faster.
+    arguments.options.faithful |= real_robot.is_some();
     let options = &arguments.options;
     let watch = WatchArguments {
+        real_robot: real_robot.clone(),
         view: arguments.view,
         ros2: arguments.ros2.clone(),
         ..WatchArguments::default()
@@ -103,6 +119,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Run(mut wanted)) => {
             wanted.watch.view |= arguments.view;
             wanted.watch.ros2 = wanted.watch.ros2.or(arguments.ros2);
+            wanted.watch.real_robot = real_robot;
             run::run(options, &wanted)
         }
         Some(Command::View(wanted)) => view_recording::view(options, &wanted),

@@ -31,6 +31,9 @@ pub(crate) fn evaluate_standard_input(
     }
     let mut session = open_session(&options)?;
     let watched = watching::begin(&mut session, watch)?;
+    if watch.real_robot.is_some() {
+        let _ = watching::finish_at_interrupt(&session, watch, &watched);
+    }
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     screen.set_cautious(io::stdout().is_terminal());
     let mut keeper = Keeper::new(journals.journal);

@@ -4,10 +4,10 @@ use super::failure::CommandError;
 use session::Session;
 
 #[cfg(feature = "ros2")]
-pub(crate) use node::{Publishing, publish};
+pub(crate) use node::{Publishing, open_node, publish, say, warn};
 
 #[cfg(not(feature = "ros2"))]
-pub(crate) use without::{Publishing, publish};
+pub(crate) use without::{Publishing, missing, publish};
 
 /// With the feature.
 #[cfg(feature = "ros2")]
@@ -33,26 +33,43 @@ mod node {
         distribution: &str,
     ) -> Result<Publishing, CommandError> {
         let wrong = |error: &dyn ToString| CommandError::Open(error.to_string());
-        let distribution = wanted(distribution).map_err(|error| wrong(&error))?;
-        let reach = Reach::of_environment().map_err(|error| wrong(&error))?;
-        let layouts = Layouts::of(distribution).map_err(|error| wrong(&error))?;
-        let mut node = Node::open("planwright", reach, layouts).map_err(|error| wrong(&error))?;
+        let (mut node, name) = open_node("planwright", distribution)?;
+        let reach = node.reach();
         let robot = session.options().robot.as_ref();
         let robot = robot.map_or(PR2_URDF, |(_, urdf)| urdf.as_str());
-        let remark = |remark: String| {
-            // If standard error is closed, nobody is there to be told.
-            let _ = writeln!(io::stderr(), "; Warning: {remark}");
-        };
+        let remark = |remark: String| warn(&remark);
         let started = Broadcast::start(&mut node, session.models(), robot, remark);
         let (broadcast, follow) = started.map_err(|error| wrong(&error))?;
         session.show_to(Box::new(follow));
-        let name = distribution.name();
-        // If standard error is closed, others may still listen.
-        let _ = writeln!(
-            io::stderr(),
+        say(&format!(
             "The session is a node of ROS 2 ({name}) in {reach}"
-        );
+        ));
         Ok(Publishing { broadcast, node })
+    }
+
+    /// A node of a name that nobody asks for anything yet, and the name of its distribution: the one of that name, or
+    /// that of the environment if the name is empty.
+    pub(crate) fn open_node(
+        node: &str,
+        distribution: &str,
+    ) -> Result<(Node, &'static str), CommandError> {
+        let wrong = |error: &dyn ToString| CommandError::Open(error.to_string());
+        let distribution = wanted(distribution).map_err(|error| wrong(&error))?;
+        let reach = Reach::of_environment().map_err(|error| wrong(&error))?;
+        let layouts = Layouts::of(distribution).map_err(|error| wrong(&error))?;
+        let node = Node::open(node, reach, layouts).map_err(|error| wrong(&error))?;
+        Ok((node, distribution.name()))
+    }
+
+    /// Tells a person something.
+    pub(crate) fn say(text: &str) {
+        // If standard error is closed, nobody is there to be told.
+        let _ = writeln!(io::stderr(), "{text}");
+    }
+
+    /// Tells a person what is wrong.
+    pub(crate) fn warn(text: &str) {
+        say(&format!("; Warning: {text}"));
     }
 
     /// The distribution of a name; that of the environment, if it is one whose messages are known, for an empty
@@ -79,10 +96,15 @@ mod without {
 
     /// Refuses.
     pub(crate) fn publish(_: &mut Session, _: &str) -> Result<Publishing, CommandError> {
-        Err(CommandError::Open(
+        Err(missing())
+    }
+
+    /// What is said of whatever needs the feature.
+    pub(crate) fn missing() -> CommandError {
+        CommandError::Open(
             "this planwright was built without ROS 2: build it by \
              cargo build --release --features ros2"
                 .to_owned(),
-        ))
+        )
     }
 }

@@ -54,7 +54,7 @@ pub(crate) fn run(options: &Options, wanted: &RunArguments) -> Result<Status, Co
     let mut writing = Writing::default();
     let begin = |session: &mut Session| {
         watched = watching::begin(session, watch)?;
-        writing = watching::finish_at_interrupt(session, watch);
+        writing = watching::finish_at_interrupt(session, watch, &watched);
         session.set_time_limit(time_limit.map(Duration::from_secs_f64));
         Ok(())
     };

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::failure::CommandError;
+use super::real_robot::{self, Driving};
 use super::ros2::{self, Publishing};
 use session::Session;
 use session::dialogue::Evaluate;
@@ -39,6 +40,17 @@ pub(crate) struct WatchArguments {
         default_missing_value = ""
     )]
     pub(crate) ros2: Option<String>,
+    /// Let with-real-robot drive the robot whose actions are served over ROS 2, with messages of a distribution such as
+    /// humble [default: ROS_DISTRO, or jazzy]; joints then move no faster than the URDF says, and time is real
+    #[arg(
+        long,
+        value_name = "DISTRIBUTION",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "ros2"
+    )]
+    pub(crate) real_robot: Option<String>,
 }
 
 /// What goes on while a session is watched; what it sends ends with it.
@@ -47,6 +59,8 @@ pub(crate) struct Watching {
     /// Whether a browser was started.
     has_browser: bool,
     _publishing: Option<Publishing>,
+    /// The robot that plans drive.
+    robot: Option<Driving>,
 }
 
 /// How long to wait for a browser to show the page.
@@ -68,6 +82,10 @@ pub(crate) fn begin(
         Some(distribution) => Some(ros2::publish(session, distribution)?),
         None => None,
     };
+    let robot = match &watch.real_robot {
+        Some(distribution) => Some(real_robot::connect(session, distribution)?),
+        None => None,
+    };
     let mut has_browser = false;
     if watch.view {
         let address = session.open_view()?;
@@ -78,19 +96,30 @@ pub(crate) fn begin(
     Ok(Watching {
         has_browser,
         _publishing: publishing,
+        robot,
     })
 }
 
 /// While files are being written, lets Ctrl-C end the evaluation only, so that they can be
 /// completed; again, it ends the program. Without files, or if this is not possible, it ends the
 /// program at once.
-pub(crate) fn finish_at_interrupt(session: &Session, watch: &WatchArguments) -> Writing {
+///
+/// While a robot is driven, Ctrl-C lets it stop, too; the program ends when it stands, or at the next one.
+pub(crate) fn finish_at_interrupt(
+    session: &Session,
+    watch: &WatchArguments,
+    watching: &Watching,
+) -> Writing {
     let writing = Writing(Arc::new(AtomicBool::new(true)));
-    if watch.record.is_none() && watch.html.is_none() {
+    if watch.record.is_none() && watch.html.is_none() && watching.robot.is_none() {
         return writing;
     }
     let (flag, is_writing) = (session.interrupt_handle(), Arc::clone(&writing.0));
+    let halt = watching.robot.as_ref().map(Driving::halt);
     let _ = ctrlc::set_handler(move || {
+        if let Some(halt) = &halt {
+            halt.store(true, Ordering::Relaxed);
+        }
         if !is_writing.load(Ordering::Relaxed) || flag.swap(true, Ordering::Relaxed) {
             std::process::exit(INTERRUPTED);
         }

@@ -33,6 +33,7 @@ pub use failure::motion_failure::MotionFailure;
 pub use failure::no_handle_grasp::HandleObstacle;
 pub use failure::process_module::ProcessModule;
 pub use failure::pushed_object::PushedObject;
+pub use failure::robot_trouble::{RobotFailure, RobotTrouble};
 pub use failure::stopped_part::StoppedPart;
 pub use failure::unreachable::{UnreachablePose, UnreachableReason};
 pub use jobs::detect::DetectQuery;

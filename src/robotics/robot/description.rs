@@ -5,6 +5,7 @@
 //! so that every name in it is a link or joint of that tree. The rest of the program
 //! uses this description and never names a link itself.
 
+use super::interface::RobotInterface;
 use super::jaw_gap::JawGap;
 use super::{
     Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
@@ -343,6 +344,8 @@ pub struct RobotDescription {
     pub(crate) joined: Vec<(JointId, JointId)>,
     /// Names by which users call links and joints, besides those in the URDF.
     pub aliases: Vec<Alias>,
+    /// By which names it is driven from outside.
+    pub interface: RobotInterface,
     /// Greatest velocity and acceleration of each joint, at its index.
     pub(super) speeds: Vec<Speed>,
 }

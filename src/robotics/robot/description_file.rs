@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::description::{
     Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
 };
+use super::interface_file::interface;
 use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
@@ -80,6 +81,17 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("wheels", &[]),
     ("idle-joints", &[]),
     ("alias", &[]),
+    (
+        "interface",
+        &[
+            "name",
+            "names",
+            "time-out",
+            "tolerance",
+            "turn-tolerance",
+            "max-age",
+        ],
+    ),
 ];
 
 /// Greatest force (N) of fingers whose description does not give it: little, so that nothing is
@@ -140,6 +152,7 @@ impl<'a> Reader<'a> {
             idle_joints: self.idle_joints()?,
             joined,
             aliases: aliases(self.tree, self.all("alias"))?,
+            interface: interface(self.all("interface"))?,
             speeds: self.speeds()?,
         })
     }

@@ -1,5 +1,6 @@
 //! A node of ROS 2, and the topics that it writes.
 
+use std::cell::{Cell, RefCell};
 use std::net::Ipv4Addr;
 use std::sync::Arc;
 use std::time::Duration;
@@ -14,6 +15,8 @@ use thiserror::Error;
 
 use super::payload::{AsBytes, Payload};
 use super::service::Service;
+use super::service_client::ServiceClient;
+use super::topic_reader::TopicReader;
 use crate::cdr::{CdrError, encode};
 use crate::layout::Layouts;
 use crate::names;
@@ -208,21 +211,7 @@ impl Node {
     ) -> Result<Service, NodeError> {
         let qos = TopicQos::volatile(100);
         let [request_topic, reply_topic] = names::service(name);
-        let failed = |cause: &dyn ToString| NodeError::Topic {
-            topic: name.to_owned(),
-            cause: cause.to_string(),
-        };
-        let kind = names::topic_type(&request);
-        let policies = qos.policies();
-        let topic = self
-            .participant
-            .create_topic(request_topic, kind, &policies, TopicKind::NoKey);
-        let topic = topic.map_err(|error| failed(&error))?;
-        let subscriber = self.participant.create_subscriber(&policies);
-        let subscriber = subscriber.map_err(|error| failed(&error))?;
-        let requests = subscriber.create_simple_datareader_no_key(&topic, Some(policies));
-        let requests: SimpleDataReader<Payload, AsBytes> =
-            requests.map_err(|error| failed(&error))?;
+        let requests = self.reader_of(name, request_topic, &request, qos)?;
         let replies = self.writer_of(name, reply_topic, &response, qos)?.writer;
         self.readers.push(requests.guid().to_bytes());
         self.writers.push(replies.guid().to_bytes());
@@ -234,6 +223,81 @@ impl Node {
             requests,
             replies,
         })
+    }
+
+    /// A service that others offer, which the node asks from now on.
+    pub fn client(
+        &mut self,
+        name: &str,
+        request: String,
+        response: String,
+    ) -> Result<ServiceClient, NodeError> {
+        let qos = TopicQos::volatile(100);
+        let [request_topic, reply_topic] = names::service(name);
+        // First who hears: a reply to the first request may come at once.
+        let replies = self.reader_of(name, reply_topic, &response, qos)?;
+        let requests = self.writer_of(name, request_topic, &request, qos)?.writer;
+        self.readers.push(replies.guid().to_bytes());
+        self.writers.push(requests.guid().to_bytes());
+        self.announce()?;
+        let identity = digest(&requests.guid().to_bytes());
+        Ok(ServiceClient {
+            layouts: Arc::clone(&self.layouts),
+            request,
+            response,
+            requests,
+            replies,
+            identity,
+            next: Cell::new(1),
+            pending: RefCell::default(),
+            matched: Cell::new([0, 0]),
+        })
+    }
+
+    /// A topic that the node hears from now on.
+    pub fn reader(
+        &mut self,
+        topic: &str,
+        message: &str,
+        qos: TopicQos,
+    ) -> Result<TopicReader, NodeError> {
+        let reader = self.reader_of(topic, names::topic(topic), message, qos)?;
+        self.readers.push(reader.guid().to_bytes());
+        self.announce()?;
+        Ok(TopicReader {
+            topic: topic.to_owned(),
+            message: message.to_owned(),
+            layouts: Arc::clone(&self.layouts),
+            reader,
+        })
+    }
+
+    /// What identifies the node among all.
+    pub(super) fn identity(&self) -> [u8; 8] {
+        digest(&self.participant.guid().to_bytes())
+    }
+
+    fn reader_of(
+        &self,
+        topic: &str,
+        dds_topic: String,
+        message: &str,
+        qos: TopicQos,
+    ) -> Result<SimpleDataReader<Payload, AsBytes>, NodeError> {
+        let failed = |cause: &dyn ToString| NodeError::Topic {
+            topic: topic.to_owned(),
+            cause: cause.to_string(),
+        };
+        let policies = qos.policies();
+        let kind = names::topic_type(message);
+        let dds_topic = self
+            .participant
+            .create_topic(dds_topic, kind, &policies, TopicKind::NoKey);
+        let dds_topic = dds_topic.map_err(|error| failed(&error))?;
+        let subscriber = self.participant.create_subscriber(&policies);
+        let subscriber = subscriber.map_err(|error| failed(&error))?;
+        let reader = subscriber.create_simple_datareader_no_key(&dds_topic, Some(policies));
+        reader.map_err(|error| failed(&error))
     }
 
     fn writer_of(
@@ -292,6 +356,14 @@ impl Node {
             None => Ok(()),
         }
     }
+}
+
+/// Half as many bytes, in which all of an identity have a part (FNV-1a).
+fn digest(identity: &[u8; 16]) -> [u8; 8] {
+    let digest = identity.iter().fold(0xcbf2_9ce4_8422_2325, |digest, byte| {
+        (digest ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    u64::to_le_bytes(digest)
 }
 
 /// A topic that a node writes.

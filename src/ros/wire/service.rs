@@ -11,7 +11,7 @@ use crate::layout::Layouts;
 use crate::value::Value;
 
 /// Length of what identifies a request.
-const HEADER: usize = 16;
+pub(super) const HEADER: usize = 16;
 
 /// Whose request it is, and which: bytes that are handed back as they came. They are two numbers of eight bytes, but
 /// implementations disagree on the order of the second one's halves, so nothing may be calculated with it.

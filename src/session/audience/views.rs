@@ -112,6 +112,11 @@ impl Audience {
         updates
     }
 
+    /// Simulated time passes as real time does, unless another pace has been set.
+    pub(crate) fn keep_real_time(&mut self) {
+        self.keep_pace(self.pace_control());
+    }
+
     /// Shows a follower from elsewhere what happens from now on, at a pace.
     pub(crate) fn show_to(
         &mut self,

@@ -12,6 +12,8 @@ impl Evaluator {
     /// before it.
     pub(crate) fn tell_halt(&mut self, was_stopped: bool, aborted: Option<Halt>) {
         let is_stopped = self.console.level() > 0;
+        // Nobody looks after what moves while a person decides.
+        self.host.simulation.stop_robot();
         let halt = if is_stopped {
             self.console.halt()
         } else {

@@ -21,6 +21,7 @@ mod pictures;
 mod plans;
 mod prompt;
 mod reaching;
+mod real_robot;
 mod robot_macros;
 mod robot_state;
 mod robots;

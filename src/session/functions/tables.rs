@@ -18,6 +18,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         functions::containers::PLANS_TABLE,
     ),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::sight::TABLE),
+    ("CRAM-PR2-PROCESS-MODULES", functions::real_robot::TABLE),
     ("CRAM-ROBOT-INTERFACES", functions::robot_state::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
     ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),

@@ -146,6 +146,9 @@ impl SimulationHost {
             }
             watch(self);
         }
+        if image.is_interrupted() {
+            self.simulation.stop_robot();
+        }
         if !done.is_empty() {
             self.note_moment();
         }
@@ -189,7 +192,11 @@ impl SimulationHost {
     /// Begins a motion.
     fn begin(&mut self, image: &mut Image, request: &MotionRequest) -> Result<Reply, Box<Raise>> {
         let (motion, subject) = self.simulation.motion_for(image, request)?;
-        let motion = self.simulation.with_faults(image, motion, request);
+        let mut motion = self.simulation.with_faults(image, motion, request);
+        // What is only tried out does not move a robot elsewhere.
+        if !self.person.snapshots.is_trial() {
+            motion = self.simulation.of_real_robot(motion);
+        }
         // Report the task before its actions.
         self.audience.tell_tasks(image);
         let told = self.told(image, Some(request));

@@ -4,6 +4,7 @@
 //! where there is no file system or no clock of the machine's gives it others.
 
 mod clock;
+mod robot_link;
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,6 +14,10 @@ use lisp::image::extension::Extension;
 use lisp::value::copy::Copier;
 
 pub use clock::{Clock, MachineClock};
+pub use robot_link::{
+    FingersReport, GoalTicket, PartGoal, RobotEnd, RobotLink, RobotState, SeenObject,
+    TrajectoryPoint,
+};
 
 /// What a session has outside itself.
 #[derive(Clone, Debug)]

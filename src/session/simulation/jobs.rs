@@ -172,6 +172,22 @@ impl Jobs {
         self.leaving.iter().chain(paused).any(Job::is_moving)
     }
 
+    /// Lets robots elsewhere stop, and waits for that.
+    pub(crate) fn stop_elsewhere(&mut self, world: &mut World) {
+        let moves = |job: &Job| job.motion.is_elsewhere() && job.motion.is_moving();
+        loop {
+            let mut jobs = self.active.iter_mut().chain(&mut self.leaving);
+            let mut are_still = true;
+            for job in jobs.by_ref().filter(|job| moves(job)) {
+                job.motion.brake(world);
+                are_still = false;
+            }
+            if are_still {
+                return;
+            }
+        }
+    }
+
     /// Pauses a motion or lets it continue.
     pub(crate) fn set_paused(&mut self, ticket: Ticket, paused: bool) {
         for job in self.active.iter_mut().chain(&mut self.waiting) {

@@ -19,6 +19,7 @@ pub(super) mod obstacle;
 pub(super) mod outcome;
 mod pose_argument;
 pub(super) mod properties;
+pub(super) mod real;
 pub(super) mod seen;
 mod sweep_world;
 mod tally;
@@ -48,6 +49,7 @@ use injection::SharedInjection;
 use jobs::Jobs;
 use known_grasps::KnownGrasps;
 use mesh_places::MeshPlaces;
+use real::SharedRobot;
 use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
@@ -108,6 +110,8 @@ pub struct Simulation {
     pub(super) searches: u64,
     /// What a sweep has put into the world, and where.
     pub(super) put_for_sweep: Vec<(String, Pose)>,
+    /// The robot elsewhere that plans can drive, if there is one. Copies have none.
+    pub(crate) robot: Option<SharedRobot>,
 }
 
 impl Simulation {
@@ -129,6 +133,7 @@ impl Simulation {
             facts: Rc::default(),
             searches: 0,
             put_for_sweep: Vec::new(),
+            robot: None,
             home: Arc::clone(&models),
             models,
             grasps: KnownGrasps::default(),
@@ -187,6 +192,7 @@ impl Simulation {
             facts: Rc::clone(&self.facts),
             searches: self.searches,
             put_for_sweep: self.put_for_sweep.clone(),
+            robot: None,
         }
     }
 

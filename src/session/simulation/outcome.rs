@@ -56,6 +56,12 @@ impl Simulation {
             }
             MotionOutcome::Detected(objects) => {
                 for object in objects {
+                    // One that the camera of a robot elsewhere has found has no name yet.
+                    if !self.names.contains_key(&object.name) {
+                        let package = image.current_package();
+                        let symbol = image.intern(package, &object.name);
+                        self.names.insert(object.name.clone(), symbol.into());
+                    }
                     self.see_grip(&object.name, &object.pose_in_base);
                 }
                 let named = objects.iter().map(|o| (self.symbol_of(&o.name), o));

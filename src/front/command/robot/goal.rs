@@ -58,6 +58,38 @@ pub(super) enum Ended {
     Interrupted,
 }
 
+/// What a session is to do for a goal.
+pub(super) enum Call {
+    /// A function, and its arguments.
+    Function(&'static str, Vec<Datum>),
+    /// A trajectory of arms, one after the other, or of the torso.
+    Follow(Vec<Side>, Trajectory),
+}
+
+impl Call {
+    /// Both at once, if they are trajectories of two arms; otherwise the first one.
+    pub(super) fn together(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Follow(mut sides, one), Self::Follow(others, two)) => {
+                sides.extend(others);
+                Self::Follow(sides, one.beside(&two))
+            }
+            (one, _) => one,
+        }
+    }
+
+    /// The function, and its arguments.
+    pub(super) fn arguments(self) -> (&'static str, Vec<Datum>) {
+        match self {
+            Self::Function(function, arguments) => (function, arguments),
+            Self::Follow(sides, trajectory) => (
+                "planwright-robot::follow-trajectory",
+                trajectory.arguments(&sides),
+            ),
+        }
+    }
+}
+
 impl Deed {
     /// Whether a goal can be one: numbers are finite, a rotation is one.
     pub(super) fn fits(self, goal: &Value) -> bool {
@@ -73,14 +105,14 @@ impl Deed {
         }
     }
 
-    /// The function that carries the goal out, and its arguments.
-    pub(super) fn call(
+    /// The call that carries the goal out.
+    pub(super) fn prepare(
         self,
         goal: &Value,
         models: &Models,
         scene: &SceneModel,
         state: &SceneState,
-    ) -> Result<(&'static str, Vec<Datum>), Ended> {
+    ) -> Result<Call, Ended> {
         let framed = |header: &[&str], pose: Option<Pose>| {
             let frame = goal.at(header).and_then(Value::as_text).unwrap_or_default();
             let pose = pose.ok_or_else(|| Ended::Failed("the goal is no pose".to_owned()))?;
@@ -95,28 +127,27 @@ impl Deed {
             Self::Navigate => {
                 let pose = pose(goal.at(&["pose", "pose"]));
                 let pose = framed(&["pose", "header", "frame_id"], pose)?;
-                ("planwright-robot::navigate-to-pose", vec![pose])
+                Call::Function("planwright-robot::navigate-to-pose", vec![pose])
             }
             Self::Gripper(side) => {
                 let gap = number(goal, &["command", "position"]).unwrap_or_default();
                 let gripper = &models.description.arm(side).gripper;
                 let opening = gripper.opening_at(gripper.position_for_gap(gap));
                 let side = Datum::keyword(side.name());
-                (
+                Call::Function(
                     "planwright-robot::open-gripper",
                     vec![side, Datum::Float(opening)],
                 )
             }
-            Self::Follow(arm) => {
-                let wanted = Trajectory::of(goal, arm, models, scene, state, now())?;
-                let arguments = wanted.arguments(arm);
-                ("planwright-robot::follow-trajectory", arguments)
-            }
+            Self::Follow(arm) => Call::Follow(
+                arm.into_iter().collect(),
+                Trajectory::of(goal, arm, models, scene, state, now())?,
+            ),
             Self::PointHead => {
                 let point = point(goal.at(&["target", "point"]));
                 let pose = point.map(|[x, y, z]| Pose::translation(x, y, z));
                 let pose = framed(&["target", "header", "frame_id"], pose)?;
-                ("planwright-robot::point-head", vec![pose])
+                Call::Function("planwright-robot::point-head", vec![pose])
             }
         })
     }

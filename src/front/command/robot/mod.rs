@@ -7,6 +7,8 @@ mod offered;
 #[cfg(feature = "ros2")]
 mod serving;
 #[cfg(feature = "ros2")]
+mod sight;
+#[cfg(feature = "ros2")]
 mod trajectory;
 
 use clap::Args;

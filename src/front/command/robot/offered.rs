@@ -1,6 +1,7 @@
 //! The actions that the robot offers.
 
 use super::goal::Deed;
+use robotics::robot::RobotPart;
 use robotics::world::Models;
 
 /// An action that the robot offers.
@@ -16,34 +17,41 @@ pub(super) struct Offered {
 
 /// All that a robot can do.
 pub(super) fn offered(models: &Models) -> Vec<Offered> {
-    let offer = |name: String, action, deed| Offered { name, action, deed };
-    let trajectory = |part: &str, arm| {
+    let body = &models.description;
+    let offer = |part: RobotPart, action, deed| {
+        let known = body.interface.part(part);
+        Offered {
+            name: known.map_or_else(String::new, |known| known.name.clone()),
+            action,
+            deed,
+        }
+    };
+    let trajectory = |part: RobotPart, arm| {
         offer(
-            format!("/{part}_controller/follow_joint_trajectory"),
+            part,
             "control_msgs/action/FollowJointTrajectory",
             Deed::Follow(arm),
         )
     };
-    let body = &models.description;
     let mut all = vec![offer(
-        "/navigate_to_pose".to_owned(),
+        RobotPart::Base,
         "nav2_msgs/action/NavigateToPose",
         Deed::Navigate,
     )];
     for arm in &body.arms {
         let side = arm.side;
-        all.push(trajectory(&format!("{side}_arm"), Some(side)));
+        all.push(trajectory(RobotPart::Arm(side), Some(side)));
         all.push(offer(
-            format!("/{side}_gripper_controller/gripper_cmd"),
+            RobotPart::Gripper(side),
             "control_msgs/action/GripperCommand",
             Deed::Gripper(side),
         ));
     }
     if body.torso.joint.is_some() {
-        all.push(trajectory("torso", None));
+        all.push(trajectory(RobotPart::Torso, None));
     }
     all.push(offer(
-        "/head_controller/point_head_action".to_owned(),
+        RobotPart::Neck,
         "control_msgs/action/PointHead",
         Deed::PointHead,
     ));

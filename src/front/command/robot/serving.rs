@@ -12,12 +12,13 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use super::super::failure::{CommandError, Status};
 use super::super::ros2::Publishing;
-use super::goal::{Deed, Ended};
+use super::goal::{Call, Deed, Ended};
 use super::offered::{Offered, offered};
+use super::sight::see;
 use robotics::world::Models;
 use ros::action::{GoalEnd, GoalId};
-use ros::wire::{ActionServer, Newest, Wish};
-use ros::{SceneModel, Value};
+use ros::wire::{ActionServer, Newest, RequestId, Service, Wish};
+use ros::{SceneModel, Value, service_type};
 use session::{Failure, InterruptHandle, Session};
 
 /// What the goals are for the robot.
@@ -25,6 +26,12 @@ const ACTIONS: &str = include_str!("actions.plan");
 
 /// The class of failures of what the arms cannot do, whatever is in the way.
 const REFUSED: &str = "MANIPULATION-POSE-UNREACHABLE";
+
+/// The service that tells what the camera sees.
+const DETECT: &str = "planwright_msgs/srv/DetectObjects";
+
+/// How long the second arm's goal may come after the first one's if both are to move at once.
+const TOGETHER: Duration = Duration::from_millis(60);
 
 /// Real time between two looks at what clients have sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(3);
@@ -35,18 +42,27 @@ const BETWEEN_FEEDBACK: Duration = Duration::from_millis(100);
 /// A goal: which action it is of, and its identity.
 type Key = (usize, GoalId);
 
-/// A goal to be carried out.
-struct Order {
-    key: Key,
-    deed: Deed,
-    goal: Value,
+/// What the session is to do.
+enum Order {
+    /// Carry a goal out.
+    Goal(Key, Deed, Value),
+    /// Tell what the camera sees.
+    See(RequestId, Value),
+}
+
+/// What the session has done.
+enum Done {
+    /// A goal has ended.
+    Goal(Key, Ended),
+    /// What the camera sees, as a message.
+    Seen(RequestId, Value),
 }
 
 /// What both threads know.
 #[derive(Default)]
 struct Shared {
-    /// The goal that is carried out.
-    running: Option<Key>,
+    /// The goals that are carried out: one, or one of each arm.
+    running: Vec<Key>,
     /// Goals that are to end.
     unwanted: Vec<Key>,
 }
@@ -73,6 +89,10 @@ pub(super) fn serve(
         .map(|offered| ActionServer::open(node, &offered.name, offered.action))
         .collect::<Result<Vec<_>, _>>();
     let servers = servers.map_err(|error| wrong(&error))?;
+    let camera = &models.description.interface.perception;
+    let [request, response] = service_type(DETECT);
+    let perception = node.service(camera, request, response);
+    let perception = perception.map_err(|error| wrong(&error))?;
     let stop = Arc::new(AtomicBool::new(false));
     let (flag, interrupter) = (Arc::clone(&stop), session.interrupter());
     let handled = ctrlc::set_handler(move || {
@@ -87,6 +107,7 @@ pub(super) fn serve(
     let (scene, newest) = (Arc::clone(broadcast.model()), broadcast.newest().clone());
     let desk = Desk {
         servers,
+        perception,
         offered: Arc::clone(&offered),
         both: Arc::clone(&both),
         orders,
@@ -104,12 +125,35 @@ pub(super) fn serve(
     for offered in &*offered {
         writeln!(io::stdout(), "{} ({})", offered.name, offered.action)?;
     }
+    writeln!(io::stdout(), "{camera} ({DETECT})")?;
     io::stdout().flush()?;
+    let mut next = None;
     while !stop.load(Ordering::Relaxed) {
-        match ordered.recv_timeout(Duration::from_millis(50)) {
-            Ok(order) => {
-                let end = carry_out(&mut session, &both, &order, &models, &scene, &newest);
-                drop(ends.send((order.key, end)));
+        let order = match next.take() {
+            Some(order) => Ok(order),
+            None => ordered.recv_timeout(Duration::from_millis(50)),
+        };
+        match order {
+            Ok(Order::Goal(key, deed, goal)) => {
+                let mut goals = vec![(key, deed, goal)];
+                // Arms that are to move at once are sent their goals one after the other.
+                if let Deed::Follow(Some(side)) = deed {
+                    match ordered.recv_timeout(TOGETHER) {
+                        Ok(Order::Goal(key, deed @ Deed::Follow(Some(other)), goal))
+                            if other != side =>
+                        {
+                            goals.push((key, deed, goal));
+                        }
+                        other => next = other.ok(),
+                    }
+                }
+                for (key, end) in carry_out(&mut session, &both, &goals, &models, &scene, &newest) {
+                    drop(ends.send(Done::Goal(key, end)));
+                }
+            }
+            Ok(Order::See(request, question)) => {
+                let answer = see(&mut session, &question, scene.map);
+                drop(ends.send(Done::Seen(request, answer)));
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => break,
@@ -123,43 +167,56 @@ pub(super) fn serve(
     Ok(Status::Good)
 }
 
-/// Carries out a goal, unless it is to end already.
+/// Carries out goals, except for those that are to end already.
 fn carry_out(
     session: &mut Session,
     both: &Both,
-    order: &Order,
+    goals: &[(Key, Deed, Value)],
     models: &Models,
     scene: &SceneModel,
     newest: &Newest,
-) -> Ended {
+) -> Vec<(Key, Ended)> {
+    let state = newest.state();
+    let mut ends = Vec::new();
+    let mut calls = Vec::new();
+    for (key, deed, goal) in goals {
+        if lock(both).unwanted.contains(key) {
+            ends.push((*key, Ended::Interrupted));
+            continue;
+        }
+        match deed.prepare(goal, models, scene, &state) {
+            Ok(call) => calls.push((*key, call)),
+            Err(ended) => ends.push((*key, ended)),
+        }
+    }
+    let keys: Vec<Key> = calls.iter().map(|(key, _)| *key).collect();
+    let calls = calls.into_iter().map(|(_, call)| call);
+    let Some(call) = calls.reduce(Call::together) else {
+        return ends;
+    };
     {
         let mut shared = lock(both);
-        if shared.unwanted.contains(&order.key) {
-            return Ended::Interrupted;
-        }
-        shared.running = Some(order.key);
+        shared.running.clone_from(&keys);
     }
-    let state = newest.state();
-    let ended = match order.deed.call(&order.goal, models, scene, &state) {
-        Err(ended) => ended,
-        Ok((function, arguments)) => match session.call(function, &arguments) {
-            Ok(_) => Ended::Reached,
-            Err(Failure::Interrupted) => Ended::Interrupted,
-            Err(failure) => match failure.unhandled() {
-                Some(condition) if condition.abort.class == REFUSED => {
-                    Ended::Refused(condition.abort.report.trim_end().to_owned())
-                }
-                Some(condition) => Ended::Failed(condition.abort.report.trim_end().to_owned()),
-                None => Ended::Failed(failure.to_string()),
-            },
+    let (function, arguments) = call.arguments();
+    let ended = match session.call(function, &arguments) {
+        Ok(_) => Ended::Reached,
+        Err(Failure::Interrupted) => Ended::Interrupted,
+        Err(failure) => match failure.unhandled() {
+            Some(condition) if condition.abort.class == REFUSED => {
+                Ended::Refused(condition.abort.report.trim_end().to_owned())
+            }
+            Some(condition) => Ended::Failed(condition.abort.report.trim_end().to_owned()),
+            None => Ended::Failed(failure.to_string()),
         },
     };
-    lock(both).running = None;
+    lock(both).running.clear();
     if ended != Ended::Reached {
         // What was under way brakes; whoever hears of the end finds a robot that stands.
         drop(session.call("planwright-robot::come-to-rest", &[]));
     }
-    ended
+    ends.extend(keys.into_iter().map(|key| (key, ended.clone())));
+    ends
 }
 
 /// A goal that has been accepted and has not ended.
@@ -184,10 +241,11 @@ enum Why {
 /// Answers clients.
 struct Desk {
     servers: Vec<ActionServer>,
+    perception: Service,
     offered: Arc<[Offered]>,
     both: Both,
     orders: Sender<Order>,
-    ended: Receiver<(Key, Ended)>,
+    ended: Receiver<Done>,
     under_way: Vec<UnderWay>,
     interrupter: InterruptHandle,
     models: Arc<Models>,
@@ -200,6 +258,7 @@ impl Desk {
     fn run(mut self) {
         while !self.stop.load(Ordering::Relaxed) {
             self.hear();
+            self.hear_questions();
             self.begin();
             self.interrupt();
             self.end();
@@ -228,13 +287,8 @@ impl Desk {
                             ending: None,
                             told: None,
                         });
-                        let order = Order {
-                            key,
-                            deed: offered.deed,
-                            goal,
-                        };
                         // Without the session there is nobody left to tell.
-                        drop(self.orders.send(order));
+                        drop(self.orders.send(Order::Goal(key, offered.deed, goal)));
                     }
                     Wish::Cancel(id) => {
                         let key = (action, id);
@@ -247,11 +301,19 @@ impl Desk {
         }
     }
 
+    /// Takes questions to the camera.
+    fn hear_questions(&self) {
+        while let Some((request, question)) = self.perception.take() {
+            // Without the session there is nobody left to tell.
+            drop(self.orders.send(Order::See(request, question)));
+        }
+    }
+
     /// Tells that a goal is carried out from now on.
     fn begin(&mut self) {
-        let running = lock(&self.both).running;
+        let running = lock(&self.both).running.clone();
         for goal in &mut self.under_way {
-            if Some(goal.key) == running && goal.begun.is_none() {
+            if running.contains(&goal.key) && goal.begun.is_none() {
                 goal.begun = Some(Instant::now());
                 if let Some(server) = self.servers.get_mut(goal.key.0) {
                     server.begin(&goal.key.1);
@@ -268,7 +330,7 @@ impl Desk {
             };
             // While this is locked, the session does not go on to another goal.
             let shared = lock(&self.both);
-            if shared.running == Some(goal.key) {
+            if shared.running.contains(&goal.key) {
                 // False while the evaluation is about to begin.
                 *interrupted = self.interrupter.interrupt();
             }
@@ -277,7 +339,14 @@ impl Desk {
 
     /// Tells how goals have ended.
     fn end(&mut self) {
-        while let Ok((key, ended)) = self.ended.try_recv() {
+        while let Ok(done) = self.ended.try_recv() {
+            let (key, ended) = match done {
+                Done::Goal(key, ended) => (key, ended),
+                Done::Seen(request, answer) => {
+                    self.perception.reply(request, &answer);
+                    continue;
+                }
+            };
             let Some(at) = self.under_way.iter().position(|goal| goal.key == key) else {
                 continue;
             };

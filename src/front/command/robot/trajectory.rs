@@ -43,6 +43,8 @@ pub(super) struct Trajectory {
     positions: Vec<Vec<f64>>,
     /// Velocities (rad/s or m/s), if all points have them.
     velocities: Option<Vec<Vec<f64>>>,
+    /// Where the joints are at first.
+    now: Vec<f64>,
 }
 
 impl Trajectory {
@@ -81,6 +83,7 @@ impl Trajectory {
             times: Vec::new(),
             positions: Vec::new(),
             velocities: Some(Vec::new()),
+            now: now.clone(),
         };
         let still = vec![0.0; own.len()];
         for (number, point) in list(goal.at(&["trajectory", "points"])).enumerate() {
@@ -115,17 +118,81 @@ impl Trajectory {
     }
 
     /// What the plan language's function takes.
-    pub(super) fn arguments(self, arm: Option<Side>) -> Vec<Datum> {
+    pub(super) fn arguments(self, arms: &[Side]) -> Vec<Datum> {
         let flat = |rows: Vec<Vec<f64>>| {
             let numbers = rows.into_iter().flatten().map(Datum::Float);
             Datum::List(numbers.collect())
         };
         vec![
-            arm.map_or(Datum::Nil, |side| Datum::keyword(side.name())),
+            match arms.is_empty() {
+                true => Datum::Nil,
+                false => Datum::List(arms.iter().map(|arm| Datum::keyword(arm.name())).collect()),
+            },
             Datum::List(self.times.into_iter().map(Datum::Float).collect()),
             flat(self.positions),
             self.velocities.map_or(Datum::Nil, flat),
         ]
+    }
+
+    /// The joints of this trajectory and of another one, at the times of the points of either.
+    pub(super) fn beside(&self, other: &Self) -> Self {
+        let mut times: Vec<f64> = self.times.iter().chain(&other.times).copied().collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+        let both = |time: f64| {
+            let (mut at, mut fast) = self.sample(time);
+            let (more, faster) = other.sample(time);
+            at.extend(more);
+            fast.extend(faster);
+            (at, fast)
+        };
+        let (positions, velocities) = times.iter().map(|time| both(*time)).unzip();
+        let have_velocities = self.velocities.is_some() && other.velocities.is_some();
+        Self {
+            velocities: have_velocities.then_some(velocities),
+            positions,
+            times,
+            now: self.now.iter().chain(&other.now).copied().collect(),
+        }
+    }
+
+    /// Positions and velocities at a time (s): on cubic polynomials where there are velocities, else on lines.
+    fn sample(&self, time: f64) -> (Vec<f64>, Vec<f64>) {
+        let still = vec![0.0; self.now.len()];
+        let next = self.times.iter().position(|t| *t > time);
+        let next = next.unwrap_or(self.times.len());
+        let point = |at: usize| {
+            let velocity = self.velocities.as_ref().and_then(|all| all.get(at));
+            let position = self.positions.get(at).unwrap_or(&self.now);
+            (position.clone(), velocity.unwrap_or(&still).clone())
+        };
+        let begin = || (0.0, (self.now.clone(), still.clone()));
+        let from = |at: usize| (self.times.get(at).copied().unwrap_or_default(), point(at));
+        let (since, (a, u)) = next.checked_sub(1).map_or_else(begin, from);
+        let Some(until) = self.times.get(next) else {
+            return (a, u);
+        };
+        let (b, v) = point(next);
+        let length = (until - since).max(1e-9);
+        let part = ((time - since) / length).clamp(0.0, 1.0);
+        if self.velocities.is_none() {
+            let ends = a.iter().zip(&b);
+            return (ends.map(|(a, b)| a + (b - a) * part).collect(), still);
+        }
+        let (square, cube) = (part * part, part * part * part);
+        let ends = || a.iter().zip(&b).zip(u.iter().zip(&v));
+        let position = |((a, b), (u, v)): ((&f64, &f64), (&f64, &f64))| {
+            let slope = length * ((cube - 2.0 * square + part) * u + (cube - square) * v);
+            a + (b - a) * (3.0 * square - 2.0 * cube) + slope
+        };
+        let velocity = |((a, b), (u, v)): ((&f64, &f64), (&f64, &f64))| {
+            let slope = (3.0 * square - 4.0 * part + 1.0) * u + (3.0 * square - 2.0 * part) * v;
+            6.0 * (part - square) * (b - a) / length + slope
+        };
+        (
+            ends().map(position).collect(),
+            ends().map(velocity).collect(),
+        )
     }
 
     /// Where the joints should be after a time (s), if they began where they are `now`: on straight lines between

@@ -1,7 +1,7 @@
 //! The clients and their worlds: each has a thread of its own, in which its session lives.
 
 use std::sync::mpsc::{self, Receiver, SyncSender, TrySendError};
-use std::thread::{self, JoinHandle};
+use std::thread;
 
 use super::job::{Asked, Job, Reply};
 use crate::mcp::server::{Server, is_initialize, unread};
@@ -10,8 +10,6 @@ use view::watch::live::{is_same, random_word};
 
 /// Maximum number of clients with a world.
 const MAX_CLIENTS: usize = 4;
-/// Maximum number of threads of clients, those among them that have lost their place and still run a plan.
-const MAX_THREADS: usize = 6;
 /// Maximum number of requests of one client that wait.
 const MAX_WAITING: usize = 8;
 /// The header that names a client's session.
@@ -27,7 +25,6 @@ pub(super) fn answer_jobs(
     let mut clients = Clients {
         open,
         all: Vec::new(),
-        threads: Vec::new(),
     };
     for job in jobs {
         if !job.client.has_gone() {
@@ -47,7 +44,6 @@ struct Client {
 struct Clients<O> {
     open: O,
     all: Vec<Client>,
-    threads: Vec<JoinHandle<()>>,
 }
 
 impl<O: Fn() -> Result<World, String> + Clone + Send + 'static> Clients<O> {
@@ -93,11 +89,6 @@ impl<O: Fn() -> Result<World, String> + Clone + Send + 'static> Clients<O> {
 
     /// A client begins a session, in a thread of its own.
     fn begin(&mut self, job: Job) {
-        self.threads.retain(|thread| !thread.is_finished());
-        if self.threads.len() >= MAX_THREADS {
-            let why = "Plans of earlier clients still run: ask again later.";
-            return job.answer(Reply::text("503 Service Unavailable", why));
-        }
         if self.all.len() >= MAX_CLIENTS {
             self.all.remove(0);
         }
@@ -107,8 +98,7 @@ impl<O: Fn() -> Result<World, String> + Clone + Send + 'static> Clients<O> {
         let thread = thread::Builder::new().name("mcp-client".to_owned());
         let begun = thread.spawn(move || serve(&open, &named, job, &jobs));
         // Otherwise the job has gone with its thread: the connection learns that there is no answer.
-        if let Ok(thread) = begun {
-            self.threads.push(thread);
+        if begun.is_ok() {
             self.all.push(Client { name, jobs: to });
         }
     }

@@ -5,11 +5,11 @@ use crate::motion::jobs::follow_trajectory::{FollowArm, FollowTorso, points_of_r
 use crate::motion::jobs::job::Motion;
 use crate::robot::Side;
 
-/// Moves an arm, or the torso, along a trajectory.
+/// Moves an arm, both arms, or the torso, along a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FollowingTrajectory {
-    /// The arm; without one, it is the torso that moves.
-    side: Option<Side>,
+    /// The arms; without one, it is the torso that moves.
+    sides: Vec<Side>,
     /// When (s) the points are to be reached.
     times: Vec<f64>,
     /// The positions (rad or m) of all joints at the first point, then those at the second one, and so on.
@@ -25,8 +25,8 @@ impl Command for FollowingTrajectory {
         keys: &[
             MotionKey::optional(
                 "ARM",
-                ArgumentKind::Side,
-                "the arm; without one, the torso moves",
+                ArgumentKind::Sides,
+                "the arm, or both in a list, whose joints come one after the other; without one, the torso moves",
             ),
             MotionKey::required(
                 "TIMES",
@@ -49,7 +49,7 @@ impl Command for FollowingTrajectory {
         one_of: &[],
         about: &[],
         is_known_by_keys: false,
-        doc: "Moves an arm, or the torso, along a trajectory that somebody else has planned. It is refused if joints \
+        doc: "Moves an arm, both arms, or the torso, along a trajectory that somebody else has planned. It is refused if joints \
               would have to be faster than they can, or beyond their limits, and stops where something is in the way.",
         example: "(a motion (type following-trajectory) (times ?times) (positions ?positions))",
     };
@@ -60,7 +60,7 @@ impl Command for FollowingTrajectory {
             given.ok_or(ArgumentError::Missing(key))
         };
         Ok(Self {
-            side: arguments.side("ARM").ok(),
+            sides: arguments.sides("ARM").unwrap_or_default(),
             times: numbers("TIMES")?,
             positions: numbers("POSITIONS")?,
             velocities: arguments.numbers("VELOCITIES"),
@@ -69,9 +69,9 @@ impl Command for FollowingTrajectory {
 
     fn job(self) -> Box<dyn Motion> {
         let points = points_of_rows(&self.times, &self.positions, self.velocities.as_deref());
-        match self.side {
-            Some(side) => Box::new(FollowArm::new(side, points)),
-            None => Box::new(FollowTorso::new(points)),
+        match self.sides.is_empty() {
+            false => Box::new(FollowArm::new(&self.sides, points)),
+            true => Box::new(FollowTorso::new(points)),
         }
     }
 }

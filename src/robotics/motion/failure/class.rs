@@ -72,6 +72,7 @@ impl MotionFailure {
                 ProcessModule::Arms => "MANIPULATION-GOAL-NOT-REACHED",
                 ProcessModule::Clock => "LOW-LEVEL-FAILURE",
             },
+            Self::Robot(failure) => failure.class_name(),
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
         }
     }

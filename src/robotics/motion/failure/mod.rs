@@ -11,6 +11,7 @@ pub(crate) mod overload;
 pub(crate) mod pinned_object;
 pub(crate) mod process_module;
 pub(crate) mod pushed_object;
+pub(crate) mod robot_trouble;
 pub(crate) mod short_arm;
 pub(crate) mod stopped_part;
 pub(crate) mod stuck_object;

@@ -15,6 +15,7 @@ use super::overload::Overload;
 use super::pinned_object::PinnedObject;
 use super::process_module::ProcessModule;
 use super::pushed_object::PushedObject;
+use super::robot_trouble::RobotFailure;
 use super::short_arm::ShortArm;
 use super::stopped_part::StoppedPart;
 use super::stuck_object::StuckObject;
@@ -424,6 +425,9 @@ pub enum MotionFailure {
     /// The world has no such object or frame.
     #[error("{0}")]
     UnknownName(String),
+    /// A robot that is driven from outside has not done it, or not so.
+    #[error("{0}")]
+    Robot(Box<RobotFailure>),
 }
 
 impl MotionFailure {

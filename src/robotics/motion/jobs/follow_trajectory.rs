@@ -48,23 +48,24 @@ pub(crate) fn points_of_rows(
 /// A trajectory of an arm's joints, from the shoulder to the wrist, or of the torso's.
 #[derive(Clone, Debug)]
 pub(crate) struct TimedGoal<const IS_TORSO: bool> {
-    /// The arm, unless it is the torso.
-    side: Side,
+    /// The arms whose joints come one after the other, unless it is the torso.
+    sides: Vec<Side>,
     points: Vec<TimedPoint>,
 }
 
 impl FollowArm {
-    /// Along points with positions (rad) for all joints of the arm.
-    pub fn new(side: Side, points: Vec<TimedPoint>) -> Self {
-        Self::begin(JointMotion::to(TimedGoal { side, points }))
+    /// Along points with positions (rad) for all joints of the arm, or of one arm and then of the other.
+    pub fn new(sides: &[Side], points: Vec<TimedPoint>) -> Self {
+        let sides = sides.to_vec();
+        Self::begin(JointMotion::to(TimedGoal { sides, points }))
     }
 }
 
 impl FollowTorso {
     /// Along points with the position (m) of the lift joint.
     pub fn new(points: Vec<TimedPoint>) -> Self {
-        let side = Side::Right;
-        Self::begin(JointMotion::to(TimedGoal { side, points }))
+        let sides = Vec::new();
+        Self::begin(JointMotion::to(TimedGoal { sides, points }))
     }
 }
 
@@ -73,7 +74,10 @@ impl<const IS_TORSO: bool> TimedGoal<IS_TORSO> {
         let body = &world.models().description;
         match IS_TORSO {
             true => body.torso.joint.into_iter().collect(),
-            false => body.arm(self.side).joints().to_vec(),
+            false => {
+                let arms = self.sides.iter().map(|side| body.arm(*side));
+                arms.flat_map(|arm| arm.joints().iter().copied()).collect()
+            }
         }
     }
 

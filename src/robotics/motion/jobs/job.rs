@@ -1,5 +1,7 @@
 //! What all motions have in common: a job that is polled once per simulation step.
 
+use nalgebra::Point3;
+
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::trajectories::planned_trajectory::PlannedTrajectory;
@@ -124,6 +126,19 @@ pub trait Motion {
     /// The trajectory that the job follows, once it is planned, for display.
     fn planned(&self) -> Option<PlannedTrajectory<'_>>;
 
+    /// A copy of the job as it is now; `None` if there cannot be two of it.
+    fn copied(&self) -> Option<Box<dyn Motion>>;
+
+    /// Whether it is not the robot of the world here that moves: braking takes real time then, and no steps.
+    fn is_elsewhere(&self) -> bool {
+        false
+    }
+
+    /// The point (m) of the map at which the job aims the head, if it does so.
+    fn aims_at(&self, _: &World) -> Option<Point3<f64>> {
+        None
+    }
+
     /// A copy to restore, if the next tick may plan and so be abandoned half-way (see
     /// [`crate::motion::interruption`]).
     fn before_planning(&self) -> Option<Box<dyn Motion>>;
@@ -156,6 +171,11 @@ pub(crate) trait Activity: Clone + 'static {
     /// Whether the next step may search for a path, which may take seconds.
     fn may_search(&self) -> bool {
         false
+    }
+
+    /// The point (m) of the map at which it aims the head.
+    fn aims_at(&self, _: &World) -> Option<Point3<f64>> {
+        None
     }
 }
 
@@ -212,6 +232,14 @@ impl<A: Activity> Motion for Job<A> {
 
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         self.activity.planned()
+    }
+
+    fn copied(&self) -> Option<Box<dyn Motion>> {
+        Some(Box::new(self.clone()))
+    }
+
+    fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
+        self.activity.aims_at(world)
     }
 
     fn before_planning(&self) -> Option<Box<dyn Motion>> {

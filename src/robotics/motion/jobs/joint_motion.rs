@@ -1,6 +1,8 @@
 //! What all motions of joints to a goal share: planning a trajectory, following it, and
 //! replanning if it is blocked.
 
+use nalgebra::Point3;
+
 use super::job::{Activity, MotionOutcome, MotionStatus, Progress};
 use super::joint_follower::{FollowStep, JointFollower};
 use super::replanning::{Attempt, Replanning};
@@ -46,6 +48,11 @@ pub trait JointGoal: Clone + 'static {
     /// How the motion ends at the end of the trajectory.
     fn arrived(&mut self, _: &mut World) -> Arrival {
         Arrival::Done(MotionOutcome::Arrived)
+    }
+
+    /// The point (m) of the map at which it aims the head.
+    fn aims_at(&self, _: &World) -> Option<Point3<f64>> {
+        None
     }
 
     /// The failure of a motion that was stopped and could not continue.
@@ -187,6 +194,10 @@ impl<G: JointGoal> Activity for JointMotion<G> {
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         let shown = self.follower.as_ref().filter(|_| G::SEARCHES);
         shown.map(JointFollower::planned)
+    }
+
+    fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
+        self.goal.aims_at(world)
     }
 
     fn may_search(&self) -> bool {

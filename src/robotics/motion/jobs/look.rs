@@ -20,6 +20,18 @@ use spatial::Pose;
 /// An angle farther outside its limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
 
+/// How far (m) ahead the point is that stands for looking straight ahead.
+const STRAIGHT_AHEAD: f64 = 100.0;
+
+/// The height (m) above the floor from which the head looks straight ahead.
+fn level_height(world: &World, base: &Pose) -> f64 {
+    let description = &world.models().description;
+    let head = description.neck.joints.last();
+    let head = head.map(|joint| world.models().robot.joint(*joint).child);
+    let head = world.link_pose(head.unwrap_or(description.camera().frame));
+    (base.inverse() * head).translation.z
+}
+
 /// A direction to look in, relative to the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LookDirection {
@@ -153,6 +165,14 @@ impl JointGoal for LookGoal {
         let limits = speeds::limits_of(&world.models().description, &joints);
         let trajectory = Trajectory::new(&[now, goal], &limits);
         Ok(JointPlan::new(joints, trajectory, AllowedPairs::none()))
+    }
+
+    fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
+        let base = world.robot_configuration().base;
+        let ahead = || base * Point3::new(STRAIGHT_AHEAD, 0.0, level_height(world, &base));
+        self.point(world)
+            .ok()
+            .map(|point| point.unwrap_or_else(ahead))
     }
 
     fn carriers(&self, _: &World) -> Vec<LinkId> {

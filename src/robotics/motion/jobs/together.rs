@@ -77,6 +77,14 @@ impl Motion for Together {
         None
     }
 
+    fn copied(&self) -> Option<Box<dyn Motion>> {
+        let running = self.running.iter().map(|motion| motion.copied());
+        Some(Box::new(Self {
+            module: self.module,
+            running: running.collect::<Option<_>>()?,
+        }))
+    }
+
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
         None
     }

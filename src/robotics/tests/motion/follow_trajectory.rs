@@ -35,7 +35,7 @@ fn moved(from: &[f64], joint: usize, by: f64) -> Vec<f64> {
 fn wrong(points: Vec<TimedPoint>) -> WrongTrajectory {
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
     let before = arm(&kitchen);
-    let failure = kitchen.run_one(FollowArm::new(Side::Right, points));
+    let failure = kitchen.run_one(FollowArm::new(&[Side::Right], points));
     assert_eq!(arm(&kitchen), before, "it has moved");
     match failure {
         Err(failure @ MotionFailure::WrongTrajectory(_)) => {
@@ -56,7 +56,7 @@ fn an_arm_is_where_the_trajectory_says_when_it_says_so() {
     let middle = moved(&start, 3, 0.3);
     let end = moved(&middle, 5, -0.4);
     let points = vec![point(1.0, &middle), point(2.5, &end)];
-    let mut motion = FollowArm::new(Side::Right, points);
+    let mut motion = FollowArm::new(&[Side::Right], points);
     let mut seconds = 0.0;
     loop {
         match motion.tick(&mut kitchen.world) {
@@ -140,7 +140,7 @@ fn an_arm_stops_where_something_is_in_the_way_and_when_it_is_cancelled() {
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.1);
     let start = arm(&kitchen);
     let inside = [-0.7, 1.2, 3.5, -2.2, 0.0, -0.2, 0.0];
-    let failure = kitchen.run_one(FollowArm::new(Side::Left, vec![point(12.0, &inside)]));
+    let failure = kitchen.run_one(FollowArm::new(&[Side::Left], vec![point(12.0, &inside)]));
     let failure = failure.unwrap_err();
     assert!(
         matches!(failure, MotionFailure::ArmBlocked { .. }),
@@ -150,7 +150,7 @@ fn an_arm_stops_where_something_is_in_the_way_and_when_it_is_cancelled() {
 
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
     let goal = moved(&start, 5, -0.8);
-    let mut motion = FollowArm::new(Side::Right, vec![point(2.0, &goal)]);
+    let mut motion = FollowArm::new(&[Side::Right], vec![point(2.0, &goal)]);
     for _ in 0..240 {
         assert_eq!(motion.tick(&mut kitchen.world), MotionStatus::Running);
         kitchen.world.step();

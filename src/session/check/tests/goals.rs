@@ -57,10 +57,7 @@ fn goals_of_actions_are_looked_at() {
         )
     };
     let cases = [
-        (
-            "(cpoe:object-in-hand ?object :left)",
-            None,
-        ),
+        ("(cpoe:object-in-hand ?object :left)", None),
         ("(object-in-hand ?object :left)", None),
         ("(and (torso-at 0.2) (not (gripper-closed :left)))", None),
         ("?object", None),
@@ -68,10 +65,7 @@ fn goals_of_actions_are_looked_at() {
             "(cpoe::object-in-hnd ?object :left)",
             Some("4:29: There is no Prolog functor OBJECT-IN-HND; did you mean OBJECT-IN-HAND?"),
         ),
-        (
-            "(cpoe:torso-at)",
-            Some("TORSO-AT"),
-        ),
+        ("(cpoe:torso-at)", Some("TORSO-AT")),
     ];
     for (goal, expected) in cases {
         let found = found("a.plan", &format!("(in-package :pp-tut)\n{}", moving(goal)));

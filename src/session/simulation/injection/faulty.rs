@@ -182,6 +182,11 @@ impl Motion for Faulty {
         self.inner.planned()
     }
 
+    /// A fault strikes once.
+    fn copied(&self) -> Option<Box<dyn Motion>> {
+        None
+    }
+
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
         let inner = self.inner.before_planning()?;
         Some(Box::new(Self {

@@ -132,6 +132,11 @@ impl Motion for FaultySight {
         self.inner.planned()
     }
 
+    /// A fault strikes once.
+    fn copied(&self) -> Option<Box<dyn Motion>> {
+        None
+    }
+
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
         // A look plans nothing.
         None

@@ -1,0 +1,486 @@
+//! Speaks with the robot, in a thread of its own: a session that thinks must not keep it waiting.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime};
+
+use super::super::ros2::warn;
+use super::end::{end_of, shown};
+use super::goal_message::{action_of, goal_message};
+use robotics::motion::RobotTrouble;
+use robotics::robot::{PartInterface, RobotInterface, RobotPart};
+use ros::action::{GoalId, Patience};
+use ros::frames::Frames;
+use ros::joints::Joints;
+use ros::wire::{
+    ActionClient, Answer, Node, NodeError, Sequence, ServiceClient, TopicQos, TopicReader,
+};
+use ros::{Value, service_type};
+use session::outside::{PartGoal, RobotEnd, SeenObject};
+use spatial::Pose;
+
+/// Real time between two looks at what has been sent.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(2);
+/// How long a goal may wait for its turn, where its server says that it does.
+const QUEUE: Duration = Duration::from_secs(60);
+/// How long the camera may take to answer.
+const SIGHT: Duration = Duration::from_secs(10);
+/// A clock that jumps by more than this has jumped.
+const JUMP: f64 = 1.0;
+/// The time over which the velocity of the base is measured.
+const BASE_TIME: Duration = Duration::from_millis(150);
+/// How long goals may take to end when the program does.
+const GOODBYE: Duration = Duration::from_secs(2);
+
+/// What a session wants.
+pub(super) enum Order {
+    /// A goal for a part, which may take so long.
+    Goal(u64, RobotPart, PartGoal, Duration),
+    /// The end of a goal.
+    Cancel(u64),
+    /// What the camera sees of a type and a name.
+    Look(u64, String, String),
+}
+
+/// What is known of the robot.
+#[derive(Default)]
+pub(super) struct Shared {
+    pub(super) frames: Frames,
+    pub(super) joints: Joints,
+    /// Where the base was lately, and when.
+    pub(super) base: VecDeque<(Duration, Pose)>,
+    pub(super) ends: BTreeMap<u64, RobotEnd>,
+    pub(super) seen: BTreeMap<u64, Result<Vec<SeenObject>, RobotTrouble>>,
+}
+
+pub(super) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+struct Part {
+    interface: PartInterface,
+    client: ActionClient,
+}
+
+/// A goal of the session that has not ended.
+struct Running {
+    ticket: u64,
+    part: usize,
+    id: GoalId,
+}
+
+/// A question to the camera.
+struct Question {
+    ticket: u64,
+    request: Value,
+    since: Duration,
+    /// When it was asked, and as which request.
+    asked: Option<(Duration, Sequence)>,
+}
+
+/// Speaks with the robot.
+pub(super) struct Desk {
+    /// Speaks last.
+    parts: Vec<Part>,
+    perception: ServiceClient,
+    transforms: TopicReader,
+    still_transforms: TopicReader,
+    joint_states: Vec<TopicReader>,
+    running: Vec<Running>,
+    questions: Vec<Question>,
+    interface: RobotInterface,
+    base: String,
+    camera: String,
+    shared: Arc<Mutex<Shared>>,
+    begin: Instant,
+    /// By how much the clock of this machine, and that of the robot, differ from the one that never jumps (s).
+    own_clock: Option<f64>,
+    robot_clock: Option<f64>,
+    /// The topics of which has been told that they cannot be heard.
+    remarked: Vec<String>,
+    looked: Duration,
+    oddities: u64,
+    _node: Node,
+}
+
+/// What ends the work of a desk, or lets the robot stop.
+pub(super) struct Signals {
+    /// The robot is to stop: from a handler of Ctrl-C, which resets nothing.
+    pub(super) halt: Arc<AtomicBool>,
+    /// The evaluation is interrupted; the session resets it.
+    pub(super) interrupt: Arc<AtomicBool>,
+    /// The work ends.
+    pub(super) stop: Arc<AtomicBool>,
+}
+
+impl Desk {
+    pub(super) fn open(
+        mut node: Node,
+        interface: &RobotInterface,
+        parts: &[PartInterface],
+        base: String,
+        camera: String,
+        shared: Arc<Mutex<Shared>>,
+        begin: Instant,
+    ) -> Result<Self, NodeError> {
+        let clients = parts.iter().map(|interface| {
+            let action = action_of(interface.part);
+            let client = ActionClient::open(&mut node, &interface.name, action)?;
+            Ok(Part {
+                interface: interface.clone(),
+                client,
+            })
+        });
+        let clients = clients.collect::<Result<Vec<_>, NodeError>>()?;
+        let [request, response] = service_type("planwright_msgs/srv/DetectObjects");
+        let perception = node.client(&interface.perception, request, response)?;
+        let tf = "tf2_msgs/msg/TFMessage";
+        let joints = "sensor_msgs/msg/JointState";
+        let transforms = node.reader("/tf", tf, TopicQos::volatile(100))?;
+        let still = TopicQos {
+            depth: 100,
+            ..TopicQos::latched()
+        };
+        let still_transforms = node.reader("/tf_static", tf, still)?;
+        let topics = interface.joint_states.iter();
+        // Some robots send them without sending again what is lost.
+        let joint_states =
+            topics.map(|topic| node.reader(topic, joints, TopicQos::best_effort(50)));
+        Ok(Self {
+            parts: clients,
+            perception,
+            transforms,
+            still_transforms,
+            joint_states: joint_states.collect::<Result<_, _>>()?,
+            running: Vec::new(),
+            questions: Vec::new(),
+            interface: interface.clone(),
+            base,
+            camera,
+            shared,
+            begin,
+            own_clock: None,
+            robot_clock: None,
+            remarked: Vec::new(),
+            looked: Duration::ZERO,
+            oddities: 0,
+            _node: node,
+        })
+    }
+
+    /// Works until it is to end; then the robot gets no goals any more, and those that it has are cancelled.
+    pub(super) fn run(mut self, orders: &Receiver<Order>, signals: &Signals) {
+        let mut was_interrupted = false;
+        while !signals.stop.load(Ordering::Relaxed) {
+            let now = self.begin.elapsed();
+            self.hear(now);
+            let halt = signals.halt.swap(false, Ordering::Relaxed);
+            let interrupt = signals.interrupt.load(Ordering::Relaxed);
+            if halt || (interrupt && !was_interrupted) {
+                self.cancel_all(now);
+            }
+            was_interrupted = interrupt;
+            loop {
+                match orders.try_recv() {
+                    Ok(order) => self.take(order, now),
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => {
+                        self.say_goodbye();
+                        return;
+                    }
+                }
+            }
+            self.speak(now);
+            self.ask_camera(now);
+            self.remark(now);
+            thread::sleep(BETWEEN_LOOKS);
+        }
+        self.say_goodbye();
+    }
+
+    fn say_goodbye(&mut self) {
+        let begin = self.begin.elapsed();
+        self.cancel_all(begin);
+        while self.parts.iter().any(|part| part.client.may_run()) {
+            let now = self.begin.elapsed();
+            if now.saturating_sub(begin) > GOODBYE {
+                return;
+            }
+            self.speak(now);
+            thread::sleep(BETWEEN_LOOKS);
+        }
+    }
+
+    fn cancel_all(&mut self, now: Duration) {
+        for goal in &self.running {
+            if let Some(part) = self.parts.get_mut(goal.part) {
+                part.client.cancel(&goal.id, now);
+            }
+        }
+    }
+
+    fn take(&mut self, order: Order, now: Duration) {
+        match order {
+            Order::Goal(ticket, part, goal, time_out) => {
+                let of = self
+                    .parts
+                    .iter()
+                    .position(|known| known.interface.part == part);
+                let Some(of) = of else {
+                    let text = format!("the robot has no action for the part {}", part.name());
+                    let trouble = Some(RobotTrouble::NotPossible(text));
+                    let end = RobotEnd {
+                        trouble,
+                        ..RobotEnd::default()
+                    };
+                    lock(&self.shared).ends.insert(ticket, end);
+                    return;
+                };
+                let message = goal_message(&goal, &self.interface.map, &self.camera);
+                let patience = Patience {
+                    server: seconds(self.interface.server_time_out),
+                    queue: QUEUE,
+                    result: time_out,
+                };
+                let id = self.parts[of].client.send(message, patience, now);
+                self.running.push(Running {
+                    ticket,
+                    part: of,
+                    id,
+                });
+            }
+            Order::Cancel(ticket) => {
+                for goal in self.running.iter().filter(|goal| goal.ticket == ticket) {
+                    if let Some(part) = self.parts.get_mut(goal.part) {
+                        part.client.cancel(&goal.id, now);
+                    }
+                }
+            }
+            Order::Look(ticket, kind, name) => self.questions.push(Question {
+                ticket,
+                request: Value::record([
+                    ("type", kind.as_str().into()),
+                    ("name", name.as_str().into()),
+                ]),
+                since: now,
+                asked: None,
+            }),
+        }
+    }
+
+    /// Sends and hears what concerns goals.
+    fn speak(&mut self, now: Duration) {
+        for part in &mut self.parts {
+            part.client.poll(now);
+        }
+        let (parts, shared) = (&self.parts, &self.shared);
+        self.running.retain(|goal| {
+            let Some(part) = parts.get(goal.part) else {
+                return false;
+            };
+            let Some(end) = part.client.end(&goal.id) else {
+                return true;
+            };
+            let end = end_of(&part.interface.name, part.interface.part, end);
+            lock(shared).ends.insert(goal.ticket, end);
+            false
+        });
+        let oddities = self.parts.iter().map(|part| part.client.oddities()).sum();
+        if oddities > self.oddities {
+            if self.oddities == 0 {
+                warn("a server has answered what was not asked, or twice; that counts for nothing");
+            }
+            self.oddities = oddities;
+        }
+    }
+
+    /// Hears how the robot is.
+    fn hear(&mut self, now: Duration) {
+        let clock = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        let clock = clock.unwrap_or_default().as_secs_f64() - now.as_secs_f64();
+        let mut has_jumped = jumps(&mut self.own_clock, clock).map(|by| ("of this machine", by));
+        let mut shared = lock(&self.shared);
+        while let Some(message) = self.still_transforms.take() {
+            shared.frames.hear(&message, true, now);
+        }
+        for topic in &self.joint_states {
+            while let Some(message) = topic.take() {
+                if let Some(stamp) = stamp(&message) {
+                    let robot = jumps(&mut self.robot_clock, stamp - now.as_secs_f64());
+                    has_jumped = has_jumped.or(robot.map(|by| ("of the robot", by)));
+                }
+                shared.joints.hear(&message, now);
+            }
+        }
+        if let Some((whose, by)) = has_jumped {
+            shared.frames.forget_moving();
+            shared.base.clear();
+            warn(&format!(
+                "the clock {whose} has jumped by {by:.1} s: what was heard of moving frames is forgotten"
+            ));
+        }
+        let mut is_news = false;
+        while let Some(message) = self.transforms.take() {
+            shared.frames.hear(&message, false, now);
+            is_news = true;
+        }
+        if is_news {
+            let pose = shared
+                .frames
+                .pose(&self.base, &self.interface.map, BASE_TIME, now);
+            if let Ok(pose) = pose {
+                shared.base.push_back((now, pose));
+            }
+        }
+        let is_old = |at: Duration| now.saturating_sub(at) > 2 * BASE_TIME;
+        while shared.base.front().is_some_and(|(at, _)| is_old(*at)) {
+            shared.base.pop_front();
+        }
+    }
+
+    /// Asks the camera, and hears what it sees.
+    fn ask_camera(&mut self, now: Duration) {
+        let mut answers = Vec::new();
+        while let Some(answer) = self.perception.take() {
+            match answer {
+                Answer::To(sequence, value) => answers.push((sequence, Some(value))),
+                Answer::Unreadable(sequence) => answers.push((sequence, None)),
+                Answer::ToNobody => self.oddities += 1,
+            }
+        }
+        let is_served = self.perception.is_served();
+        let mut questions = std::mem::take(&mut self.questions);
+        questions.retain_mut(|question| {
+            let name = || self.interface.perception.clone();
+            let end = match question.asked {
+                None if is_served => {
+                    let sequence = self.perception.ask(&question.request);
+                    question.asked = sequence.map(|sequence| (now, sequence));
+                    None
+                }
+                None => {
+                    let waited = now.saturating_sub(question.since).as_secs_f64();
+                    let is_over = waited >= self.interface.server_time_out;
+                    is_over.then(|| {
+                        Err(RobotTrouble::Unserved {
+                            name: name(),
+                            waited,
+                        })
+                    })
+                }
+                Some((asked, sequence)) => {
+                    let answer = answers.iter().find(|(to, _)| *to == sequence);
+                    let waited = now.saturating_sub(asked);
+                    match answer {
+                        Some((_, answer)) => Some(self.seen(answer.as_ref(), now)),
+                        None if waited >= SIGHT => Some(Err(RobotTrouble::NoAnswer {
+                            name: name(),
+                            waited: waited.as_secs_f64(),
+                        })),
+                        None => None,
+                    }
+                }
+            };
+            match end {
+                None => true,
+                Some(end) => {
+                    lock(&self.shared).seen.insert(question.ticket, end);
+                    false
+                }
+            }
+        });
+        self.questions = questions;
+    }
+
+    /// The objects of an answer of the camera.
+    fn seen(&self, answer: Option<&Value>, now: Duration) -> Result<Vec<SeenObject>, RobotTrouble> {
+        let blind = |text: String| RobotTrouble::Blind {
+            name: self.interface.perception.clone(),
+            text,
+        };
+        let answer = answer.ok_or_else(|| blind("its answer cannot be read".to_owned()))?;
+        let error = answer.get("error").and_then(Value::as_text);
+        if let Some(error) = error.filter(|error| !error.trim().is_empty()) {
+            return Err(blind(shown(error)));
+        }
+        let objects = answer.get("objects").and_then(Value::as_list);
+        let objects = objects.unwrap_or_default().iter().map(|object| {
+            let text = |name| {
+                object
+                    .get(name)
+                    .and_then(Value::as_text)
+                    .unwrap_or_default()
+            };
+            let frame = object
+                .at(&["pose", "header", "frame_id"])
+                .and_then(Value::as_text);
+            let frame = frame.unwrap_or_default();
+            let pose = pose(object.at(&["pose", "pose"]));
+            let pose = pose
+                .ok_or_else(|| blind(format!("the pose of a {} is none", shown(text("type")))))?;
+            let max_age = seconds(self.interface.max_frame_age);
+            let frames = &lock(&self.shared).frames;
+            let carrier = frames.pose(frame, &self.interface.map, max_age, now);
+            let carrier = carrier.map_err(|error| blind(error.to_string()))?;
+            Ok(SeenObject {
+                type_name: text("type").to_owned(),
+                name: text("name").to_owned(),
+                pose: carrier * pose,
+            })
+        });
+        objects.collect()
+    }
+
+    /// Tells of topics that cannot be heard.
+    fn remark(&mut self, now: Duration) {
+        if now.saturating_sub(self.looked) < Duration::from_millis(200) {
+            return;
+        }
+        self.looked = now;
+        let topics = [&self.transforms, &self.still_transforms].into_iter();
+        for topic in topics.chain(&self.joint_states) {
+            let Some(policy) = topic.mismatch() else {
+                continue;
+            };
+            let name = topic.topic().to_owned();
+            if !self.remarked.contains(&name) {
+                warn(&format!(
+                    "{name} cannot be heard: its quality of service does not fit ({policy})"
+                ));
+                self.remarked.push(name);
+            }
+        }
+    }
+}
+
+/// By how much (s) a clock has jumped, whose difference to one that never jumps is known.
+fn jumps(known: &mut Option<f64>, now: f64) -> Option<f64> {
+    let before = known.replace(now)?;
+    Some(now - before).filter(|by| by.abs() > JUMP)
+}
+
+/// The stamp (s) of a message that has one.
+fn stamp(message: &Value) -> Option<f64> {
+    let part = |name| message.at(&["header", "stamp", name])?.as_float();
+    let stamp = part("sec")? + part("nanosec")? * 1e-9;
+    (stamp > 0.0).then_some(stamp)
+}
+
+/// A pose whose rotation is one.
+fn pose(value: Option<&Value>) -> Option<Pose> {
+    let number = |part: &str, axis: &str| value?.at(&[part, axis])?.as_float();
+    let at = |axis| number("position", axis);
+    let turn = |axis| number("orientation", axis);
+    spatial::pose::from_xyz_quaternion(
+        [at("x")?, at("y")?, at("z")?],
+        [turn("x")?, turn("y")?, turn("z")?, turn("w")?],
+    )
+}
+
+/// A duration of seconds; a minute if it cannot be one.
+pub(super) fn seconds(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::from_secs(60))
+}

@@ -1,0 +1,207 @@
+//! A robot that is reached over ROS 2, as a session drives it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use super::super::failure::CommandError;
+use super::super::ros2::{open_node, say, warn};
+use super::desk::{Desk, Order, Shared, Signals, lock, seconds};
+use robotics::motion::RobotTrouble;
+use robotics::robot::{RobotInterface, RobotPart};
+use session::Session;
+use session::dialogue::Evaluate;
+use session::outside::{GoalTicket, PartGoal, RobotEnd, RobotLink, RobotState, SeenObject};
+
+/// How long [`RobotLink::wait`] waits.
+const MOMENT: Duration = Duration::from_millis(4);
+/// What moves more slowly (rad/s or m/s) stands still.
+const STILL: f64 = 0.01;
+/// The time over which the velocity of the base is measured.
+const BASE_TIME: Duration = Duration::from_millis(100);
+
+/// A robot that plans drive; all its goals are cancelled when this ends.
+pub(crate) struct Driving {
+    halt: Arc<AtomicBool>,
+    stop: Arc<AtomicBool>,
+    desk: Option<JoinHandle<()>>,
+}
+
+impl Driving {
+    /// Lets the robot stop when it is set, whatever the session does.
+    pub(crate) fn halt(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.halt)
+    }
+}
+
+impl Drop for Driving {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(desk) = self.desk.take() {
+            // If it has failed, it has said why.
+            drop(desk.join());
+        }
+    }
+}
+
+/// Lets plans of the session drive the robot whose actions its description names, with the messages of a
+/// distribution, or of the environment's if the name is empty. Prints on standard error who can hear it.
+pub(crate) fn connect(session: &mut Session, distribution: &str) -> Result<Driving, CommandError> {
+    let wrong = |error: &dyn ToString| CommandError::Open(error.to_string());
+    let (node, distribution) = open_node("planwright_plan", distribution)?;
+    let reach = node.reach();
+    let models = session.models();
+    let description = &models.description;
+    let link_name = |link| models.robot.link(link).name.clone();
+    let interface = description.interface.clone();
+    let base = link_name(description.base.frame);
+    let camera = link_name(description.camera().frame);
+    let sides: Vec<_> = description.sides().collect();
+    let has = |part: RobotPart| match part {
+        RobotPart::Torso => description.torso.joint.is_some(),
+        RobotPart::Neck => !description.neck.joints.is_empty(),
+        RobotPart::Arm(side) | RobotPart::Gripper(side) => sides.contains(&side),
+        RobotPart::Base => true,
+    };
+    let parts = interface.parts.iter().filter(|part| has(part.part));
+    let parts: Vec<_> = parts.cloned().collect();
+    let joints = models.robot.joints();
+    let joints = joints.filter(|(_, joint)| joint.is_actuated());
+    let joints = joints.map(|(_, joint)| joint.name.clone()).collect();
+    let shared = Arc::new(Mutex::new(Shared::default()));
+    let begin = Instant::now();
+    let known = Arc::clone(&shared);
+    let desk = Desk::open(node, &interface, &parts, base.clone(), camera, known, begin);
+    let desk = desk.map_err(|error| wrong(&error))?;
+    let (halt, stop) = (Arc::<AtomicBool>::default(), Arc::<AtomicBool>::default());
+    let signals = Signals {
+        halt: Arc::clone(&halt),
+        interrupt: session.interrupt_handle(),
+        stop: Arc::clone(&stop),
+    };
+    let (orders, ordered) = channel();
+    let thread = thread::Builder::new().name("robot".to_owned());
+    let desk = thread.spawn(move || desk.run(&ordered, &signals))?;
+    session.drive(Box::new(Link {
+        orders,
+        shared,
+        interface,
+        base,
+        joints,
+        begin,
+        next: 0,
+    }));
+    say(&format!(
+        "Plans drive the robot whose actions are served over ROS 2 ({distribution}) in {reach}"
+    ));
+    Ok(Driving {
+        halt,
+        stop,
+        desk: Some(desk),
+    })
+}
+
+/// The session's end.
+struct Link {
+    orders: Sender<Order>,
+    shared: Arc<Mutex<Shared>>,
+    interface: RobotInterface,
+    base: String,
+    /// All joints that move by themselves.
+    joints: Vec<String>,
+    begin: Instant,
+    next: u64,
+}
+
+impl Link {
+    fn fresh(&mut self) -> GoalTicket {
+        self.next += 1;
+        GoalTicket(self.next)
+    }
+
+    fn order(&self, order: Order) {
+        // Without the other thread, nothing ends: the state grows old, which is told.
+        drop(self.orders.send(order));
+    }
+}
+
+impl RobotLink for Link {
+    fn state(&self, joints: &[&str]) -> Result<RobotState, RobotTrouble> {
+        let now = self.now();
+        let shared = lock(&self.shared);
+        let unknown = |error: &dyn ToString| RobotTrouble::NoState(error.to_string());
+        let max_age = seconds(self.interface.max_joint_age);
+        let position = |joint: &&str| {
+            let position = shared.joints.position(joint, max_age, now);
+            position.map_err(|error| unknown(&error))
+        };
+        let joints = joints.iter().map(position).collect::<Result<_, _>>()?;
+        let max_age = seconds(self.interface.max_frame_age);
+        let base = shared
+            .frames
+            .pose(&self.base, &self.interface.map, max_age, now);
+        Ok(RobotState {
+            base: base.map_err(|error| unknown(&error))?,
+            joints,
+        })
+    }
+
+    fn send(&mut self, part: RobotPart, goal: &PartGoal, time_out: f64) -> GoalTicket {
+        let ticket = self.fresh();
+        self.order(Order::Goal(ticket.0, part, goal.clone(), seconds(time_out)));
+        ticket
+    }
+
+    fn end(&mut self, ticket: GoalTicket) -> Option<RobotEnd> {
+        lock(&self.shared).ends.remove(&ticket.0)
+    }
+
+    fn cancel(&mut self, ticket: GoalTicket) {
+        self.order(Order::Cancel(ticket.0));
+    }
+
+    fn stands_still(&self) -> bool {
+        let now = self.now();
+        let shared = lock(&self.shared);
+        let max_age = seconds(self.interface.max_joint_age);
+        let joints = self.joints.iter().map(String::as_str);
+        let fastest = shared.joints.fastest(joints, max_age, now);
+        let (Some((_, last)), Some(fastest)) = (shared.base.back(), fastest) else {
+            return false;
+        };
+        let mut before = shared.base.iter();
+        let before = before.find(|(at, _)| now.saturating_sub(*at) <= 2 * BASE_TIME);
+        let Some((since, first)) = before.filter(|(at, _)| now.saturating_sub(*at) >= BASE_TIME)
+        else {
+            return false;
+        };
+        let time = now.saturating_sub(*since).as_secs_f64().max(1e-3);
+        let way = (last.translation.vector - first.translation.vector).norm();
+        let turn = last.rotation.angle_to(&first.rotation);
+        fastest < STILL && way.max(turn) / time < STILL
+    }
+
+    fn look(&mut self, type_name: &str, name: &str) -> GoalTicket {
+        let ticket = self.fresh();
+        self.order(Order::Look(ticket.0, type_name.to_owned(), name.to_owned()));
+        ticket
+    }
+
+    fn seen(&mut self, ticket: GoalTicket) -> Option<Result<Vec<SeenObject>, RobotTrouble>> {
+        lock(&self.shared).seen.remove(&ticket.0)
+    }
+
+    fn now(&self) -> Duration {
+        self.begin.elapsed()
+    }
+
+    fn wait(&self) {
+        thread::sleep(MOMENT);
+    }
+
+    fn shout(&self, text: &str) {
+        warn(text);
+    }
+}

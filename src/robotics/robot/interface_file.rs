@@ -1,0 +1,73 @@
+//! Reading by which names a robot is driven, from the records `(interface …)` of its description.
+
+use super::interface::{RobotInterface, RobotPart};
+use crate::sexp::{DataError, DataProblem, Node, Record};
+use closest_name::closest_name;
+
+/// What else than a part an interface may be of.
+const OTHERS: [&str; 4] = ["map", "joint-states", "perception", "server"];
+
+/// The interface that records describe.
+pub(super) fn interface<'a, 'r: 'a>(
+    records: impl Iterator<Item = &'a Record<'r>>,
+) -> Result<RobotInterface, DataError> {
+    let mut interface = RobotInterface::default();
+    let mut seen: Vec<String> = Vec::new();
+    for record in records {
+        let thing = record.thing("what it is of")?;
+        let of = thing.symbol()?;
+        if seen.iter().any(|known| known == of) {
+            let twice = format!("(interface {of} …)");
+            return Err(thing.error(DataProblem::Repeated(twice)));
+        }
+        seen.push(of.to_owned());
+        let name = record.optional("name");
+        let name = name.map(|node| full_name(node)).transpose()?;
+        let positive = |key: &str| record.optional(key).map(|n| n.positive()).transpose();
+        let time_out = positive("time-out")?;
+        let [tolerance, turn] = [positive("tolerance")?, positive("turn-tolerance")?];
+        if let Some(part) = interface.part_mut(of) {
+            part.name = name.unwrap_or_else(|| part.name.clone());
+            part.time_out = time_out.unwrap_or(part.time_out);
+            part.tolerance = tolerance.unwrap_or(part.tolerance);
+            part.turn_tolerance = turn.unwrap_or(part.turn_tolerance);
+            continue;
+        }
+        match of {
+            "map" => {
+                let frame = name.map(|name| name.trim_start_matches('/').to_owned());
+                interface.map = frame.unwrap_or(interface.map);
+                let age = positive("max-age")?;
+                interface.max_frame_age = age.unwrap_or(interface.max_frame_age);
+            }
+            "joint-states" => {
+                if let Some(names) = record.optional("names") {
+                    let names = names.list()?;
+                    let names = names.iter().map(|node| full_name(*node));
+                    interface.joint_states = names.collect::<Result<_, _>>()?;
+                }
+                let age = positive("max-age")?;
+                interface.max_joint_age = age.unwrap_or(interface.max_joint_age);
+            }
+            "perception" => interface.perception = name.unwrap_or(interface.perception),
+            "server" => {
+                interface.server_time_out = time_out.unwrap_or(interface.server_time_out);
+            }
+            _ => {
+                let known = RobotPart::ALL.map(RobotPart::name);
+                let known = known.into_iter().chain(OTHERS);
+                return Err(thing.unknown("part", of, closest_name(of, known)));
+            }
+        }
+    }
+    Ok(interface)
+}
+
+/// A name of ROS, which begins at the root.
+fn full_name(node: Node<'_>) -> Result<String, DataError> {
+    let name = node.symbol()?.trim_start_matches('/');
+    match name.is_empty() {
+        true => Err(node.expected("a name such as /navigate_to_pose")),
+        false => Ok(format!("/{name}")),
+    }
+}

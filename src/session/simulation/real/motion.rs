@@ -1,0 +1,497 @@
+//! A motion that a robot elsewhere carries out.
+
+use std::rc::Rc;
+use std::time::Duration;
+
+use super::belief::Told;
+use super::goals::{Order, orders};
+use super::trial::try_motion;
+use super::{Query, RobotAccess, SharedRobot, check, sight};
+use crate::outside::{GoalTicket, RobotEnd};
+use robotics::motion::{
+    Motion, MotionFailure, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
+    RobotFailure, RobotTrouble,
+};
+use robotics::robot::{PartInterface, RobotPart};
+use robotics::world::World;
+
+/// How long a robot that has done what it was to do may take to tell so of itself.
+const SETTLING: Duration = Duration::from_millis(500);
+/// How long a robot that was to stop may take for that.
+const STOPPING: Duration = Duration::from_secs(2);
+
+/// A motion that a robot elsewhere carries out.
+pub(super) struct RealMotion {
+    module: ProcessModule,
+    /// The motion as it was requested; only copies of it are carried out.
+    original: Box<dyn Motion>,
+    query: Query,
+    robot: SharedRobot,
+    stage: Stage,
+}
+
+enum Stage {
+    /// Nothing has been sent. Since when it has waited to hear the robot.
+    Begin(Option<Duration>),
+    /// The camera was asked.
+    Looking(GoalTicket),
+    /// The robot has goals.
+    Moving(Box<Moving>),
+    /// The robot is to stand still, since when, and how the motion ends then.
+    Stopping(Duration, Vec<Sent>, Ending),
+    /// The robot stands still, and the motion ends so when it goes on.
+    Failed(Box<MotionFailure>),
+    /// The motion has ended.
+    Over,
+}
+
+enum Ending {
+    /// It has failed.
+    Failed(Box<MotionFailure>),
+    /// It was cancelled.
+    Cancelled,
+    /// It was paused, and begins anew when it goes on.
+    Anew,
+}
+
+/// A goal that a part has got.
+struct Sent {
+    order: Order,
+    interface: PartInterface,
+    ticket: GoalTicket,
+    end: Option<RobotEnd>,
+}
+
+struct Moving {
+    sent: Vec<Sent>,
+    /// The motion in the world here, until it has ended.
+    here: Option<Box<dyn Motion>>,
+    outcome: MotionOutcome,
+    /// The world as it is to be at the end.
+    end: World,
+    /// Since when all goals are reported to be reached.
+    reported: Option<Duration>,
+    /// Whether the robot has been found where it was to be.
+    is_checked: bool,
+}
+
+impl Moving {
+    /// Whether goals were cancelled by this program.
+    fn is_stopped(&self) -> bool {
+        let mut ends = self.sent.iter().filter_map(|sent| sent.end.as_ref());
+        ends.any(|end| end.is_cancelled)
+    }
+}
+
+impl RealMotion {
+    pub(super) fn new(original: Box<dyn Motion>, query: Query, robot: SharedRobot) -> Self {
+        Self {
+            module: original.module(),
+            original,
+            query,
+            robot,
+            stage: Stage::Begin(None),
+        }
+    }
+
+    fn now(&self) -> Duration {
+        self.robot.link.borrow().now()
+    }
+
+    fn failure(&self, trouble: RobotTrouble) -> Box<MotionFailure> {
+        let module = self.module;
+        Box::new(MotionFailure::Robot(Box::new(RobotFailure {
+            module,
+            trouble,
+        })))
+    }
+
+    /// The gap (m) above that of closed fingers up to which nothing is between them.
+    fn closed(&self) -> f64 {
+        let parts = self.robot.interface.parts.iter();
+        let grippers = parts.filter(|part| matches!(part.part, RobotPart::Gripper(_)));
+        let tolerances = grippers.map(|part| part.tolerance);
+        tolerances.reduce(f64::max).unwrap_or_default()
+    }
+
+    /// Hears how the robot is, tries the motion, and sends its goals.
+    fn begin(&mut self, world: &mut World, since: Option<Duration>) -> MotionStatus {
+        // What is tried alone is carried out alone.
+        if !self.robot.busy.borrow().is_empty() {
+            self.stage = Stage::Begin(None);
+            return MotionStatus::Running;
+        }
+        let now = self.now();
+        let since = since.unwrap_or(now);
+        self.stage = Stage::Begin(Some(since));
+        let told = match Told::now(&self.robot, world) {
+            Ok(told) => told,
+            Err(trouble) => {
+                // At first, the robot has to be found.
+                let waited = now.saturating_sub(since).as_secs_f64();
+                let waits =
+                    !self.robot.was_heard.get() && waited < self.robot.interface.server_time_out;
+                if waits {
+                    return MotionStatus::Running;
+                }
+                return self.fail(self.failure(trouble));
+            }
+        };
+        told.believe(world, |_| true, self.closed());
+        if let Some(query) = &self.query {
+            let one = match query.types.as_slice() {
+                [one] => one.as_str(),
+                _ => "",
+            };
+            let name = query.name.clone().unwrap_or_default();
+            // A more general type is known here, not to the camera.
+            let is_exact = world.models().objects.get(&one.to_lowercase()).is_some();
+            let kind = if is_exact { one } else { "" };
+            let ticket = self.robot.link.borrow_mut().look(kind, &name);
+            self.stage = Stage::Looking(ticket);
+            return MotionStatus::Running;
+        }
+        let Some(copies) = self.original.copied().zip(self.original.copied()) else {
+            let text = "faults cannot be injected into what a real robot does".to_owned();
+            return self.fail(self.failure(RobotTrouble::NotPossible(text)));
+        };
+        let (tried, here) = copies;
+        let trial = match try_motion(world, tried) {
+            Ok(trial) => trial,
+            // What fails here is not tried in earnest.
+            Err(failure) => return self.fail(failure),
+        };
+        let turns = |joint| told.turns(joint, world);
+        let orders = match orders(world, self.original.as_ref(), &trial, turns) {
+            Ok(orders) => orders,
+            Err(trouble) => return self.fail(self.failure(trouble)),
+        };
+        let mut sent = Vec::new();
+        for order in orders {
+            let part = order.part;
+            let Some(interface) = self.robot.interface.part(part).cloned() else {
+                let text = format!("there is no action for the part {}", part.name());
+                return self.fail(self.failure(RobotTrouble::NotPossible(text)));
+            };
+            sent.push((order, interface));
+        }
+        // Only now does anything move.
+        let sent = sent.into_iter().map(|(order, interface)| {
+            let time_out = interface.time_out + order.goal.duration();
+            let mut link = self.robot.link.borrow_mut();
+            let ticket = link.send(order.part, &order.goal, time_out);
+            self.robot.busy.borrow_mut().push(order.part);
+            Sent {
+                order,
+                interface,
+                ticket,
+                end: None,
+            }
+        });
+        self.stage = Stage::Moving(Box::new(Moving {
+            sent: sent.collect(),
+            here: Some(here),
+            outcome: trial.outcome,
+            end: trial.world,
+            reported: None,
+            is_checked: false,
+        }));
+        MotionStatus::Running
+    }
+
+    fn fail(&mut self, failure: Box<MotionFailure>) -> MotionStatus {
+        self.stage = Stage::Over;
+        MotionStatus::Failed(failure)
+    }
+
+    fn look(&mut self, world: &mut World, ticket: GoalTicket) -> MotionStatus {
+        let seen = self.robot.link.borrow_mut().seen(ticket);
+        let (Some(seen), Some(query)) = (seen, self.query.clone()) else {
+            return MotionStatus::Running;
+        };
+        self.stage = Stage::Over;
+        match seen {
+            Ok(seen) => sight::believe(world, &query, seen),
+            Err(trouble) => MotionStatus::Failed(self.failure(trouble)),
+        }
+    }
+
+    /// A step while the robot moves: how it ends, if it does.
+    fn go_on(
+        &self,
+        moving: &mut Moving,
+        world: &mut World,
+    ) -> Result<Option<MotionOutcome>, Box<MotionFailure>> {
+        self.hear_ends(&mut moving.sent)
+            .map_err(|trouble| self.failure(trouble))?;
+        let told = Told::now(&self.robot, world).map_err(|trouble| self.failure(trouble))?;
+        // Fingers here move when those of the robot have: what they hold must not be held before.
+        let waits = self.module == ProcessModule::Grippers && !moving.is_checked;
+        if let Some(here) = moving.here.as_mut().filter(|_| !waits) {
+            match here.tick(world) {
+                MotionStatus::Running => {}
+                MotionStatus::Done(outcome) => {
+                    moving.outcome = outcome;
+                    moving.here = None;
+                }
+                MotionStatus::Failed(failure) => return Err(failure),
+            }
+        }
+        let is_reported = moving.sent.iter().all(|sent| sent.end.is_some());
+        if !is_reported || moving.is_stopped() {
+            return Ok(None);
+        }
+        let now = self.now();
+        let reported = *moving.reported.get_or_insert(now);
+        if !moving.is_checked {
+            let trouble = moving.sent.iter().find_map(|sent| {
+                let fingers = sent.end.as_ref().and_then(|end| end.fingers);
+                check::trouble(&sent.order, &sent.interface, &told, &moving.end, fingers)
+            });
+            match trouble {
+                // What it tells of itself may come later than what it reports.
+                Some(_) if now.saturating_sub(reported) < SETTLING => return Ok(None),
+                Some(trouble) => return Err(self.failure(trouble)),
+                None => moving.is_checked = true,
+            }
+        }
+        if moving.here.is_some() {
+            return Ok(None);
+        }
+        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
+        told.believe(world, |part| parts.contains(&part), self.closed());
+        Ok(Some(moving.outcome.clone()))
+    }
+
+    /// Hears how goals have ended.
+    fn hear_ends(&self, sent: &mut [Sent]) -> Result<(), RobotTrouble> {
+        for sent in sent.iter_mut().filter(|sent| sent.end.is_none()) {
+            let end = self.robot.link.borrow_mut().end(sent.ticket);
+            let Some(mut end) = end else {
+                continue;
+            };
+            // Fingers that something between them has stopped hold it, whatever their server makes of that.
+            let is_stalled = end.fingers.is_some_and(|fingers| fingers.is_stalled);
+            if let Some(RobotTrouble::Aborted { .. }) = &end.trouble
+                && sent.order.grips
+                && is_stalled
+            {
+                end.trouble = None;
+            }
+            let trouble = end.trouble.clone();
+            sent.end = Some(end);
+            if let Some(trouble) = trouble {
+                return Err(trouble);
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets all goals end; the robot is to stand still.
+    fn stop(&mut self, sent: Vec<Sent>, ending: Ending) {
+        for sent in sent.iter().filter(|sent| sent.end.is_none()) {
+            self.robot.link.borrow_mut().cancel(sent.ticket);
+        }
+        self.stage = Stage::Stopping(self.now(), sent, ending);
+    }
+
+    /// Whether the robot stands still, or has been waited for long enough.
+    fn stands(&mut self, world: &mut World) -> bool {
+        let now = self.now();
+        let robot = Rc::clone(&self.robot);
+        let Stage::Stopping(since, sent, _) = &mut self.stage else {
+            return true;
+        };
+        let mut link = robot.link.borrow_mut();
+        for sent in sent.iter_mut().filter(|sent| sent.end.is_none()) {
+            sent.end = link.end(sent.ticket);
+        }
+        let has_ended = sent.iter().all(|sent| sent.end.is_some());
+        let stands = has_ended && link.stands_still();
+        if !stands && now.saturating_sub(*since) < STOPPING {
+            return false;
+        }
+        if !stands {
+            let running = sent.iter().filter(|sent| sent.end.is_none());
+            let running: Vec<&str> = running.map(|sent| sent.interface.name.as_str()).collect();
+            let what = match running.is_empty() {
+                true => "it still moves, or does not tell".to_owned(),
+                false => format!("nothing says that these have ended: {}", running.join(", ")),
+            };
+            link.shout(&format!(
+                "THE ROBOT DOES NOT STAND STILL 2 s after it was to stop ({what}). \
+                 Use the emergency stop if it moves."
+            ));
+        }
+        let parts: Vec<RobotPart> = sent.iter().map(|sent| sent.order.part).collect();
+        drop(link);
+        robot.busy.borrow_mut().retain(|part| !parts.contains(part));
+        if let Ok(told) = Told::now(&robot, world) {
+            told.believe(world, |part| parts.contains(&part), self.closed());
+        }
+        true
+    }
+
+    /// The parts that this motion uses are free again.
+    fn free(&self, moving: &Moving) {
+        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
+        let mut busy = self.robot.busy.borrow_mut();
+        busy.retain(|part| !parts.contains(part));
+    }
+}
+
+impl Motion for RealMotion {
+    fn module(&self) -> ProcessModule {
+        self.module
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        match std::mem::replace(&mut self.stage, Stage::Over) {
+            Stage::Begin(since) => self.begin(world, since),
+            Stage::Looking(ticket) => {
+                self.stage = Stage::Looking(ticket);
+                self.look(world, ticket)
+            }
+            Stage::Moving(mut moving) => match self.go_on(&mut moving, world) {
+                // The robot was stopped, but not by this motion: it begins anew if the plan goes on.
+                _ if moving.is_stopped() => {
+                    self.stop(moving.sent, Ending::Anew);
+                    MotionStatus::Running
+                }
+                Ok(None) => {
+                    self.stage = Stage::Moving(moving);
+                    MotionStatus::Running
+                }
+                Ok(Some(outcome)) => {
+                    self.free(&moving);
+                    MotionStatus::Done(outcome)
+                }
+                Err(failure) => {
+                    self.stop(moving.sent, Ending::Failed(failure));
+                    MotionStatus::Running
+                }
+            },
+            Stage::Stopping(since, sent, ending) => {
+                self.stage = Stage::Stopping(since, sent, ending);
+                if !self.stands(world) {
+                    return MotionStatus::Running;
+                }
+                match std::mem::replace(&mut self.stage, Stage::Over) {
+                    Stage::Stopping(_, _, Ending::Failed(failure)) => MotionStatus::Failed(failure),
+                    Stage::Stopping(_, _, Ending::Anew) => {
+                        self.stage = Stage::Begin(None);
+                        MotionStatus::Running
+                    }
+                    _ => MotionStatus::Done(MotionOutcome::Arrived),
+                }
+            }
+            Stage::Failed(failure) => MotionStatus::Failed(failure),
+            Stage::Over => MotionStatus::Done(MotionOutcome::Arrived),
+        }
+    }
+
+    fn cancel(&mut self) {
+        match std::mem::replace(&mut self.stage, Stage::Over) {
+            Stage::Moving(moving) => self.stop(moving.sent, Ending::Cancelled),
+            Stage::Stopping(since, sent, _) => {
+                self.stage = Stage::Stopping(since, sent, Ending::Cancelled);
+            }
+            _ => {}
+        }
+    }
+
+    fn is_moving(&self) -> bool {
+        matches!(self.stage, Stage::Moving(_) | Stage::Stopping(..))
+    }
+
+    fn brake(&mut self, world: &mut World) {
+        if let Stage::Moving(_) = &self.stage
+            && let Stage::Moving(moving) = std::mem::replace(&mut self.stage, Stage::Over)
+        {
+            self.stop(moving.sent, Ending::Anew);
+        }
+        if !self.stands(world) {
+            self.robot.link.borrow().wait();
+            return;
+        }
+        if let Stage::Stopping(..) = &self.stage {
+            self.stage = match std::mem::replace(&mut self.stage, Stage::Over) {
+                Stage::Stopping(_, _, Ending::Anew) => Stage::Begin(None),
+                Stage::Stopping(_, _, Ending::Failed(failure)) => Stage::Failed(failure),
+                _ => Stage::Over,
+            };
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        match &self.stage {
+            Stage::Begin(_) => Progress {
+                what: "waiting for the robot",
+                fraction: 0.0,
+            },
+            Stage::Looking(_) => Progress {
+                what: "asking the camera",
+                fraction: 0.0,
+            },
+            Stage::Moving(moving) => match &moving.here {
+                Some(here) => here.progress(),
+                None => Progress {
+                    what: "waiting for the robot to arrive",
+                    fraction: 1.0,
+                },
+            },
+            Stage::Stopping(..) | Stage::Failed(_) | Stage::Over => Progress {
+                what: "stopping",
+                fraction: 1.0,
+            },
+        }
+    }
+
+    fn is_elsewhere(&self) -> bool {
+        true
+    }
+
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        match &self.stage {
+            Stage::Moving(moving) => moving.here.as_ref()?.planned(),
+            _ => None,
+        }
+    }
+
+    /// A robot carries a motion out once.
+    fn copied(&self) -> Option<Box<dyn Motion>> {
+        None
+    }
+
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        match &self.stage {
+            Stage::Begin(since) => Some(Box::new(Self {
+                module: self.module,
+                original: self.original.copied()?,
+                query: self.query.clone(),
+                robot: Rc::clone(&self.robot),
+                stage: Stage::Begin(*since),
+            })),
+            _ => None,
+        }
+    }
+}
+
+impl Drop for RealMotion {
+    /// Nobody looks after the goals any more.
+    fn drop(&mut self) {
+        let robot: &RobotAccess = &self.robot;
+        let sent = match &self.stage {
+            Stage::Moving(moving) => &moving.sent,
+            Stage::Stopping(_, sent, _) => sent,
+            _ => return,
+        };
+        for sent in sent {
+            if sent.end.is_none() {
+                robot.link.borrow_mut().cancel(sent.ticket);
+            }
+            let part = sent.order.part;
+            robot.busy.borrow_mut().retain(|known| *known != part);
+        }
+    }
+}

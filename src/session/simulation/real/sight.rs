@@ -1,0 +1,106 @@
+//! What the robot's camera sees becomes what is believed of the world.
+
+use crate::outside::SeenObject;
+use robotics::motion::{DetectQuery, DetectedObject, MotionFailure, MotionOutcome, MotionStatus};
+use robotics::world::World;
+use spatial::Pose;
+
+/// An object without a name that is seen this near (m) to where one of its type was is that one.
+const SAME_PLACE: f64 = 0.15;
+/// An object that is seen less than this (m, and rad) from where it was has not moved.
+const UNMOVED: [f64; 2] = [0.003, 0.02];
+
+/// Puts what is seen into the world, and returns how the motion that has looked ends.
+pub(super) fn believe(
+    world: &mut World,
+    query: &DetectQuery,
+    seen: Vec<SeenObject>,
+) -> MotionStatus {
+    let mut found: Vec<DetectedObject> = Vec::new();
+    let mut strange: Vec<String> = Vec::new();
+    for object in seen {
+        let kind = object.type_name.to_lowercase();
+        if world.models().objects.get(&kind).is_none() {
+            strange.push(object.type_name);
+            continue;
+        }
+        let taken: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
+        let name = name_of(world, &object.name, &kind, &object.pose, &taken);
+        if let Err(error) = place(world, &name, &kind, &object.pose) {
+            strange.push(format!("{name} ({error})"));
+            continue;
+        }
+        let base = world.robot_configuration().base;
+        found.push(DetectedObject {
+            name,
+            type_name: kind,
+            pose_in_base: base.inverse() * object.pose,
+            pose_in_map: object.pose,
+        });
+    }
+    let types = &world.models().objects;
+    found.retain(|object| {
+        let same = |wanted: &String| wanted.eq_ignore_ascii_case(&object.name);
+        let of_kind = |wanted: &String| types.is_kind_of(&object.type_name, &wanted.to_lowercase());
+        query.name.as_ref().is_none_or(same)
+            && (query.types.is_empty() || query.types.iter().any(of_kind))
+    });
+    if !found.is_empty() {
+        return MotionStatus::Done(MotionOutcome::Detected(found));
+    }
+    let mut wanted = query.description.clone();
+    if !strange.is_empty() {
+        wanted.push_str(&format!(
+            " (seen was also what cannot be believed: {})",
+            strange.join(", ")
+        ));
+    }
+    MotionStatus::Failed(Box::new(MotionFailure::ObjectNotFound {
+        wanted,
+        candidates: Vec::new(),
+        meant: None,
+        may_err: true,
+    }))
+}
+
+/// By which name the world knows an object that is seen.
+fn name_of(world: &World, given: &str, kind: &str, pose: &Pose, taken: &[&str]) -> String {
+    let given = given.to_uppercase();
+    let is_of = |name: &str| {
+        let known = world.object(name);
+        known.is_ok_and(|known| known.type_name() == kind)
+    };
+    if !given.is_empty() && (is_of(&given) || world.object(&given).is_err()) {
+        return given;
+    }
+    let near = world.objects().filter(|known| {
+        given.is_empty() && known.type_name() == kind && !taken.contains(&known.name())
+    });
+    let near = near.filter_map(|known| {
+        let there = world.object_pose(known.name()).ok()?;
+        let way = (there.translation.vector - pose.translation.vector).norm();
+        (way <= SAME_PLACE).then(|| (way, known.name().to_owned()))
+    });
+    if let Some((_, name)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) {
+        return name;
+    }
+    let fresh = (1u32..).map(|number| format!("{}-{number}", kind.to_uppercase()));
+    let mut fresh = fresh.filter(|name| world.object(name).is_err());
+    fresh.next().unwrap_or(given)
+}
+
+/// Puts an object where it is seen, unless it is there already, or in a hand.
+fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<(), String> {
+    if let Ok(known) = world.object(name) {
+        let is_held = known.attachment().is_some();
+        let there = world.object_pose(name).map_err(|error| error.to_string())?;
+        let way = (there.translation.vector - pose.translation.vector).norm();
+        let turn = there.rotation.angle_to(&pose.rotation);
+        let [near, alike] = UNMOVED;
+        if is_held || (way <= near && turn <= alike) {
+            return Ok(());
+        }
+    }
+    let placed = world.spawn(name, kind, pose, None, None);
+    placed.map(drop).map_err(|error| error.to_string())
+}
