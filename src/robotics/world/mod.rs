@@ -29,6 +29,7 @@ mod hollow;
 pub mod kitchen_description;
 mod kitchen_description_file;
 mod kitchen_motion;
+pub mod knob;
 mod link_geometry;
 mod link_pairs;
 mod map_area;
@@ -80,6 +81,7 @@ pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;
 
 pub use kitchen_description::KitchenDescription;
+pub use knob::Knob;
 pub use map_area::MapArea;
 pub use models::Models;
 pub use moved_part::{MovedPart, Part};

@@ -322,17 +322,31 @@ impl World {
     ) -> CollisionChecker<'w> {
         let mut objects = Vec::new();
         let mut held = Vec::new();
+        let riding = self.riding_on_two_hands();
         for object in self.state.objects.values() {
-            match &object.attachment {
-                Some(attachment) => held.push(HeldObject {
+            let rides = riding.iter().find(|(name, _, _)| name == object.name());
+            match (&object.attachment, rides) {
+                (Some(attachment), _) => held.push(HeldObject {
                     key: object.key(),
                     name: &object.name,
                     solids: &object.solids,
                     bounds: object.bounds,
                     link: attachment.link,
                     at: attachment.at,
+                    hands: [Some(attachment.link), object.second.map(|one| one.link)],
+                    load: object.key(),
                 }),
-                None => objects.push(at(object)),
+                (None, Some((_, carrier, at))) => held.push(HeldObject {
+                    key: object.key(),
+                    name: &object.name,
+                    solids: &object.solids,
+                    bounds: object.bounds,
+                    link: carrier.0,
+                    at: *at,
+                    hands: [None, None],
+                    load: carrier.1,
+                }),
+                (None, None) => objects.push(at(object)),
             }
         }
         let surroundings = Surroundings {
@@ -377,6 +391,13 @@ impl World {
                 hasher.integer(u64::from(index(attachment.link)));
                 hasher.pose(&attachment.at);
                 if let Some(hold) = &attachment.hold {
+                    hold.hash_into(&mut hasher);
+                }
+            }
+            if let Some(second) = &object.second {
+                hasher.integer(u64::from(index(second.link)));
+                hasher.pose(&second.at);
+                if let Some(hold) = &second.hold {
                     hold.hash_into(&mut hasher);
                 }
             }

@@ -46,12 +46,7 @@ fn straight_hand_way(
     for name in through.iter().flat_map(Value::iter_list) {
         passed.push(BodyName::Object(simulation.object_named(image, &name)?));
     }
-    let begin = begin.and_then(|begin| name_text(image, &begin));
-    let begin = match begin.as_deref() {
-        Some("HERE") => WayBegin::Here,
-        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
-        _ => WayBegin::AtAnyHeight,
-    };
+    let begin = beginning(image, begin);
     let object = object.filter(Value::is_true);
     let object = object.map(|name| simulation.object_named(image, &name));
     let object = object.transpose()?;
@@ -71,9 +66,7 @@ fn straight_hand_way(
         .then(|| imagined(&simulation.world, base.as_ref(), posture.as_ref()));
     let mut ways = Vec::new();
     for way in args[1].iter_list() {
-        let poses = way.iter_list();
-        let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
-        ways.push(poses.collect::<Result<Vec<_>>>()?);
+        ways.push(way_of(simulation, image, &way)?);
     }
     let world = imagined.as_ref().unwrap_or(&simulation.world);
     // There, the robot would take itself to be where it went to.
@@ -100,8 +93,25 @@ fn straight_hand_way(
     })
 }
 
+/// Where a way begins, by a name.
+pub(super) fn beginning(image: &Image, begin: Option<Value>) -> WayBegin {
+    let begin = begin.and_then(|begin| name_text(image, &begin));
+    match begin.as_deref() {
+        Some("HERE") => WayBegin::Here,
+        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
+        _ => WayBegin::AtAnyHeight,
+    }
+}
+
+/// The poses of a way in the map.
+pub(super) fn way_of(simulation: &Simulation, image: &Image, way: &Value) -> Result<Vec<Pose>> {
+    let poses = way.iter_list();
+    let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
+    poses.collect()
+}
+
 /// An arm, the height (m) of the torso, and the positions (rad) of the arm's joints.
-type Posture = (Side, f64, ArmPositions);
+pub(super) type Posture = (Side, f64, ArmPositions);
 
 fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
     let parts: Vec<Value> = value.iter_list().collect();
@@ -120,7 +130,7 @@ fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
 }
 
 /// The world with the robot at another place, or with the torso and an arm in another posture.
-fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> World {
+pub(super) fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> World {
     let mut imagined = world.clone();
     let mut robot = world.robot_configuration().clone();
     if let Some(base) = base {

@@ -19,7 +19,7 @@ pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Optio
     for arm in &description.arms {
         let held = world
             .objects()
-            .filter(|o| o.attachment().is_some_and(|a| a.link == arm.gripper.palm));
+            .filter(|o| o.attachment_to(arm.gripper.palm).is_some());
         for object in held.filter(|_| is_hand(arm.gripper.palm)) {
             let Some(limit) = exceeded(world, arm.side, object) else {
                 continue;
@@ -38,7 +38,10 @@ pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Optio
 /// What the object's weight exceeds, as far as the hand carries it.
 fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> {
     let arm = world.models().description.arm(side);
-    let weld = world.weld_error(object.name()).ok().flatten()?;
+    let weld = world
+        .grip_error(object.name(), arm.gripper.palm)
+        .ok()
+        .flatten()?;
     let weight = object.mass() * GRAVITY;
     let carried = weld.force.min(weight);
     if let Some(payload) = arm.payload
@@ -53,7 +56,10 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
     let gap = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
     let press = object.hold()?.press();
     let pads = Pads::new(gripper, object, &tool, gap.max(0.0), press);
-    let pads = pads.filter(|_| carried > weight / 2.0);
+    // Two hands bear the torque by their forces.
+    let by_two = object.is_held_by_two();
+    let at = if by_two { tool.translation.vector } else { at };
+    let pads = pads.filter(|_| carried > weight / 2.0 && !by_two);
     if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
         let ExcessTorque { torque, limit } = excess;
         return Some(PayloadLimit::Grip { torque, limit });

@@ -4,6 +4,7 @@
 use super::job::{Activity, MotionOutcome, MotionStatus, Progress};
 use super::joint_follower::{FollowStep, JointFollower};
 use super::replanning::{Attempt, Replanning};
+use crate::motion::planning::rigid_loop::broken_loop;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::joint_plan::JointPlan;
@@ -103,6 +104,9 @@ impl<G: JointGoal> JointMotion<G> {
         self.goal.err(world);
         match self.goal.plan(world, self.plans) {
             Ok(plan) => {
+                if let Some(broken) = broken_loop(world, &plan) {
+                    return Err(MotionFailure::LoopBroken(Box::new(broken)));
+                }
                 self.plans += 1;
                 self.follower = Some(JointFollower::new(plan));
                 self.replanning.reset();
