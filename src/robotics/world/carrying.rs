@@ -3,12 +3,8 @@
 use super::body_name::BodyName;
 use super::contacts::ContactForce;
 use super::error::WorldError;
-use super::object::Object;
-use super::part_key::PartKey;
 use super::physics::GRAVITY;
 use super::scene::World;
-use crate::robot::LinkId;
-use spatial::Pose;
 
 /// What pushes an object up by less than this share of its weight does not carry it: the engine leaves
 /// traces of forces where it has put bodies to sleep.
@@ -53,36 +49,6 @@ impl World {
         }
         let below = self.below(name, &self.object_pose(name)?)?;
         Ok(below.and_then(|(gap, body)| (gap < TOUCHING).then_some(body)))
-    }
-
-    /// What stands on something that two hands hold together, and so moves with them: its name, the link to which
-    /// the carrier is attached with the carrier's key, and its pose in the frame of that link.
-    pub(super) fn riding_on_two_hands(&self) -> Vec<(String, (LinkId, PartKey), Pose)> {
-        let carried: Vec<_> = self.objects().filter(|o| o.is_held_by_two()).collect();
-        if carried.is_empty() {
-            return Vec::new();
-        }
-        let mut riding = Vec::new();
-        for object in self.objects().filter(|o| o.attachment().is_none()) {
-            let below = self.carriers(object.name()).unwrap_or_default();
-            let is_below = |carrier: &&&Object| {
-                let mut names = below.iter().filter_map(BodyName::object);
-                names.any(|name| name == carrier.name())
-            };
-            let Some(carrier) = carried.iter().find(is_below) else {
-                continue;
-            };
-            let (Some(held), Ok(at), Ok(pose)) = (
-                carrier.attachment(),
-                self.object_pose(carrier.name()),
-                self.object_pose(object.name()),
-            ) else {
-                continue;
-            };
-            let place = held.at * at.inverse() * pose;
-            riding.push((object.name().to_owned(), (held.link, carrier.key()), place));
-        }
-        riding
     }
 
     /// What carries the object, what carries that, and so on down to furniture or the floor, or to

@@ -47,6 +47,7 @@ mod part_key;
 mod penetration;
 pub mod physics;
 mod placed_solid;
+mod riding;
 mod robot_bodies;
 pub mod robot_configuration;
 mod robot_motion;

@@ -16,6 +16,7 @@
 //! - Reading changes nothing. In particular no collision detection runs outside a step.
 
 mod raw_contact;
+mod riding;
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{

@@ -31,6 +31,7 @@ use super::object::Object;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
+use super::riding::Riding;
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
 use super::tilt::Tilt;
@@ -81,6 +82,8 @@ pub(super) struct State {
     pub(super) touches: Vec<Touches>,
     /// Tools that pass through what they cut.
     pub(super) cuts: Vec<Cut>,
+    /// What stands on what two hands carry.
+    pub(super) riding: Riding,
 }
 
 impl World {
@@ -151,6 +154,7 @@ impl World {
                 noise: None,
                 touches: Vec::new(),
                 cuts: Vec::new(),
+                riding: Riding::default(),
             },
             robot_bodies,
             kitchen_bodies,
@@ -204,6 +208,7 @@ impl World {
             self.state.kitchen_moves = false;
         }
         self.physics.step();
+        self.keep_riders();
         self.watch_holds();
         self.pour();
         self.note_touches();
@@ -322,9 +327,9 @@ impl World {
     ) -> CollisionChecker<'w> {
         let mut objects = Vec::new();
         let mut held = Vec::new();
-        let riding = self.riding_on_two_hands();
+        let riding = self.riders_of_two_hands();
         for object in self.state.objects.values() {
-            let rides = riding.iter().find(|(name, _, _)| name == object.name());
+            let rides = riding.iter().find(|rider| rider.name == object.name());
             match (&object.attachment, rides) {
                 (Some(attachment), _) => held.push(HeldObject {
                     key: object.key(),
@@ -336,15 +341,15 @@ impl World {
                     hands: [Some(attachment.link), object.second.map(|one| one.link)],
                     load: object.key(),
                 }),
-                (None, Some((_, carrier, at))) => held.push(HeldObject {
+                (None, Some(rider)) => held.push(HeldObject {
                     key: object.key(),
                     name: &object.name,
                     solids: &object.solids,
                     bounds: object.bounds,
-                    link: carrier.0,
-                    at: *at,
+                    link: rider.link,
+                    at: rider.at,
                     hands: [None, None],
-                    load: carrier.1,
+                    load: rider.load,
                 }),
                 (None, None) => objects.push(at(object)),
             }
@@ -413,6 +418,9 @@ impl World {
         }
         for cut in &self.state.cuts {
             cut.hash_into(&mut hasher);
+        }
+        if self.state.riding != Riding::default() {
+            self.state.riding.hash_into(&mut hasher);
         }
         hasher.finish()
     }
