@@ -11,10 +11,12 @@ use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
 use lisp::typed::keywords;
 use lisp::value::Value;
+use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{can_stand, strain, straight_ways};
 use robotics::robot::Side;
+use robotics::world::World;
 use spatial::{Pose, pose};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -23,8 +25,8 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(super) static TABLE: &[Builtin] = &[
     control(
         "%BOTH-WAYS",
-        "ways &key base-pose begin object",
-        "The first of some ways, each a list of the poses of the left hand and those of the right one, as many, through which both can be moved straight at the same time while the robot and what it holds touch nothing: its number, the height (m) of the torso, and the positions (rad) of the left and the right arm's joints in which it begins. NIL if there is none. BASE-POSE, BEGIN and OBJECT are as for %STRAIGHT-WAY.",
+        "ways &key base-pose begin object opening",
+        "The first of some ways, each a list of the poses of the left hand and those of the right one, as many, through which both can be moved straight at the same time while the robot and what it holds touch nothing: its number, the height (m) of the torso, and the positions (rad) of the left and the right arm's joints in which it begins. NIL if there is none. BASE-POSE, BEGIN and OBJECT are as for %STRAIGHT-WAY. With OPENING, as if the fingers were so far apart (m).",
         &[
             "(progn (pp-tut:init-projection) (btr::%both-ways '(((((5 0 1) (0 0 0 1))) (((5 1 1) (0 0 0 1))))))) => NIL",
         ],
@@ -56,8 +58,9 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 fn both_ways(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let keys = ["BASE-POSE", "BEGIN", "OBJECT"].map(|name| image.keyword(name));
-    let [base, begin, object] = keywords::parse(image, &args[1..], keys)?;
+    let keys = ["BASE-POSE", "BEGIN", "OBJECT", "OPENING"].map(|name| image.keyword(name));
+    let [base, begin, object, opening] = keywords::parse(image, &args[1..], keys)?;
+    let opening = opening.and_then(|opening| number::to_f64(&opening));
     let begin = beginning(image, begin);
     let object = object.filter(Value::is_true);
     let object = object.map(|name| simulation.object_named(image, &name));
@@ -83,9 +86,10 @@ fn both_ways(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
         };
         ways.push([poses(simulation, left)?, poses(simulation, right)?]);
     }
-    let there = base
-        .as_ref()
-        .map(|base| imagined(&simulation.world, Some(base), None));
+    let there = (base.is_some() || opening.is_some()).then(|| {
+        let there = imagined(&simulation.world, base.as_ref(), None);
+        opened(there, opening)
+    });
     let world = there.as_ref().unwrap_or(&simulation.world);
     // There, the robot would take itself to be where it went to.
     let in_base = base.unwrap_or_else(|| simulation.believed_base()).inverse();
@@ -108,6 +112,19 @@ fn both_ways(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
             Value::list(values)
         }
     })
+}
+
+/// The world with the fingers of both hands so far apart (m), if that is given.
+fn opened(mut world: World, opening: Option<f64>) -> World {
+    let Some(opening) = opening else { return world };
+    let mut robot = world.robot_configuration().clone();
+    for arm in &world.models().description.arms {
+        let position = arm.gripper.position_for_opening(opening);
+        let position = arm.gripper.limits.clamp(position);
+        robot.joints.set(arm.gripper.joint, position);
+    }
+    world.teleport_robot(&robot);
+    world
 }
 
 fn strain_of_hands(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
