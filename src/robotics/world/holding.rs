@@ -214,7 +214,11 @@ impl World {
         if let Some(object) = self.state.objects.get_mut(name) {
             object.second = None;
             object.attachment = Some(left);
-            if let Some(hold) = object.attachment.as_mut().and_then(|left| left.hold.as_mut()) {
+            if let Some(hold) = object
+                .attachment
+                .as_mut()
+                .and_then(|left| left.hold.as_mut())
+            {
                 hold.upright = upright;
             }
         }

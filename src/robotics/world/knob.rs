@@ -58,7 +58,9 @@ impl Models {
         let turn = UnitQuaternion::rotation_between(&axis, &Vector3::x())
             .unwrap_or_else(|| half_turn_about_z());
         let turn = to_parry(&Pose::from_parts(Default::default(), turn));
-        let mut bounds = solids.iter().map(|s| s.shape.compute_aabb(&(turn * s.pose)));
+        let mut bounds = solids
+            .iter()
+            .map(|s| s.shape.compute_aabb(&(turn * s.pose)));
         let body = bounds.next()?;
         let (center, half) = (body.center(), body.half_extents());
         let radius = half.y.max(half.z);

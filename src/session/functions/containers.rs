@@ -52,7 +52,9 @@ pub(super) static TABLE: &[Builtin] = &[
         "KNOB-STATE",
         "knob",
         "Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle and the limits of that (rad), the name of its joint, and its own.",
-        &["(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven))) => :OFF"],
+        &[
+            "(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven))) => :OFF",
+        ],
         host!(knob_state),
     ),
 ];

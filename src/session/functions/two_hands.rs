@@ -14,7 +14,7 @@ use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::motion::interruption::interruptible;
-use robotics::motion::{can_stand, strain, straight_ways};
+use robotics::motion::{can_stand, straight_ways, strain};
 use robotics::robot::Side;
 use robotics::world::World;
 use spatial::{Pose, pose};

@@ -98,8 +98,9 @@ impl Simulation {
     fn furniture_text(&self, image: &Image, value: &Value) -> Option<String> {
         let value = current(value);
         let name = match as_designator(&value) {
-            Some(_) => property(image, &value, "URDF-NAME")
-                .or_else(|| property(image, &value, "NAME"))?,
+            Some(_) => {
+                property(image, &value, "URDF-NAME").or_else(|| property(image, &value, "NAME"))?
+            }
             None => value,
         };
         name_text(image, &name)

@@ -50,8 +50,6 @@ pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), Moti
 /// Names of the objects that the hand holds.
 pub fn held_objects(world: &World, side: Side) -> Vec<String> {
     let palm = world.models().description.arm(side).gripper.palm;
-    let held = world
-        .objects()
-        .filter(|o| o.attachment_to(palm).is_some());
+    let held = world.objects().filter(|o| o.attachment_to(palm).is_some());
     held.map(|o| o.name().to_owned()).collect()
 }

@@ -4,10 +4,10 @@
 use super::job::{Activity, MotionOutcome, MotionStatus, Progress};
 use super::joint_follower::{FollowStep, JointFollower};
 use super::replanning::{Attempt, Replanning};
-use crate::motion::planning::rigid_loop::broken_loop;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::joint_plan::JointPlan;
+use crate::motion::planning::rigid_loop::broken_loop;
 use crate::motion::trajectories::planned_trajectory::PlannedTrajectory;
 use crate::robot::LinkId;
 use crate::world::{CollisionHit, World};
