@@ -117,7 +117,12 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Object, _) if row.variant.as_deref() == Some("CONTAINER") => {
             "(an object (urdf-name sink-area-left-upper-drawer-main))"
         }
+        (Kind::Object, _) if row.name == "TURNING-KNOB" => {
+            "(an object (type knob) (urdf-name oven-area-oven-knob-oven))"
+        }
         (Kind::Object | Kind::DetectedObject, _) => "?object",
+        (Kind::Anything, "FRAME") => "\"oven_area_oven_knob_oven\"",
+        (Kind::Number, "ANGLE") => "1",
         (Kind::Text, "FRAME") => "\"l_gripper_tool_frame\"",
         (Kind::List | Kind::Anything, "LEFT-CONFIGURATION") => "?left-configuration",
         (Kind::List | Kind::Anything, "RIGHT-CONFIGURATION") => "?right-configuration",

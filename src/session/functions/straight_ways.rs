@@ -26,7 +26,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(super) static TABLE: &[Builtin] = &[control(
     "%STRAIGHT-WAY",
     "arm ways &key base-pose posture begin object through",
-    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
+    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot, or :HERE-AT-ANY-HEIGHT, if the torso may move on the way; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
     &[
         "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
     ],
@@ -98,6 +98,7 @@ pub(super) fn beginning(image: &Image, begin: Option<Value>) -> WayBegin {
     let begin = begin.and_then(|begin| name_text(image, &begin));
     match begin.as_deref() {
         Some("HERE") => WayBegin::Here,
+        Some("HERE-AT-ANY-HEIGHT") => WayBegin::HereAtAnyHeight,
         Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
         _ => WayBegin::AtAnyHeight,
     }

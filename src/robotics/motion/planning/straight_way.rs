@@ -35,8 +35,10 @@ pub struct WaysStart {
 /// Where a straight way may begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WayBegin {
-    /// Where the hand is.
+    /// Where the hand is, with the torso as it is.
     Here,
+    /// Where the hand is; the torso may move on the way.
+    HereAtAnyHeight,
     /// At the first pose, with the torso as it is.
     AtThisHeight,
     /// At the first pose.
@@ -94,14 +96,15 @@ pub fn straight_ways(
         contacts,
     };
     let heights = match begin {
-        WayBegin::AtAnyHeight => task.heights(REASON_STEP),
+        WayBegin::AtAnyHeight | WayBegin::HereAtAnyHeight => task.heights(REASON_STEP),
         WayBegin::Here | WayBegin::AtThisHeight => vec![task.torso_now()],
     };
-    let stations = stations(world, ways, begin);
+    let begins_here = matches!(begin, WayBegin::Here | WayBegin::HereAtAnyHeight);
+    let stations = stations(world, ways, begins_here);
     for height in heights {
         let group = task.group(height);
         let starts = match begin {
-            WayBegin::Here => vec![group.now(world)],
+            WayBegin::Here | WayBegin::HereAtAnyHeight => vec![group.now(world)],
             WayBegin::AtThisHeight | WayBegin::AtAnyHeight => {
                 let found = task.configurations(height, &group).into_iter();
                 found.map(|one| one.positions).collect()
@@ -112,7 +115,7 @@ pub fn straight_ways(
         }
         let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &task.contacts);
         let is_free = |checker: &mut ConfigurationChecker<'_>, start: &[f64]| {
-            begin == WayBegin::Here || checker.blocked(start).is_none()
+            begins_here || checker.blocked(start).is_none()
         };
         let mut tried = 0;
         for start in starts {
@@ -135,9 +138,13 @@ pub fn straight_ways(
 }
 
 /// The poses of all hands at each station of their ways, from where they are if the ways begin there.
-fn stations(world: &World, ways: &[(Side, Vec<Pose>)], begin: WayBegin) -> Vec<Vec<(Side, Pose)>> {
+fn stations(
+    world: &World,
+    ways: &[(Side, Vec<Pose>)],
+    begins_here: bool,
+) -> Vec<Vec<(Side, Pose)>> {
     let count = ways.iter().map(|(_, poses)| poses.len()).min().unwrap_or(0);
-    let now = (begin == WayBegin::Here).then(|| {
+    let now = begins_here.then(|| {
         let hands = ways.iter();
         hands
             .map(|(side, _)| (*side, tcp_in_base(world, *side)))
