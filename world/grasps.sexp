@@ -250,6 +250,39 @@
        :translation (0 -0.1755 0.012) :rotation top-across-x
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
+; Beside the middles of its walls: for two hands at opposite corners, where things stand in the middle.
+(grasp top-back-left :types (tray) :arms (left right)
+       :translation (-0.2102 0.1 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-back-right :types (tray) :arms (left right)
+       :translation (-0.2102 -0.1 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-left :types (tray) :arms (left right)
+       :translation (0.2102 0.1 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-right :types (tray) :arms (left right)
+       :translation (0.2102 -0.1 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-back :types (tray) :arms (left right)
+       :translation (-0.11 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-front :types (tray) :arms (left right)
+       :translation (0.11 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-back :types (tray) :arms (left right)
+       :translation (-0.11 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-front :types (tray) :arms (left right)
+       :translation (0.11 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
 ; Flat and too wide for anything else: where an edge stands out over what carries it.
 (grasp front :types (tray-base) :arms (left right)
        :translation (0.08 0 0.0116) :rotation flat-from-front

@@ -45,6 +45,10 @@ pub struct HeldObject<'w> {
     pub link: LinkId,
     /// Pose of the object in the link's frame.
     pub at: Pose,
+    /// The palms of the hands that hold it, which it touches; none if it stands on what hands hold.
+    pub hands: [Option<LinkId>; 2],
+    /// What it moves with: objects of the same load are not checked against each other.
+    pub load: PartKey,
 }
 
 /// Everything that a robot may collide with.
@@ -230,12 +234,15 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         for (i, held) in around.held.iter().enumerate() {
             let place = links.len() + i;
             for (other, link) in links.iter().enumerate() {
-                if !around.models.belong_to_same_hand(held.link, link.link) {
+                let holds = |palm: &LinkId| around.models.belong_to_same_hand(*palm, link.link);
+                if !held.hands.iter().flatten().any(holds) {
                     self.against_each_other(place, other)?;
                 }
             }
-            for other in (place + 1)..(links.len() + around.held.len()) {
-                self.against_each_other(place, other)?;
+            for (further, other) in around.held.iter().enumerate().skip(i + 1) {
+                if other.load != held.load {
+                    self.against_each_other(place, links.len() + further)?;
+                }
             }
         }
         ControlFlow::Continue(())

@@ -8,7 +8,7 @@ use super::object::Object;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, GRAVITY};
 use super::scene::World;
-use crate::robot::Side;
+use crate::robot::{LinkId, Side};
 use spatial::pose::{angle_between, distance_between};
 
 /// The force that one body exerts on another.
@@ -138,6 +138,26 @@ impl World {
     pub fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
         let object = self.object(name)?;
         let Some(attachment) = object.attachment else {
+            return Ok(None);
+        };
+        let wanted = self.link_pose(attachment.link) * attachment.at;
+        let real = self.physics.pose(object.body);
+        Ok(Some(WeldError {
+            distance: distance_between(&wanted, &real),
+            angle: angle_between(&wanted, &real),
+            force: self.physics.weld_force(attachment.weld),
+        }))
+    }
+
+    /// How far the held object lags behind the grip of one of the links that hold it, and the force (N) of that grip;
+    /// `None` if that does not hold it.
+    pub(crate) fn grip_error(
+        &self,
+        name: &str,
+        link: LinkId,
+    ) -> Result<Option<WeldError>, WorldError> {
+        let object = self.object(name)?;
+        let Some(attachment) = object.attachment_to(link) else {
             return Ok(None);
         };
         let wanted = self.link_pose(attachment.link) * attachment.at;

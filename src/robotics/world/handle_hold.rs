@@ -1,4 +1,4 @@
-//! Hands that hold the handles of drawers and doors, and the joints that follow them.
+//! Hands that hold the handles of drawers and doors, or knobs, and the joints that follow them.
 //!
 //! Robot and kitchen are kinematic: no force moves them. So what friction does between pads and
 //! bar is a rule. While the fingers are as close together as when they pressed, the joint takes in
@@ -7,7 +7,8 @@
 //! stays behind if something stops the part, if the part is pressed against something with more
 //! than the pads transmit, or if they do not even overcome the friction of its rails or hinges. The
 //! hand slips off once the held point is farther than [`GREATEST_GAP`] from the hand, or the hand
-//! has been turned farther than rubber pads yield.
+//! has been turned farther than rubber pads yield. A knob is turned by the turn of the hand about its axis, as long
+//! as the pads transmit the torque that this takes.
 
 use serde::Serialize;
 
@@ -16,6 +17,7 @@ use super::body_name::BodyName;
 use super::collision::CollisionHit;
 use super::error::WorldError;
 use super::hash::Hasher;
+use super::knob::Knob;
 use super::moved_part::Part;
 use super::scene::World;
 use super::solid::{Solid, from_parry_vector, to_parry};
@@ -38,6 +40,10 @@ const PAD_FRICTION: f64 = 1.0;
 /// The force (N) at the handle that it takes to move a drawer on its rails or a door in its
 /// hinges: an assumption, the kitchen's description says nothing.
 const RUNNING_FORCE: f64 = 8.0;
+/// The torque (Nm) that it takes to turn a knob: an assumption, likewise.
+const KNOB_TORQUE: f64 = 0.3;
+/// How far (rad) a hand may turn on a knob that stays behind.
+const GREATEST_KNOB_SLIP: f64 = 0.1;
 /// A part that is pressed against something with more than this (N) is not moved any further.
 const CRUSHING_FORCE: f64 = 50.0;
 /// Overlap (m) of a part with the robot that stops it.
@@ -66,6 +72,8 @@ pub struct HandleHold {
     give: f64,
     /// The greatest force (N) that friction transmits.
     strength: f64,
+    /// The knob that is held, if it is one.
+    knob: Option<Knob>,
     /// What stops the part, if it does not follow.
     against: Option<Box<CollisionHit>>,
     /// In which direction the joint was last to move: 1, -1, or 0.
@@ -151,6 +159,7 @@ impl World {
             fingers,
             give: give.max(-MAX_GIVE),
             strength: 2.0 * PAD_FRICTION * effort,
+            knob: self.models.knob(handle).filter(|knob| knob.joint == joint),
             against: None,
             direction: 0,
         };
@@ -161,8 +170,11 @@ impl World {
     }
 
     /// The direction of a handle's bar in its frame, along which its first solid is longest, and
-    /// half of its length (m).
+    /// half of its length (m); of a knob, that of its axis, away from what it is fixed to.
     pub fn bar(&self, handle: LinkId) -> (Vector3<f64>, f64) {
+        if let Some(knob) = self.models.knob(handle) {
+            return (knob.outward, (knob.ends[1] - knob.ends[0]) / 2.0);
+        }
         let Some(bar) = self.handle_solids(handle).first() else {
             return (Vector3::z(), 0.0);
         };
@@ -283,7 +295,11 @@ impl World {
             let real = self.furniture_pose(hold.handle);
             let gap = (carried * hold.point - real * hold.point).norm();
             let [pivot, twist] = turns(&(real.rotation.inverse() * carried.rotation), &hold.bar);
-            if gap <= GREATEST_GAP && pivot.abs() <= GREATEST_PIVOT && twist <= GREATEST_TWIST {
+            let greatest = match &hold.knob {
+                Some(_) => GREATEST_KNOB_SLIP,
+                None => GREATEST_PIVOT,
+            };
+            if gap <= GREATEST_GAP && pivot.abs() <= greatest && twist <= GREATEST_TWIST {
                 hold.fingers = self.spread_fingers(&hold);
                 self.state.handles.push(hold);
                 continue;
@@ -332,6 +348,10 @@ impl World {
         let real = self.furniture_pose(hold.handle) * hold.point;
         let carried = self.carried(hold) * hold.point;
         let wanted = match joint.kind {
+            _ if hold.knob.is_some() => {
+                let sign = hold.knob.as_ref().map_or(1.0, |knob| knob.sign);
+                now + sign * self.handle_pivot(hold)
+            }
             JointKind::Prismatic => now + axis.dot(&(carried - real)),
             _ => {
                 // The joint's axis goes through the origin of its child.
@@ -356,7 +376,11 @@ impl World {
         position: f64,
         goes_on: bool,
     ) -> Option<Option<CollisionHit>> {
-        if hold.strength < RUNNING_FORCE {
+        let is_weak = match &hold.knob {
+            Some(knob) => hold.strength * knob.radius < KNOB_TORQUE,
+            None => hold.strength < RUNNING_FORCE,
+        };
+        if is_weak {
             return Some(None);
         }
         let moved = self.moved(part, position);

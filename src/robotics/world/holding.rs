@@ -143,15 +143,101 @@ impl World {
         Ok(())
     }
 
-    /// Lets go of the object. Returns the link that held it.
+    /// Makes a second hand hold an object that another one holds, with its fingers pressing as they are now,
+    /// each with the effort (N). Both welds then share the load.
+    pub(crate) fn hold_too(
+        &mut self,
+        name: &str,
+        side: Side,
+        effort: f64,
+    ) -> Result<(), WorldError> {
+        let gripper = &self.models.description.arm(side).gripper;
+        let (palm, fingers) = (gripper.palm, self.state.robot.joints.get(gripper.joint));
+        let object = self.object(name)?;
+        let first = object.attachment;
+        if object.attachment_to(palm).is_some() {
+            return Ok(());
+        }
+        if first.is_none_or(|first| first.hold.is_none()) {
+            return self.hold(name, side, effort);
+        }
+        let (body, strength) = (object.body, 2.0 * object.friction * effort);
+        self.bring_body(palm);
+        let Some((carrier, root)) = self.body_of_link(palm) else {
+            return Ok(());
+        };
+        let grip = self.physics.pose(carrier).inverse() * self.physics.pose(body);
+        let weld = self.physics.weld(carrier, &grip, body);
+        let at = self.link_pose(palm).inverse() * self.link_pose(root) * grip;
+        // The robot's own checks keep the rest of it away from what both hands hold.
+        self.physics.collide(body, Robot::Absent);
+        if let Some(object) = self.state.objects.get_mut(name) {
+            object.second = Some(Attachment {
+                link: palm,
+                at,
+                weld,
+                hold: Some(Hold {
+                    side,
+                    fingers,
+                    press: effort,
+                    strength,
+                    slipping: 0,
+                    free: 0,
+                    upright: false,
+                }),
+            });
+        }
+        Ok(())
+    }
+
+    /// One of the hands lets go of the object; if another one holds it, too, that goes on holding it.
+    fn detach_hand(&mut self, name: &str, side: Side) -> Result<(), WorldError> {
+        let is_of = |attachment: &Attachment| {
+            let hold = attachment.hold.as_ref();
+            hold.is_some_and(|hold| hold.side == side)
+        };
+        let object = self.object(name)?;
+        let body = object.body;
+        let (gone, left) = match (object.attachment, object.second) {
+            (Some(first), Some(second)) if is_of(&first) => (first, second),
+            (Some(first), Some(second)) if is_of(&second) => (second, first),
+            (Some(first), None) if is_of(&first) => return self.detach(name).map(|_| ()),
+            _ => return Ok(()),
+        };
+        let upright = object.is_upright_at(&self.physics.pose(body));
+        self.physics.unweld(gone.weld);
+        self.physics.wake(body);
+        if let Some(hold) = left.hold {
+            let hand = hold.side.index();
+            self.physics.collide(body, Robot::WithoutHand(hand));
+        }
+        if let Some(object) = self.state.objects.get_mut(name) {
+            object.second = None;
+            object.attachment = Some(left);
+            if let Some(hold) = object
+                .attachment
+                .as_mut()
+                .and_then(|left| left.hold.as_mut())
+            {
+                hold.upright = upright;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets go of the object, with both hands if two hold it. Returns the link that held it.
     pub fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
         self.object(name)?;
         let Some(object) = self.state.objects.get_mut(name) else {
             return Ok(None);
         };
         let held = object.attachment.take();
+        let second = object.second.take();
         if let Some(attachment) = held {
             self.physics.unweld(attachment.weld);
+            if let Some(second) = second {
+                self.physics.unweld(second.weld);
+            }
             self.physics.collide(object.body, Robot::Whole);
             self.physics.wake(object.body);
         }
@@ -164,12 +250,15 @@ impl World {
         let arm = |side: Side| self.models.description.arm(side);
         let is_released =
             |hold: &Hold| joints.get(arm(hold.side).gripper.joint) > hold.fingers + OPENED;
-        let held = self.state.objects.values();
-        let released = held.filter(|o| o.hold().is_some_and(is_released));
-        let released: Vec<String> = released.map(|o| o.name.clone()).collect();
-        for name in released {
+        let released = self.state.objects.values().flat_map(|object| {
+            let holds = object.attachments().filter_map(|one| one.hold.as_ref());
+            let opened = holds.filter(|hold| is_released(hold));
+            opened.map(|hold| (object.name.clone(), hold.side))
+        });
+        let released: Vec<(String, Side)> = released.collect();
+        for (name, side) in released {
             // The object has just been found.
-            let _link = self.detach(&name);
+            let _held = self.detach_hand(&name, side);
         }
     }
 
@@ -179,6 +268,7 @@ impl World {
         let object = self.state.objects.get_mut(name);
         let attachment = object.and_then(|object| object.attachment.as_mut());
         let hold = attachment.and_then(|attachment| attachment.hold.as_mut());
+        // One hand alone would go on holding it otherwise.
         hold.is_some_and(|hold| {
             hold.strength = 0.0;
             true
@@ -226,6 +316,35 @@ impl World {
             }
             changed.push((object.name.clone(), hold));
         }
+        let mut seconds = Vec::new();
+        for object in self.state.objects.values() {
+            let second = object.second;
+            let Some((weld, mut hold)) = second.and_then(|one| Some((one.weld, one.hold?))) else {
+                continue;
+            };
+            let force = self.physics.weld_force(weld);
+            hold.slipping = if force > hold.strength {
+                hold.slipping + 1
+            } else {
+                0
+            };
+            if hold.slipping >= SLIPPING_STEPS {
+                slips.push(Slip {
+                    object: object.name.clone(),
+                    side: hold.side,
+                    force,
+                    strength: hold.strength,
+                    step: self.state.steps,
+                });
+            }
+            seconds.push((object.name.clone(), hold));
+        }
+        for (name, hold) in seconds {
+            let object = self.state.objects.get_mut(&name);
+            if let Some(second) = object.and_then(|o| o.second.as_mut()) {
+                second.hold = Some(hold);
+            }
+        }
         for (name, hold) in changed {
             let object = self.state.objects.get_mut(&name);
             if let Some(attachment) = object.and_then(|o| o.attachment.as_mut()) {
@@ -238,7 +357,7 @@ impl World {
         }
         for slip in slips {
             // The object has just been found.
-            let _link = self.detach(&slip.object);
+            let _held = self.detach_hand(&slip.object, slip.side);
             self.state.slips.retain(|old| old.side != slip.side);
             self.state.slips.push(slip);
         }

@@ -46,6 +46,8 @@ pub struct Object {
     pub number: u32,
     pub body: BodyHandle,
     pub attachment: Option<Attachment>,
+    /// The attachment to a second hand, if two hold the object together.
+    pub(crate) second: Option<Attachment>,
     pub(super) content: Content,
     /// The room inside it, once somebody has asked.
     pub(super) cavity: OnceLock<Option<Arc<Cavity>>>,
@@ -117,6 +119,21 @@ impl Object {
     /// The attachment, if a link carries the object.
     pub fn attachment(&self) -> Option<&Attachment> {
         self.attachment.as_ref()
+    }
+
+    /// All attachments: one, or two if two hands hold the object together.
+    pub fn attachments(&self) -> impl Iterator<Item = &Attachment> {
+        self.attachment.iter().chain(&self.second)
+    }
+
+    /// The attachment to a link, if that carries the object, alone or together with another one.
+    pub fn attachment_to(&self, link: LinkId) -> Option<&Attachment> {
+        self.attachments().find(|one| one.link == link)
+    }
+
+    /// Whether two hands hold the object together.
+    pub fn is_held_by_two(&self) -> bool {
+        self.second.is_some()
     }
 
     /// How fingers hold the object, if they do.

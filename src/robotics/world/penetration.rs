@@ -33,6 +33,8 @@ impl World {
                     bounds: object.bounds,
                     link: hold.link,
                     at: self.link_pose(hold.link).inverse() * self.physics.pose(object.body),
+                    hands: [Some(hold.link), object.second.map(|one| one.link)],
+                    load: lying.key,
                 }),
                 None => objects.push(lying),
             }

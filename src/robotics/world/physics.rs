@@ -17,6 +17,7 @@
 
 mod groups;
 mod raw_contact;
+mod riding;
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{

@@ -40,7 +40,7 @@ impl World {
         let zones: Vec<Zone> = self.objects().map(|object| self.zone(object)).collect();
         let carriers: Vec<usize> = self
             .objects()
-            .filter_map(|o| self.carrying_link(o))
+            .flat_map(|o| self.carrying_links(o))
             .collect();
         let groups = models.robot_geometry.groups.iter();
         let bodies = self.robot_bodies.iter().zip(groups).zip(&models.hands);
@@ -117,11 +117,11 @@ impl World {
         }
     }
 
-    /// The place in the list of bodies of the one to which the object is welded.
-    fn carrying_link(&self, object: &Object) -> Option<usize> {
-        let link = object.attachment()?.link;
+    /// The places in the list of bodies of those to which the object is welded.
+    fn carrying_links<'w>(&'w self, object: &'w Object) -> impl Iterator<Item = usize> + 'w {
         let groups = &self.models.robot_geometry.group_of;
-        groups.get(link.index()).copied()
+        let links = object.attachments().map(|one| one.link);
+        links.filter_map(|link| groups.get(link.index()).copied())
     }
 }
 

@@ -31,6 +31,7 @@ use super::object::Object;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
+use super::riding::Riding;
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
 use super::tilt::Tilt;
@@ -81,6 +82,8 @@ pub(super) struct State {
     pub(super) touches: Vec<Touches>,
     /// Tools that pass through what they cut.
     pub(super) cuts: Vec<Cut>,
+    /// What stands on what two hands carry.
+    pub(super) riding: Riding,
 }
 
 impl World {
@@ -151,6 +154,7 @@ impl World {
                 noise: None,
                 touches: Vec::new(),
                 cuts: Vec::new(),
+                riding: Riding::default(),
             },
             robot_bodies,
             kitchen_bodies,
@@ -204,6 +208,7 @@ impl World {
             self.state.kitchen_moves = false;
         }
         self.physics.step();
+        self.keep_riders();
         self.watch_holds();
         self.pour();
         self.note_touches();
@@ -322,17 +327,31 @@ impl World {
     ) -> CollisionChecker<'w> {
         let mut objects = Vec::new();
         let mut held = Vec::new();
+        let riding = self.riders_of_two_hands();
         for object in self.state.objects.values() {
-            match &object.attachment {
-                Some(attachment) => held.push(HeldObject {
+            let rides = riding.iter().find(|rider| rider.name == object.name());
+            match (&object.attachment, rides) {
+                (Some(attachment), _) => held.push(HeldObject {
                     key: object.key(),
                     name: &object.name,
                     solids: &object.solids,
                     bounds: object.bounds,
                     link: attachment.link,
                     at: attachment.at,
+                    hands: [Some(attachment.link), object.second.map(|one| one.link)],
+                    load: object.key(),
                 }),
-                None => objects.push(at(object)),
+                (None, Some(rider)) => held.push(HeldObject {
+                    key: object.key(),
+                    name: &object.name,
+                    solids: &object.solids,
+                    bounds: object.bounds,
+                    link: rider.link,
+                    at: rider.at,
+                    hands: [None, None],
+                    load: rider.load,
+                }),
+                (None, None) => objects.push(at(object)),
             }
         }
         let surroundings = Surroundings {
@@ -380,6 +399,13 @@ impl World {
                     hold.hash_into(&mut hasher);
                 }
             }
+            if let Some(second) = &object.second {
+                hasher.integer(u64::from(index(second.link)));
+                hasher.pose(&second.at);
+                if let Some(hold) = &second.hold {
+                    hold.hash_into(&mut hasher);
+                }
+            }
         }
         for hold in &self.state.handles {
             hold.hash_into(&mut hasher);
@@ -392,6 +418,9 @@ impl World {
         }
         for cut in &self.state.cuts {
             cut.hash_into(&mut hasher);
+        }
+        if self.state.riding != Riding::default() {
+            self.state.riding.hash_into(&mut hasher);
         }
         hasher.finish()
     }

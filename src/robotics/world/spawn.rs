@@ -193,6 +193,7 @@ impl World {
                 number,
                 body,
                 attachment: None,
+                second: None,
                 content: super::content::Content::default(),
                 cavity: std::sync::OnceLock::new(),
             },

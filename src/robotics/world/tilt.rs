@@ -40,7 +40,7 @@ impl World {
     fn upright_on(&self, link: LinkId) -> Option<(&Object, &Attachment)> {
         let at = self.link_pose(link);
         self.objects().find_map(|object| {
-            let held = object.attachment().filter(|held| held.link == link)?;
+            let held = object.attachment_to(link)?;
             object
                 .is_upright_at(&(at * held.at))
                 .then_some((object, held))

@@ -1,4 +1,4 @@
-//! Builtins for drawers and doors: what there is, how it is open, and how a hand can open it.
+//! Builtins for drawers, doors and knobs: what there is, how it is open or turned, and how a hand can move it.
 
 use crate::host::call::{done, host};
 use crate::interruption::interruption;
@@ -18,6 +18,7 @@ use robotics::location::{Container, containers};
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
 use robotics::robot::JointKind;
+use robotics::world::Knob;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -39,6 +40,22 @@ pub(super) static TABLE: &[Builtin] = &[
         "Is a drawer or door open, by more than 0.1 m or rad? It is given by its name or by an object that describes it.",
         &["(progn (pp-tut:init-projection) (open-p :iai-fridge-door)) => NIL"],
         host!(open_p),
+    ),
+    control(
+        "LIST-KNOBS",
+        "",
+        "The knobs of the kitchen: lists of the name that (urdf-name …) takes, :ON or :OFF, the angle and its limits (rad), and the pose of the knob in the map.",
+        &["(length (list-knobs)) => 5"],
+        host!(list_knobs),
+    ),
+    control(
+        "KNOB-STATE",
+        "knob",
+        "Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle and the limits of that (rad), the name of its joint, and its own.",
+        &[
+            "(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven))) => :OFF",
+        ],
+        host!(knob_state),
     ),
 ];
 
@@ -143,6 +160,41 @@ fn open_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Res
     done(simulation.opening_of(&container) - limits.lower > CLOSED)
 }
 
+/// Whether a knob is on, its angle and the limits of that (rad).
+fn turned(simulation: &Simulation, image: &mut Image, knob: &Knob) -> [Value; 4] {
+    let (angle, is_on) = simulation.world.knob_state(knob);
+    let joint = simulation.models.kitchen.joint(knob.joint);
+    let limit = |limit: Option<f64>| limit.map_or(Value::NIL, Value::Double);
+    [
+        image.keyword(if is_on { "ON" } else { "OFF" }).into(),
+        Value::Double(angle),
+        limit(joint.limits.as_ref().map(|l| l.lower)),
+        limit(joint.limits.as_ref().map(|l| l.upper)),
+    ]
+}
+
+fn list_knobs(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let rows = simulation.models.knobs().into_iter().map(|knob| {
+        let name = simulation.models.kitchen.link(knob.link).name.clone();
+        let mut row = vec![furniture_keyword(image, &name)];
+        row.extend(turned(simulation, image, &knob));
+        let pose = simulation.world.furniture_pose(knob.link);
+        row.push(pose_stamped("map", &pose));
+        Value::list(row)
+    });
+    done(Value::list(rows.collect::<Vec<_>>()))
+}
+
+fn knob_state(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let knob = simulation.knob(image, &args[0])?;
+    let mut values = turned(simulation, image, &knob).to_vec();
+    let kitchen = &simulation.models.kitchen;
+    values.push(Value::from(kitchen.joint(knob.joint).name.as_str()));
+    let name = kitchen.link(knob.link).name.clone();
+    values.push(furniture_keyword(image, &name));
+    done(Value::values(values))
+}
+
 fn container_state(
     simulation: &mut Simulation,
     image: &mut Image,
@@ -158,7 +210,7 @@ fn question(
     image: &mut Image,
     args: &[Value],
 ) -> Result<(Container, HandleQuestion)> {
-    let container = simulation.container(image, &args[0])?;
+    let container = simulation.handled(image, &args[0])?;
     let keys = ["ARMS", "GRASPS"].map(|name| image.keyword(name));
     let [arms, grasps] = keywords::parse(image, &args[2..], keys)?;
     let arms = match arms.filter(Value::is_true) {

@@ -38,6 +38,7 @@ mod tables;
 mod timeline;
 mod touches;
 mod tutorial;
+mod two_hands;
 mod watching;
 
 pub(super) use prompt::install_topics;

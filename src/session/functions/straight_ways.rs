@@ -26,7 +26,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(super) static TABLE: &[Builtin] = &[control(
     "%STRAIGHT-WAY",
     "arm ways &key base-pose posture begin object through",
-    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
+    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot, or :HERE-AT-ANY-HEIGHT, if the torso may move on the way; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
     &[
         "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
     ],
@@ -46,12 +46,7 @@ fn straight_hand_way(
     for name in through.iter().flat_map(Value::iter_list) {
         passed.push(BodyName::Object(simulation.object_named(image, &name)?));
     }
-    let begin = begin.and_then(|begin| name_text(image, &begin));
-    let begin = match begin.as_deref() {
-        Some("HERE") => WayBegin::Here,
-        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
-        _ => WayBegin::AtAnyHeight,
-    };
+    let begin = beginning(image, begin);
     let object = object.filter(Value::is_true);
     let object = object.map(|name| simulation.object_named(image, &name));
     let object = object.transpose()?;
@@ -71,9 +66,7 @@ fn straight_hand_way(
         .then(|| imagined(&simulation.world, base.as_ref(), posture.as_ref()));
     let mut ways = Vec::new();
     for way in args[1].iter_list() {
-        let poses = way.iter_list();
-        let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
-        ways.push(poses.collect::<Result<Vec<_>>>()?);
+        ways.push(way_of(simulation, image, &way)?);
     }
     let world = imagined.as_ref().unwrap_or(&simulation.world);
     // There, the robot would take itself to be where it went to.
@@ -100,8 +93,26 @@ fn straight_hand_way(
     })
 }
 
+/// Where a way begins, by a name.
+pub(super) fn beginning(image: &Image, begin: Option<Value>) -> WayBegin {
+    let begin = begin.and_then(|begin| name_text(image, &begin));
+    match begin.as_deref() {
+        Some("HERE") => WayBegin::Here,
+        Some("HERE-AT-ANY-HEIGHT") => WayBegin::HereAtAnyHeight,
+        Some("THIS-HEIGHT") => WayBegin::AtThisHeight,
+        _ => WayBegin::AtAnyHeight,
+    }
+}
+
+/// The poses of a way in the map.
+pub(super) fn way_of(simulation: &Simulation, image: &Image, way: &Value) -> Result<Vec<Pose>> {
+    let poses = way.iter_list();
+    let poses = poses.map(|pose| simulation.pose_in_map(image, &pose));
+    poses.collect()
+}
+
 /// An arm, the height (m) of the torso, and the positions (rad) of the arm's joints.
-type Posture = (Side, f64, ArmPositions);
+pub(super) type Posture = (Side, f64, ArmPositions);
 
 fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
     let parts: Vec<Value> = value.iter_list().collect();
@@ -120,7 +131,7 @@ fn posture_of(image: &mut Image, value: &Value) -> Result<Posture> {
 }
 
 /// The world with the robot at another place, or with the torso and an arm in another posture.
-fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> World {
+pub(super) fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Posture>) -> World {
     let mut imagined = world.clone();
     let mut robot = world.robot_configuration().clone();
     if let Some(base) = base {

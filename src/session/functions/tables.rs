@@ -37,6 +37,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-BULLET-REASONING", functions::asking::TABLE),
     ("CRAM-BULLET-REASONING", functions::timeline::TABLE),
     ("CRAM-BULLET-REASONING", functions::straight_ways::TABLE),
+    ("CRAM-BULLET-REASONING", functions::two_hands::TABLE),
     ("CRAM-BULLET-REASONING", functions::touches::TABLE),
     ("CRAM-BULLET-REASONING", functions::cutting::TABLE),
     ("PLANWRIGHT", functions::object_types::TABLE),

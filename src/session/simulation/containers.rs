@@ -11,6 +11,7 @@ use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::location::{Container, Item, Target, container_of, link_named};
 use robotics::robot::Limits;
+use robotics::world::Knob;
 use spatial::pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -44,6 +45,11 @@ impl Simulation {
             )));
         }
         let link = link_named(&self.models, &text).map_err(Raise::reporting)?;
+        if self.models.knob(link).is_some() {
+            return Err(refused(
+                "it is a knob, which (an action (type turning-knob) …) turns.",
+            ));
+        }
         let found = container_of(&self.models, link).ok_or_else(|| {
             refused(
                 "it is no drawer or door with a handle; (list-containers) tells which there are.",
@@ -53,6 +59,51 @@ impl Simulation {
             return Err(refused("its joint is fixed."));
         }
         Ok(found)
+    }
+
+    /// The knob that a value describes or names; an error if there is none of that name.
+    pub(crate) fn knob(&self, image: &Image, value: &Value) -> Result<Knob> {
+        let shown = print::to_string(image, &current(value), false);
+        let Some(text) = self.furniture_text(image, value) else {
+            return Err(Raise::simple(format!(
+                "{shown} does not say which knob it is; write (urdf-name …), as (list-knobs) tells."
+            )));
+        };
+        let link = link_named(&self.models, &text).map_err(Raise::reporting)?;
+        self.models.knob(link).ok_or_else(|| {
+            let what = match self.models.knobs().is_empty() {
+                true => "the kitchen has none",
+                false => "(list-knobs) tells which there are",
+            };
+            Raise::simple(format!("{} is no knob; {what}.", text.to_lowercase()))
+        })
+    }
+
+    /// What a hand can take and move: a drawer or door by its handle, or a knob; an error if the value
+    /// describes or names neither.
+    pub(crate) fn handled(&self, image: &Image, value: &Value) -> Result<Container> {
+        let text = self.furniture_text(image, value);
+        let link = text.and_then(|text| link_named(&self.models, &text).ok());
+        match link.and_then(|link| self.models.knob(link)) {
+            Some(knob) => Ok(Container {
+                link: knob.link,
+                joint: knob.joint,
+                handle: knob.link,
+            }),
+            None => self.container(image, value),
+        }
+    }
+
+    /// The name of furniture that a value describes or names.
+    fn furniture_text(&self, image: &Image, value: &Value) -> Option<String> {
+        let value = current(value);
+        let name = match as_designator(&value) {
+            Some(_) => {
+                property(image, &value, "URDF-NAME").or_else(|| property(image, &value, "NAME"))?
+            }
+            None => value,
+        };
+        name_text(image, &name)
     }
 
     /// Whether furniture that a value describes or names can be opened or closed; an error if there

@@ -56,16 +56,37 @@ impl HandShape {
 
     /// How low (m) it reaches with the tool at a pose.
     pub(super) fn lowest(&self, tool: &Pose) -> f64 {
+        -self.farthest(tool, Vector::new(0.0, 0.0, -1.0))
+    }
+
+    /// How far (m) it reaches beyond the tool's point, along the axis of the tool.
+    pub(super) fn ahead(&self) -> f64 {
+        self.farthest(&Pose::identity(), Vector::new(1.0, 0.0, 0.0))
+    }
+
+    /// How far (m) it reaches in a direction with the tool at a pose.
+    fn farthest(&self, tool: &Pose, direction: Vector) -> f64 {
         let tool = to_parry(tool);
-        let lows = self.solids.iter().map(|(own, at)| {
+        let ends = self.solids.iter().map(|(own, at)| {
             let at = tool * *at;
-            let down = at.rotation.inverse() * Vector::new(0.0, 0.0, -1.0);
-            let low = own.shape.as_support_map().map(|shape| {
-                from_parry_vector(at.transform_point(shape.local_support_point(down))).z
+            let there = at.rotation.inverse() * direction;
+            let point = own
+                .shape
+                .as_support_map()
+                .map(|shape| at.transform_point(shape.local_support_point(there)));
+            let point = point.unwrap_or_else(|| {
+                let bounds = own.shape.compute_aabb(&at);
+                let pick = |d: f64, low: f64, high: f64| if d < 0.0 { low } else { high };
+                let (low, high) = (bounds.mins, bounds.maxs);
+                Vector::new(
+                    pick(direction.x, low.x, high.x),
+                    pick(direction.y, low.y, high.y),
+                    pick(direction.z, low.z, high.z),
+                )
             });
-            low.unwrap_or_else(|| own.shape.compute_aabb(&at).mins.z)
+            from_parry_vector(point).dot(&from_parry_vector(direction))
         });
-        lows.fold(f64::INFINITY, f64::min)
+        ends.fold(f64::NEG_INFINITY, f64::max)
     }
 }
 

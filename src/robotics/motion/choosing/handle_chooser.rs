@@ -1,7 +1,8 @@
-//! Choosing the arm and the grasp by which a drawer or door can be opened or closed.
+//! Choosing the arm and the grasp by which a drawer or door can be opened or closed, or a knob turned.
 //!
 //! A handle is a bar: the fingers close across it, and the hand comes from outside, straight or
-//! tilted about the bar. A grasp works if one continuous motion of the arm approaches the bar with
+//! tilted about the bar. On a knob they close across its axis, turned by some angle about it, just before what it is
+//! fixed to. A grasp works if one continuous motion of the arm approaches the bar with
 //! open fingers, takes it all the way and withdraws, and the robot touches nothing on it. The
 //! motions follow the same points, so that what is found here is what they do.
 
@@ -9,6 +10,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3
 
 use super::aligned_bases::AlignedBases;
 use super::grasp_reach::Effort;
+use super::hand_shape::HandShape;
 use super::shoulder::Shoulder;
 use crate::motion::failure::no_handle_grasp::{HandleObstacle, NoHandleGrasp};
 use crate::motion::planning::configuration::with_joints;
@@ -17,7 +19,7 @@ use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
 use crate::motion::planning::way_obstacle::{part_obstacle, robot_obstacle};
 use crate::robot::torso_search::TorsoSearch;
 use crate::robot::{ArmPositions, JointKind, LinkId, Side};
-use crate::world::{AllowedPairs, CollisionHit, Part, RobotConfiguration, World};
+use crate::world::{AllowedPairs, CollisionHit, Knob, Part, RobotConfiguration, World};
 use spatial::{Pose, trig};
 
 /// How far (m) the fingers are apart when the hand comes to a handle.
@@ -38,6 +40,10 @@ const END: f64 = 0.07;
 /// Distance (m or rad) of points of the way for one of many base poses, and by how much more the
 /// joints of the arm may change between them.
 const COARSE: ((f64, f64), f64) = ((0.03, 0.06), 1.8);
+/// How far (m) the tips of the fingers stay away from what a knob is fixed to.
+const KNOB_CLEARANCE: f64 = 0.005;
+/// In how many steps the fingers are turned all around a knob.
+const KNOB_TURNS: u32 = 24;
 /// Distance (m) of points of the approach.
 const APPROACH_STEP: f64 = 0.02;
 
@@ -255,12 +261,18 @@ impl<'w> HandleChooser<'w> {
         stations
     }
 
+    fn is_knob(&self) -> bool {
+        let models = self.world.models();
+        models.knob(self.question.handle).is_some()
+    }
+
     fn pivots(&self) -> Vec<f64> {
         let joint = self.world.models().kitchen.joint(self.question.part.joint);
         let opens = self.way.positions.first() < self.way.positions.last();
         let sign = if opens { -1.0 } else { 1.0 };
         match joint.kind {
             JointKind::Prismatic => vec![0.0],
+            _ if self.is_knob() => vec![0.0],
             _ => PIVOTS.iter().map(|pivot| sign * pivot).collect(),
         }
     }
@@ -394,6 +406,9 @@ fn line(from: &Pose, to: &Pose) -> Vec<Pose> {
 /// The ways to take the bar, the plainest first.
 fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
     let handle = question.handle;
+    if let Some(knob) = world.models().knob(handle) {
+        return grasps_of_knob(world, question, &knob);
+    }
     let (bar, half) = world.bar(handle);
     let out = outward(world, handle, &bar);
     let is_upright = (world.furniture_pose(handle).rotation * bar).z.abs() > 0.7;
@@ -436,6 +451,52 @@ fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
         }
     }
     all
+}
+
+/// The ways to take a knob: the fingers level or upright first.
+fn grasps_of_knob(world: &World, question: &HandleQuestion, knob: &Knob) -> Vec<Grasp> {
+    const NAME: &str = "FRONT";
+    let models = world.models();
+    if !question.grasps.is_empty() && !question.grasps.iter().any(|wanted| wanted == NAME) {
+        return Vec::new();
+    }
+    // The fingers swing, so that their tips are elsewhere when they have closed.
+    let gaps = [OPENING, 2.0 * knob.radius];
+    let hands = question.arms.iter();
+    let reaches = hands.flat_map(|side| gaps.map(|gap| HandShape::new(models, *side, gap).ahead()));
+    let ahead = reaches.fold(0.0, f64::max);
+    let tip = knob.ends[0] + KNOB_CLEARANCE;
+    if tip >= knob.ends[1] {
+        return Vec::new();
+    }
+    let x = -knob.outward;
+    let up = world.furniture_pose(knob.link).rotation.inverse() * Vector3::z();
+    let across = (up - x * up.dot(&x)).try_normalize(1e-3);
+    let across = across.unwrap_or_else(|| {
+        let side = Vector3::y() - x * x.y;
+        side.try_normalize(1e-3).unwrap_or_else(Vector3::z)
+    });
+    let middle = Point3::from(knob.outward * (knob.ends[0] + knob.ends[1]) / 2.0);
+    let tool = knob.outward * (tip + ahead);
+    let mut turns: Vec<u32> = (0..KNOB_TURNS).collect();
+    // Quarters first.
+    turns.sort_by_key(|i| i % (KNOB_TURNS / 4) != 0);
+    let grasp = |i: u32| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(KNOB_TURNS);
+        let z = turn(&x, angle) * across;
+        let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+        let facing = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+        Grasp {
+            name: NAME,
+            grip: BarGrip {
+                handle: knob.link,
+                tool: Pose::from_parts(Translation3::from(tool), facing),
+                point: middle,
+                bar: knob.outward,
+            },
+        }
+    };
+    turns.into_iter().map(grasp).collect()
 }
 
 /// The direction from the furniture to the bar, in the frame of the handle: away from the posts, or

@@ -114,8 +114,12 @@ impl Command for Gripping {
     }
 
     fn job(self) -> Box<dyn Motion> {
-        let (object, effort) = (self.object, self.effort);
-        job(self.hands, &GripperCommand::Grip { object, effort })
+        let command = GripperCommand::Grip {
+            object: self.object,
+            effort: self.effort,
+            together: self.hands.len() > 1,
+        };
+        job(self.hands, &command)
     }
 }
 

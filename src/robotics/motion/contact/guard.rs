@@ -162,14 +162,14 @@ fn stopped_part(world: &World, is_hand: impl Fn(Side) -> bool) -> Option<Stopped
 fn stuck_object(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<StuckObject> {
     let held = world
         .objects()
-        .filter(|o| o.attachment().is_some_and(|a| is_hand(a.link)));
+        .filter(|o| o.attachments().any(|a| is_hand(a.link)));
     for object in held {
         let name = object.name();
-        let lag = world
-            .weld_error(name)
-            .ok()
-            .flatten()
-            .map_or(0.0, |e| e.distance);
+        let errors = object.attachments().map(|one| {
+            let error = world.grip_error(name, one.link).ok().flatten();
+            error.map_or(0.0, |error| error.distance)
+        });
+        let lag = errors.fold(0.0, f64::max);
         let force = world.support_force(name).unwrap_or(0.0);
         if lag > GREATEST_LAG || force > GREATEST_FORCE {
             let pressed = world.supports(name).unwrap_or_default();

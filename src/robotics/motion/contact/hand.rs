@@ -19,6 +19,8 @@ const BAR_NEAR: f64 = 0.0012;
 const BAR_YIELDS: f64 = 0.0018;
 /// How far (m) a bar may be from where the tool of a hand is.
 const BAR_DEPTH: f64 = 0.025;
+/// How far (m) the tool of a hand may be beside the axis of a knob.
+const KNOB_ASIDE: f64 = 0.01;
 
 /// Allows any link of the hand to touch any object.
 pub(crate) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
@@ -126,13 +128,18 @@ pub(crate) fn yields(bar: &Bar) -> bool {
     bar.depth <= BAR_YIELDS
 }
 
-/// Whether the bar of a handle, rather than a post, is where the tool of the hand is.
+/// Whether the bar of a handle, rather than a post, or a knob is where the tool of the hand is.
 fn is_between(world: &World, side: Side, handle: LinkId) -> bool {
     let arm = world.models().description.arm(side);
     let tool = arm.tool_for_wrist(&world.link_pose(arm.wrist)).translation;
     let tool = world
         .furniture_pose(handle)
         .inverse_transform_point(&tool.vector.into());
+    if let Some(knob) = world.models().knob(handle) {
+        let along = tool.coords.dot(&knob.outward);
+        let aside = (tool.coords - knob.outward * along).norm();
+        return (knob.ends[0]..=knob.ends[1] + BAR_DEPTH).contains(&along) && aside <= KNOB_ASIDE;
+    }
     let (bar, half) = world.bar(handle);
     let along = tool.coords.dot(&bar);
     along.abs() <= half && (tool.coords - bar * along).norm() <= BAR_DEPTH

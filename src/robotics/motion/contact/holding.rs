@@ -17,6 +17,18 @@ pub(crate) fn press(
         .map_err(|e| MotionFailure::UnknownName(e.to_string()))
 }
 
+/// Makes the fingers of a hand hold an object on which both press, together with the other hand if that holds it.
+pub(crate) fn press_too(
+    world: &mut World,
+    side: Side,
+    object: &str,
+    effort: f64,
+) -> Result<(), MotionFailure> {
+    world
+        .hold_too(object, side, effort)
+        .map_err(|e| MotionFailure::UnknownName(e.to_string()))
+}
+
 /// Makes sure that the hand holds the object: that its fingers do already, or that both press on
 /// it.
 pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
@@ -38,8 +50,6 @@ pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), Moti
 /// Names of the objects that the hand holds.
 pub fn held_objects(world: &World, side: Side) -> Vec<String> {
     let palm = world.models().description.arm(side).gripper.palm;
-    let held = world
-        .objects()
-        .filter(|o| o.attachment().is_some_and(|a| a.link == palm));
+    let held = world.objects().filter(|o| o.attachment_to(palm).is_some());
     held.map(|o| o.name().to_owned()).collect()
 }

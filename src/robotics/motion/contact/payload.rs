@@ -19,7 +19,7 @@ pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Optio
     for arm in &description.arms {
         let held = world
             .objects()
-            .filter(|o| o.attachment().is_some_and(|a| a.link == arm.gripper.palm));
+            .filter(|o| o.attachment_to(arm.gripper.palm).is_some());
         for object in held.filter(|_| is_hand(arm.gripper.palm)) {
             let Some(limit) = exceeded(world, arm.side, object) else {
                 continue;
@@ -35,14 +35,37 @@ pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Optio
     None
 }
 
+/// The part (N) of the weight that two hands share which the one bears whose grip exerts a force (N). The hands also
+/// press and pull against each other, so the forces only tell the shares.
+fn share_of(world: &World, object: &Object, force: f64, weight: f64) -> f64 {
+    let grips = object.attachments().map(|one| {
+        let grip = world.grip_error(object.name(), one.link).ok().flatten();
+        grip.map_or(0.0, |grip| grip.force)
+    });
+    let all: f64 = grips.sum();
+    let share = if all > 0.0 { force / all } else { 0.5 };
+    force.min(weight * share)
+}
+
 /// What the object's weight exceeds, as far as the hand carries it.
 fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> {
     let arm = world.models().description.arm(side);
-    let weld = world.weld_error(object.name()).ok().flatten()?;
-    let weight = object.mass() * GRAVITY;
-    let carried = weld.force.min(weight);
+    let weld = world
+        .grip_error(object.name(), arm.gripper.palm)
+        .ok()
+        .flatten()?;
+    let by_two = object.is_held_by_two();
+    let mass = match by_two {
+        true => world.load_of(object),
+        false => object.mass(),
+    };
+    let weight = mass * GRAVITY;
+    let carried = match by_two {
+        true => share_of(world, object, weld.force, weight),
+        false => weld.force.min(weight),
+    };
     if let Some(payload) = arm.payload
-        && object.mass() > payload
+        && mass > payload
         && carried >= payload * GRAVITY
     {
         return Some(PayloadLimit::Maker(payload));
@@ -53,7 +76,9 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
     let gap = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
     let press = object.hold()?.press();
     let pads = Pads::new(gripper, object, &tool, gap.max(0.0), press);
-    let pads = pads.filter(|_| carried > weight / 2.0);
+    // Two hands bear the torque by their forces.
+    let at = if by_two { tool.translation.vector } else { at };
+    let pads = pads.filter(|_| carried > weight / 2.0 && !by_two);
     if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
         let ExcessTorque { torque, limit } = excess;
         return Some(PayloadLimit::Grip { torque, limit });

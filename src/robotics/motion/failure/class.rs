@@ -50,6 +50,7 @@ impl MotionFailure {
             | Self::ObjectPinned(_)
             | Self::ObjectPushed(_)
             | Self::TooHeavy(_)
+            | Self::LoopBroken(_)
             | Self::NothingBelow { .. }
             | Self::WouldNotStand { .. }
             | Self::NoWayDown { .. }

@@ -1,6 +1,7 @@
 //! Why a motion fails: all data of failures, and their wording. Planning, choosing and jobs return it.
 
 pub(crate) mod base_place;
+pub(crate) mod broken_loop;
 mod class;
 pub(crate) mod grasp_obstacle;
 pub(crate) mod joint_limit;

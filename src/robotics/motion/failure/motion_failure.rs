@@ -9,6 +9,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::base_place::BasePlace;
+use super::broken_loop::BrokenLoop;
 use super::no_grasp::NoGrasp;
 use super::no_handle_grasp::NoHandleGrasp;
 use super::overload::Overload;
@@ -398,6 +399,9 @@ pub enum MotionFailure {
         .0.side, .0.handle, .0.joint, .0.position, why_slipped(.0)
     )]
     HandleSlipped(Box<HandleSlip>),
+    /// The motion would part two hands from what they hold together.
+    #[error("{0}")]
+    LoopBroken(Box<BrokenLoop>),
     /// A drawer or door was stopped, or would be.
     #[error("{}", stopped(.0))]
     PartStopped(Box<StoppedPart>),

@@ -5,7 +5,7 @@ use crate::motion::contact::guard;
 use crate::motion::contact::hand::{
     bar_between, gripper_of, hand_may_touch_objects, hand_names, pressing, yields,
 };
-use crate::motion::contact::holding::{held_objects, press};
+use crate::motion::contact::holding::{held_objects, press, press_too};
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::planning::configuration::with_joints;
 use crate::motion::trajectories::speeds;
@@ -28,6 +28,8 @@ pub(crate) struct Grip {
     object: Option<String>,
     /// The force (N) of each finger; as much as possible if none is given.
     effort: Option<f64>,
+    /// Whether the other hand may hold the object, too.
+    together: bool,
     /// How fast (rad/s) the finger joint closes.
     speed: f64,
     /// How long (s) they have pressed on different things.
@@ -38,11 +40,17 @@ pub(crate) struct Grip {
 
 impl Grip {
     /// Grips with one hand.
-    pub(super) fn new(side: Side, object: Option<String>, effort: Option<f64>) -> Self {
+    pub(super) fn new(
+        side: Side,
+        object: Option<String>,
+        effort: Option<f64>,
+        together: bool,
+    ) -> Self {
         Self {
             side,
             object,
             effort,
+            together,
             speed: 0.0,
             unequal: 0.0,
             pinned: 0.0,
@@ -138,7 +146,11 @@ impl Grip {
                 held: BodyName::Object(held),
             });
         }
-        match press(world, side, &held, effort) {
+        let pressed = match self.together {
+            true => press_too(world, side, &held, effort),
+            false => press(world, side, &held, effort),
+        };
+        match pressed {
             Ok(()) => MotionStatus::Done(MotionOutcome::Gripped { object: held }),
             Err(failure) => MotionStatus::failed(failure),
         }

@@ -32,6 +32,8 @@ pub(crate) enum GripperCommand {
         object: Option<String>,
         /// The force (N) of each finger; as much as possible if none is given.
         effort: Option<f64>,
+        /// Whether both hands are to hold it.
+        together: bool,
     },
 }
 
@@ -61,9 +63,11 @@ impl MoveGripper {
     /// Carries out the command with one hand.
     pub fn new(side: Side, command: GripperCommand) -> Self {
         Self::begin(match command {
-            GripperCommand::Grip { object, effort } => {
-                Fingers::Grip(Grip::new(side, object, effort))
-            }
+            GripperCommand::Grip {
+                object,
+                effort,
+                together,
+            } => Fingers::Grip(Grip::new(side, object, effort, together)),
             command => Fingers::Move(JointMotion::to(FingerGoal {
                 side,
                 command,

@@ -9,6 +9,7 @@ use super::replanning::{Attempt, Replanning};
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::joint_plan::JointPlan;
+use crate::motion::planning::rigid_loop::broken_loop;
 use crate::motion::trajectories::planned_trajectory::PlannedTrajectory;
 use crate::robot::LinkId;
 use crate::world::{CollisionHit, World};
@@ -110,6 +111,9 @@ impl<G: JointGoal> JointMotion<G> {
         self.goal.err(world);
         match self.goal.plan(world, self.plans) {
             Ok(plan) => {
+                if let Some(broken) = broken_loop(world, &plan) {
+                    return Err(MotionFailure::LoopBroken(Box::new(broken)));
+                }
                 self.plans += 1;
                 self.follower = Some(JointFollower::new(plan));
                 self.replanning.reset();

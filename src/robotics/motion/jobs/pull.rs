@@ -1,4 +1,4 @@
-//! Pulling or pushing a drawer or door by the handle that a hand holds.
+//! Pulling or pushing a drawer or door by the handle that a hand holds, or turning a knob.
 //!
 //! The hand moves along the way that the joint prescribes: straight, or on an arc, on which it
 //! turns with the door or, within what the pads yield, about the bar. The joint itself follows the
@@ -118,6 +118,7 @@ impl JointGoal for PullGoal {
         let now = world.handle_pivot(hold);
         let pivots: Vec<f64> = match joint.kind {
             JointKind::Prismatic => vec![now],
+            _ if models.knob(hold.handle).is_some() => vec![now],
             _ => PIVOTS.iter().map(|pivot| sign * pivot).collect(),
         };
         let mut farthest: Option<(usize, WayObstacle)> = None;

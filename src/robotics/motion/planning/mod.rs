@@ -18,5 +18,6 @@ pub(crate) mod joint_trajectory;
 pub(crate) mod planning_group;
 pub(crate) mod pose_goal;
 pub(crate) mod put_plan;
+pub(crate) mod rigid_loop;
 pub(crate) mod straight_way;
 pub(crate) mod way_obstacle;

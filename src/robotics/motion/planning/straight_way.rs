@@ -1,5 +1,5 @@
-//! Whether a hand can be moved straight through poses, one after the other, without a detour on which it
-//! would turn what it holds.
+//! Whether a hand, or both at once, can be moved straight through poses, one after the other, without a detour on
+//! which they would turn what they hold.
 
 use super::cartesian_path::{CartesianEnd, CartesianLine, CartesianTask, tcp_in_base};
 use super::configuration_checker::ConfigurationChecker;
@@ -23,11 +23,22 @@ pub struct WayStart {
     pub arm: Vec<f64>,
 }
 
+/// The postures in which the straight ways of several hands begin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaysStart {
+    /// Height (m) of the torso.
+    pub torso: f64,
+    /// Positions of each arm's joints, in the order of the ways.
+    pub arms: Vec<Vec<f64>>,
+}
+
 /// Where a straight way may begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WayBegin {
-    /// Where the hand is.
+    /// Where the hand is, with the torso as it is.
     Here,
+    /// Where the hand is; the torso may move on the way.
+    HereAtAnyHeight,
     /// At the first pose, with the torso as it is.
     AtThisHeight,
     /// At the first pose.
@@ -46,43 +57,65 @@ pub fn straight_way(
     object: Option<&str>,
     through: &[BodyName],
 ) -> Option<WayStart> {
-    let first = *poses.first()?;
+    let ways = [(side, poses.to_vec())];
+    let start = straight_ways(world, &ways, begin, object, through)?;
+    Some(WayStart {
+        torso: start.torso,
+        arm: start.arms.into_iter().next()?,
+    })
+}
+
+/// As [`straight_way`], for several hands that move at the same time, each through as many poses.
+pub fn straight_ways(
+    world: &World,
+    ways: &[(Side, Vec<Pose>)],
+    begin: WayBegin,
+    object: Option<&str>,
+    through: &[BodyName],
+) -> Option<WaysStart> {
+    let goals: Option<Vec<(Side, Pose)>> = ways
+        .iter()
+        .map(|(side, poses)| Some((*side, *poses.first()?)))
+        .collect();
+    let goals = goals?;
+    let sides: Vec<Side> = goals.iter().map(|(side, _)| *side).collect();
     let mode = match object {
         Some(_) => CollisionMode::AllowHand,
         None => CollisionMode::AvoidAll,
     };
-    let mut contacts = ExpectedContacts::of(world, [side].into_iter(), mode, object);
-    for held in held_objects(world, side).into_iter().map(BodyName::Object) {
-        let through = through.iter().cloned();
-        contacts.allowed = contacts.allowed.and_all(through, &held);
+    let mut contacts = ExpectedContacts::of(world, sides.iter().copied(), mode, object);
+    for side in &sides {
+        for held in held_objects(world, *side).into_iter().map(BodyName::Object) {
+            let through = through.iter().cloned();
+            contacts.allowed = contacts.allowed.and_all(through, &held);
+        }
     }
     let task = PoseGoalTask {
         world,
-        goals: vec![(side, first)],
+        goals,
         contacts,
     };
     let heights = match begin {
-        WayBegin::AtAnyHeight => task.heights(REASON_STEP),
+        WayBegin::AtAnyHeight | WayBegin::HereAtAnyHeight => task.heights(REASON_STEP),
         WayBegin::Here | WayBegin::AtThisHeight => vec![task.torso_now()],
     };
-    let now = tcp_in_base(world, side);
+    let begins_here = matches!(begin, WayBegin::Here | WayBegin::HereAtAnyHeight);
+    let stations = stations(world, ways, begins_here);
     for height in heights {
         let group = task.group(height);
-        let (starts, from) = match begin {
-            WayBegin::Here => (vec![group.now(world)], Some(now)),
+        let starts = match begin {
+            WayBegin::Here | WayBegin::HereAtAnyHeight => vec![group.now(world)],
             WayBegin::AtThisHeight | WayBegin::AtAnyHeight => {
                 let found = task.configurations(height, &group).into_iter();
-                (found.map(|one| one.positions).collect(), None)
+                found.map(|one| one.positions).collect()
             }
         };
         if starts.is_empty() {
             continue;
         }
-        let joints = world.models().description.arm(side).joints().len();
         let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &task.contacts);
-        let stations: Vec<Pose> = from.iter().chain(poses).copied().collect();
         let is_free = |checker: &mut ConfigurationChecker<'_>, start: &[f64]| {
-            begin == WayBegin::Here || checker.blocked(start).is_none()
+            begins_here || checker.blocked(start).is_none()
         };
         let mut tried = 0;
         for start in starts {
@@ -93,11 +126,10 @@ pub fn straight_way(
                 break;
             }
             tried += 1;
-            if follows(world, side, &group, height, &start, &stations, &mut checker) {
-                let torso_axes = start.len().saturating_sub(joints);
-                return Some(WayStart {
+            if follows(world, &group, height, &start, &stations, &mut checker) {
+                return Some(WaysStart {
                     torso: height,
-                    arm: start.into_iter().skip(torso_axes).collect(),
+                    arms: arms_of(world, &sides, &start),
                 });
             }
         }
@@ -105,26 +137,69 @@ pub fn straight_way(
     None
 }
 
+/// The poses of all hands at each station of their ways, from where they are if the ways begin there.
+fn stations(
+    world: &World,
+    ways: &[(Side, Vec<Pose>)],
+    begins_here: bool,
+) -> Vec<Vec<(Side, Pose)>> {
+    let count = ways.iter().map(|(_, poses)| poses.len()).min().unwrap_or(0);
+    let now = begins_here.then(|| {
+        let hands = ways.iter();
+        hands
+            .map(|(side, _)| (*side, tcp_in_base(world, *side)))
+            .collect()
+    });
+    let poses = (0..count).map(|i| {
+        let hands = ways.iter();
+        hands
+            .filter_map(|(side, poses)| Some((*side, *poses.get(i)?)))
+            .collect()
+    });
+    now.into_iter().chain(poses).collect()
+}
+
+/// The positions of each arm's joints, out of those of torso and arms.
+fn arms_of(world: &World, sides: &[Side], positions: &[f64]) -> Vec<Vec<f64>> {
+    let mut end = positions.len();
+    let mut arms: Vec<Vec<f64>> = Vec::new();
+    for side in sides.iter().rev() {
+        let joints = world.models().description.arm(*side).joints().len();
+        let start = end.saturating_sub(joints);
+        arms.push(positions.get(start..end).unwrap_or_default().to_vec());
+        end = start;
+    }
+    arms.reverse();
+    arms
+}
+
 /// Whether the joints can follow the lines between stations from a configuration at the first.
 fn follows(
     world: &World,
-    side: Side,
     group: &PlanningGroup,
     height: f64,
     start: &[f64],
-    stations: &[Pose],
+    stations: &[Vec<(Side, Pose)>],
     checker: &mut ConfigurationChecker<'_>,
 ) -> bool {
-    let joints = world.models().description.arm(side).joints().len();
-    let torso_moves = start.len() > joints;
+    let hands = stations.iter().take(1).flatten();
+    let joints = hands.map(|(side, _)| world.models().description.arm(*side).joints().len());
+    let torso_moves = start.len() > joints.sum::<usize>();
     let mut at = start.to_vec();
     for line in stations.windows(2) {
-        let [from, to] = *line else { return false };
+        let [from, to] = line else { return false };
+        let lines = from.iter().zip(to);
         let task = CartesianTask {
             models: world.models(),
             robot: world.robot_configuration().clone(),
             group: group.clone(),
-            lines: vec![CartesianLine { side, from, to }],
+            lines: lines
+                .map(|((side, from), (_, to))| CartesianLine {
+                    side: *side,
+                    from: *from,
+                    to: *to,
+                })
+                .collect(),
             torso: torso_moves.then_some(height),
         };
         let (path, end) = task.follow(&at, None, Some(checker));

@@ -200,6 +200,7 @@ impl Kitchen {
         let grip = GripperCommand::Grip {
             object: Some(object.to_owned()),
             effort: None,
+            together: false,
         };
         let gripped = self.run_one(self.gripper(side, grip))?;
         take_hold(&mut self.world, side, object)?;

@@ -49,6 +49,7 @@ fn gripping_nothing_closes_completely() {
         GripperCommand::Grip {
             object: None,
             effort: None,
+            together: false,
         },
     )
     .unwrap_err();
@@ -90,6 +91,7 @@ fn another_object_between_the_fingers_is_named() {
     let grip = GripperCommand::Grip {
         object: Some("cup-1".to_owned()),
         effort: None,
+        together: false,
     };
     let failure = command(&mut kitchen, grip).unwrap_err();
     assert_eq!(
@@ -108,6 +110,7 @@ fn what_is_let_go_stays_where_it_stands() {
         GripperCommand::Grip {
             object: None,
             effort: None,
+            together: false,
         },
     )
     .unwrap();
@@ -156,6 +159,7 @@ fn a_sausage_on_the_floor_is_no_object_to_grip() {
         GripperCommand::Grip {
             object: Some("wurst-1".to_owned()),
             effort: None,
+            together: false,
         },
     );
     assert_eq!(
@@ -171,6 +175,7 @@ fn gripping_fingers_speed_up_and_slow_down_within_their_acceleration() {
     let grip = GripperCommand::Grip {
         object: None,
         effort: None,
+        together: false,
     };
     let mut grip = kitchen.gripper(Side::Right, grip);
     let (mut before, mut velocity, mut most) = (finger(&kitchen, Side::Right), 0.0, 0.0_f64);

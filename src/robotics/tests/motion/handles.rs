@@ -67,6 +67,7 @@ impl Kitchen {
         let grip = GripperCommand::Grip {
             object: None,
             effort: Some(effort),
+            together: false,
         };
         let gripped = self.run_one(self.gripper(side, grip)).unwrap();
         assert_eq!(

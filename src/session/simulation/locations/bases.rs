@@ -40,7 +40,7 @@ impl Simulation {
                 target_of(what, pose, reaches)
             }
             (Some(object), None) if self.describes_furniture(image, object) => {
-                let container = self.container(image, object)?;
+                let container = self.handled(image, object)?;
                 let distance = location.property_named(image, "DISTANCE");
                 let position = self.wanted_opening(&container, distance.as_ref())?;
                 self.handle_target(&container, position)

@@ -1,0 +1,136 @@
+//! Two hands on one object: both truly hold it, the loop is kept in every step, and what stands on it stays.
+
+use robotics::motion::{GREATEST_STRAIN, strain};
+use robotics::robot::Side;
+
+use super::cook::Cook;
+
+/// What a text prints, or the report of what ended it.
+fn said(cook: &mut Cook, text: &str) -> String {
+    cook.say(text).unwrap_or_else(|(report, _)| report)
+}
+
+/// A tray on the table with three cups on it, and how it is carried.
+const TRAY: &str = "
+  (btr-utils:spawn-object 'tray-1 :tray :pose '((-1.5 -0.95 0.82) (0 0 0 1)))
+  (btr-utils:spawn-object 'cup-1 :cup :pose '((-1.58 -0.95 0.9) (0 0 0 1)))
+  (btr-utils:spawn-object 'cup-2 :cup :pose '((-1.42 -0.95 0.9) (0 0 0 1)))
+  (btr-utils:spawn-object 'cup-3 :cup :pose '((-1.5 -0.87 0.9) (0 0 0 1)))
+  (defparameter *table* (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))
+  (defparameter *island* (a location (on (an object (urdf-name kitchen-island-surface) (part-of kitchen)))))
+  (defparameter *strain* 0)
+  (defparameter *tilt* 0)
+  (defparameter *lag* 0)
+  (defun watch-tray ()
+    (loop
+      (cpl:sleep 1/240)
+      (let ((strain (btr::%strain)))
+        (when strain
+          (let ((up (cl-transforms:rotate (cl-tf:orientation (btr-utils:object-pose 'tray-1))
+                                          (cl-tf:make-3d-vector 0 0 1))))
+            (setf *strain* (max *strain* strain)
+                  *tilt* (max *tilt* (acos (min 1 (cl-tf:z up))))))))))
+  (defparameter *tray*
+    (let ((?table *table*))
+      (with-simulated-robot
+        (perform (an action (type searching) (object (an object (type tray))) (location ?table))))))";
+
+fn with_tray() -> Cook {
+    let mut cook = Cook::unwatched();
+    cook.done(TRAY);
+    cook
+}
+
+fn number(cook: &mut Cook, form: &str) -> f64 {
+    let said = cook.done(form);
+    let said = said.trim().replace('d', "e");
+    said.parse().unwrap_or_else(|_| panic!("{form}: {said}"))
+}
+
+/// Where the cups are on the tray (m).
+fn cups(cook: &Cook) -> Vec<[f64; 3]> {
+    let world = cook.session.simulation().world();
+    let tray = world.object_pose("TRAY-1").unwrap();
+    let cups = ["CUP-1", "CUP-2", "CUP-3"];
+    let places = cups.map(|cup| tray.inverse() * world.object_pose(cup).unwrap());
+    places.map(|at| at.translation.vector.into()).to_vec()
+}
+
+#[test]
+fn both_hands_carry_a_tray_with_cups_from_the_table_to_the_island() {
+    let mut cook = with_tray();
+    let before = cups(&cook);
+    cook.done(
+        "(with-simulated-robot
+           (let ((?tray *tray*))
+             (cpl:pursue (perform (an action (type fetching) (object ?tray))) (watch-tray))))",
+    );
+    let world = cook.session.simulation().world();
+    for side in Side::BOTH {
+        assert_eq!(robotics::motion::held_objects(world, side), ["TRAY-1"]);
+    }
+    assert!(strain(world).is_some_and(|strain| strain < 1e-3));
+    cook.done(
+        "(with-simulated-robot
+           (let ((?tray *tray*) (?island *island*))
+             (cpl:pursue (perform (an action (type delivering) (object ?tray) (target ?island))) (watch-tray))))",
+    );
+    assert!(number(&mut cook, "(float *strain* 1d0)") <= GREATEST_STRAIN);
+    let tilt = number(&mut cook, "(float *tilt* 1d0)");
+    assert!((1e-6..0.0873).contains(&tilt), "{tilt}");
+    for (then, now) in before.iter().zip(cups(&cook)) {
+        let moved = (0..3)
+            .map(|i| (then[i] - now[i]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        assert!(moved < 0.02, "{moved}");
+    }
+    let said =
+        cook.done("(list (on-surface-p 'tray-1 'kitchen-island-surface) (nothing-on-floor-p))");
+    assert!(said.contains("(T T)"), "{said}");
+}
+
+#[test]
+fn one_hand_alone_moves_nothing_that_both_hold_and_an_opened_one_leaves_it_to_the_other() {
+    let mut cook = with_tray();
+    cook.done(
+        "(with-simulated-robot
+           (let ((?tray *tray*)) (perform (an action (type fetching) (object ?tray)))))",
+    );
+    for motion in [
+        "(perform (a motion (type moving-tcp) (collision-mode allow-hand)
+           (left-target (a location (pose ?there)))))",
+        "(perform (an action (type parking-arms)))",
+    ] {
+        let said = said(&mut cook, &format!(
+            "(with-simulated-robot
+               (let ((?there (pp-plans::raise-pose (pp-plans::hand-pose :left) 0.03))) ?there {motion}))"
+        ));
+        let world = cook.session.simulation().world();
+        assert!(strain(world).is_some_and(|strain| strain < 1e-3), "{said}");
+    }
+    cook.done("(with-simulated-robot (perform (an action (type releasing) (gripper left) (position 0.045))))");
+    let said =
+        cook.done("(list (pp-plans::objects-in-hand :left) (pp-plans::objects-in-hand :right))");
+    assert!(said.contains("(NIL (TRAY-1))"), "{said}");
+}
+
+#[test]
+fn what_is_too_heavy_for_one_arm_is_taken_with_both_and_what_is_too_heavy_for_both_is_refused() {
+    for (mass, wanted) in [
+        ("2.5", "it weighs 2.5 kg, and one arm may carry 1.8 kg"),
+        ("4.5", "both arms may carry 3.6 kg"),
+    ] {
+        let mut cook = Cook::unwatched();
+        let said = said(&mut cook, &format!(
+            "(progn
+               (btr-utils:spawn-object 'tray-1 :tray :mass {mass} :pose '((-1.5 -0.95 0.82) (0 0 0 1)))
+               (with-simulated-robot
+                 (perform (an action (type fetching) (object (an object (type tray)))
+                              ))))"
+        ));
+        let both = cook.done("(pp-plans::held-by-both-p 'tray-1)");
+        assert!(said.contains(wanted), "{said}");
+        assert_eq!(both.contains('T'), mass == "2.5", "{said}");
+    }
+}
