@@ -510,7 +510,7 @@ fn no_folder_of_the_session_names_the_session() {
 }
 
 #[test]
-fn only_one_module_names_the_physics_engine() {
+fn only_one_module_and_those_in_it_name_the_physics_engine() {
     let names_it = |text: &str| tokens(text).iter().any(|t| t.starts_with("rapier"));
     let mut named = Vec::new();
     for folder in CRATES {
@@ -518,7 +518,10 @@ fn only_one_module_names_the_physics_engine() {
         let modules = texts.iter().filter(|(_, text)| names_it(text));
         named.extend(modules.map(|(module, _)| module.join("::")));
     }
-    assert_eq!(named, ["world::physics", "world::physics::raw_contact"]);
+    let below = named
+        .iter()
+        .all(|module| module.starts_with("world::physics"));
+    assert!(below && !named.is_empty(), "{named:?}");
 }
 
 #[test]

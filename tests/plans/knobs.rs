@@ -30,7 +30,11 @@ fn a_hand_turns_a_knob_on_and_off_and_goes_on_the_way_that_the_hand_turns() {
         said.trim().ends_with("(:ON 1.5707963267948966d0)"),
         "{said}"
     );
-    assert!((angle(&cook) - 1.5708).abs() < 1e-3, "{}", angle(&cook));
+    assert!(
+        (angle(&cook) - std::f64::consts::FRAC_PI_2).abs() < 1e-3,
+        "{}",
+        angle(&cook)
+    );
     // What is on already is left so.
     let before = cook.session.simulation().world().steps();
     turning(&mut cook, "(configuration on)");

@@ -179,7 +179,7 @@ fn designators_are_completed_from_their_table() {
     assert_eq!(talk.completions("(an action (type picki"), ["picking-up"]);
     assert_eq!(
         talk.completions("(an action (type picking-up) (ar"),
-        ["arm"]
+        ["arm", "arms"]
     );
     assert_eq!(
         talk.completions("(an action (type picking-up) (arm "),

@@ -56,7 +56,7 @@ impl Models {
         let axis = joint.axis.into_inner();
         // A turn after which the axis is the x axis.
         let turn = UnitQuaternion::rotation_between(&axis, &Vector3::x())
-            .unwrap_or_else(|| half_turn_about_z());
+            .unwrap_or_else(half_turn_about_z);
         let turn = to_parry(&Pose::from_parts(Default::default(), turn));
         let mut bounds = solids
             .iter()

@@ -63,7 +63,7 @@ fn goals_of_actions_are_looked_at() {
         ("?object", None),
         (
             "(cpoe::object-in-hnd ?object :left)",
-            Some("4:29: There is no Prolog functor OBJECT-IN-HND; did you mean OBJECT-IN-HAND?"),
+            Some("4:30: There is no Prolog functor OBJECT-IN-HND; did you mean OBJECT-IN-HAND?"),
         ),
         ("(cpoe:torso-at)", Some("TORSO-AT")),
     ];
