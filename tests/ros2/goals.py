@@ -30,6 +30,7 @@ from actions import (
     PointStamped,
     PoseStamped,
     RequestHeader,
+    navigation_result,
 )
 from checks import check, timely
 
