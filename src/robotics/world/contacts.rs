@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::body_name::BodyName;
 use super::error::WorldError;
-use super::object::Object;
+use super::object::{Attachment, Object};
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, GRAVITY};
 use super::scene::World;
@@ -137,16 +137,8 @@ impl World {
     /// How far the held object lags behind its grip; `None` if nothing holds it.
     pub fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
         let object = self.object(name)?;
-        let Some(attachment) = object.attachment else {
-            return Ok(None);
-        };
-        let wanted = self.link_pose(attachment.link) * attachment.at;
-        let real = self.physics.pose(object.body);
-        Ok(Some(WeldError {
-            distance: distance_between(&wanted, &real),
-            angle: angle_between(&wanted, &real),
-            force: self.physics.weld_force(attachment.weld),
-        }))
+        let attachment = object.attachment.as_ref();
+        Ok(attachment.map(|attachment| self.error_of(object, attachment)))
     }
 
     /// How far the held object lags behind the grip of one of the links that hold it, and the force (N) of that grip;
@@ -157,16 +149,18 @@ impl World {
         link: LinkId,
     ) -> Result<Option<WeldError>, WorldError> {
         let object = self.object(name)?;
-        let Some(attachment) = object.attachment_to(link) else {
-            return Ok(None);
-        };
+        let attachment = object.attachment_to(link);
+        Ok(attachment.map(|attachment| self.error_of(object, attachment)))
+    }
+
+    fn error_of(&self, object: &Object, attachment: &Attachment) -> WeldError {
         let wanted = self.link_pose(attachment.link) * attachment.at;
         let real = self.physics.pose(object.body);
-        Ok(Some(WeldError {
+        WeldError {
             distance: distance_between(&wanted, &real),
             angle: angle_between(&wanted, &real),
             force: self.physics.weld_force(attachment.weld),
-        }))
+        }
     }
 
     pub(super) fn forces_on(

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use super::error::WorldError;
 use super::hash::Hasher;
-use super::object::Attachment;
-use super::physics::Robot;
+use super::object::{Attachment, Object};
+use super::physics::{Robot, WeldHandle};
 use super::scene::World;
 use crate::robot::{LinkId, Side};
 
@@ -263,16 +263,19 @@ impl World {
     }
 
     /// The fingers that hold the object transmit no force any more, as if it were wet: it slips out of
-    /// the hand. Returns whether fingers hold it.
+    /// the hands. Returns whether fingers hold it.
     pub fn loosen(&mut self, name: &str) -> bool {
-        let object = self.state.objects.get_mut(name);
-        let attachment = object.and_then(|object| object.attachment.as_mut());
-        let hold = attachment.and_then(|attachment| attachment.hold.as_mut());
-        // One hand alone would go on holding it otherwise.
-        hold.is_some_and(|hold| {
+        let Some(object) = self.state.objects.get_mut(name) else {
+            return false;
+        };
+        let attachments = [&mut object.attachment, &mut object.second];
+        let attachments = attachments.into_iter().flatten();
+        let mut is_held = false;
+        for hold in attachments.filter_map(|attachment| attachment.hold.as_mut()) {
             hold.strength = 0.0;
-            true
-        })
+            is_held = true;
+        }
+        is_held
     }
 
     /// Notes what the load on the hands has done in the last step: what has been lifted, and
@@ -288,27 +291,13 @@ impl World {
             else {
                 continue;
             };
-            let force = self.physics.weld_force(attachment.weld);
-            hold.slipping = if force > hold.strength {
-                hold.slipping + 1
-            } else {
-                0
-            };
+            slips.extend(self.slip_of(object, attachment.weld, &mut hold));
             if !hold.is_lifted() {
                 hold.free = if self.touches_others(object) {
                     0
                 } else {
                     hold.free + 1
                 };
-            }
-            if hold.slipping >= SLIPPING_STEPS {
-                slips.push(Slip {
-                    object: object.name.clone(),
-                    side: hold.side,
-                    force,
-                    strength: hold.strength,
-                    step: self.state.steps,
-                });
             }
             if let Some(tilt) = self.newly_tilted(object, &hold) {
                 hold.upright = false;
@@ -322,21 +311,7 @@ impl World {
             let Some((weld, mut hold)) = second.and_then(|one| Some((one.weld, one.hold?))) else {
                 continue;
             };
-            let force = self.physics.weld_force(weld);
-            hold.slipping = if force > hold.strength {
-                hold.slipping + 1
-            } else {
-                0
-            };
-            if hold.slipping >= SLIPPING_STEPS {
-                slips.push(Slip {
-                    object: object.name.clone(),
-                    side: hold.side,
-                    force,
-                    strength: hold.strength,
-                    step: self.state.steps,
-                });
-            }
+            slips.extend(self.slip_of(object, weld, &mut hold));
             seconds.push((object.name.clone(), hold));
         }
         for (name, hold) in seconds {
@@ -361,6 +336,23 @@ impl World {
             self.state.slips.retain(|old| old.side != slip.side);
             self.state.slips.push(slip);
         }
+    }
+
+    /// Counts for how long a hand has been pulled at harder than its friction transmits; what slips out of it then.
+    fn slip_of(&self, object: &Object, weld: WeldHandle, hold: &mut Hold) -> Option<Slip> {
+        let force = self.physics.weld_force(weld);
+        hold.slipping = if force > hold.strength {
+            hold.slipping + 1
+        } else {
+            0
+        };
+        (hold.slipping >= SLIPPING_STEPS).then(|| Slip {
+            object: object.name.clone(),
+            side: hold.side,
+            force,
+            strength: hold.strength,
+            step: self.state.steps,
+        })
     }
 
     /// The last object that has slipped out of one of the hands in that step or later.

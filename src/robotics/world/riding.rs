@@ -47,6 +47,7 @@ pub(super) struct Riding {
 
 impl Riding {
     pub(super) fn hash_into(&self, hasher: &mut Hasher) {
+        hasher.text(&self.carrier);
         for number in self.velocity.iter().chain(self.acceleration.iter()) {
             hasher.number(*number);
         }

@@ -25,11 +25,14 @@ impl Evaluator {
             Choice::RetryForm,
             "[RETRY-FORM] Evaluate the form again.".to_owned(),
         ));
-        if self
-            .host
-            .person
-            .snapshots
-            .has_changed_since_form(&self.host.simulation)
+        let simulation = &self.host.simulation;
+        // A robot elsewhere does not go back.
+        if simulation.robot.is_none()
+            && self
+                .host
+                .person
+                .snapshots
+                .has_changed_since_form(simulation)
         {
             let label = "[REWIND-FORM] Restore the world to before the form and evaluate it again.";
             choices.push((Choice::RewindForm, label.to_owned()));
