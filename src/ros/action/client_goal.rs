@@ -177,6 +177,11 @@ impl ClientGoal {
         if was_there && !is_there && matches!(self.stage, Stage::Sent | Stage::Accepted) {
             self.finish(ClientEnd::Gone, now);
         }
+        // It was only out of sight, and may still carry the goal out.
+        if !was_there && is_there && self.end == Some(ClientEnd::Gone) {
+            self.wanted_end = Some(now);
+            self.asked_end = None;
+        }
     }
 
     /// The server has said whether it accepts the goal.
@@ -556,13 +561,27 @@ mod tests {
     }
 
     #[test]
+    fn a_server_that_was_out_of_sight_is_told_to_let_the_goal_end() {
+        let mut goal = accepted();
+        goal.server(false, ms(1000));
+        assert_eq!(goal.next(ms(1000)), []);
+        goal.server(true, ms(3000));
+        assert_eq!(goal.next(ms(3000)), [Ask::Cancel]);
+        goal.server(true, ms(3400));
+        assert_eq!(goal.next(ms(3400)), []);
+        assert_eq!(goal.next(ms(3500)), [Ask::Cancel]);
+        assert_eq!(goal.next(ms(9000)), []);
+        assert_eq!(goal.end(), Some(&ClientEnd::Gone));
+    }
+
+    #[test]
     fn a_server_is_gone_if_it_is_not_there_or_falls_silent() {
         let mut goal = accepted();
         goal.server(false, ms(100));
         assert_eq!(goal.end(), Some(&ClientEnd::Gone));
-        // When it returns, the goal is not sent again.
+        // When it returns, the goal is not sent again, but is to end.
         goal.server(true, ms(200));
-        assert_eq!(goal.next(ms(200)), []);
+        assert_eq!(goal.next(ms(200)), [Ask::Cancel]);
 
         let mut goal = accepted();
         for i in 1..=10 {
