@@ -213,7 +213,7 @@ fn pose(transform: Option<&Value>) -> Result<Pose, &'static str> {
 }
 
 /// The seconds of a time.
-pub(crate) fn seconds(time: Option<&Value>) -> f64 {
+pub fn seconds(time: Option<&Value>) -> f64 {
     let part = |name| time.and_then(|time| time.get(name)?.as_float());
     part("sec").unwrap_or_default() + part("nanosec").unwrap_or_default() * 1e-9
 }

@@ -60,6 +60,7 @@ fn a_program_without_ros_2_says_how_to_build_one_that_has_it() {
                   --features ros2\n";
     for arguments in [
         &["run", "--ros2", "--eval", "1"][..],
+        &["run", "--real-robot", "--eval", "1"],
         &["robot", "--ros2=humble"],
     ] {
         let told = output(arguments);
@@ -77,6 +78,28 @@ fn what_ros_2_cannot_be_is_refused() {
     let (status, _, err) = output(&["robot", "--ros2=humbel"]);
     assert_eq!(status, Some(2));
     assert!(err.contains("(did you mean humble?)"), "{err}");
+}
+
+#[test]
+fn a_robot_is_driven_only_where_that_has_a_meaning() {
+    let plan = "plans/tutorial/move-bottle.plan";
+    for (arguments, why) in [
+        (
+            vec!["--ros2", "run", plan, "--real-robot"],
+            "what it believes itself",
+        ),
+        (
+            vec!["--real-robot", "run", plan, "--ros2"],
+            "what it believes itself",
+        ),
+        (vec!["--real-robot", "--resume=a", "run", plan], "--resume"),
+        (vec!["--real-robot", "check", plan], "nothing else drives"),
+        (vec!["--real-robot", "replay", plan], "nothing else drives"),
+    ] {
+        let (status, printed, error) = output(&arguments);
+        assert_eq!((status, printed.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(error.contains(why), "{arguments:?}: {error}");
+    }
 }
 
 #[test]

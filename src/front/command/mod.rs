@@ -102,6 +102,16 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         _ => None,
     };
     let real_robot = arguments.real_robot.take().or(real_robot);
+    let can_drive = matches!(
+        &arguments.command,
+        None | Some(Command::Run(_) | Command::Swank(_))
+    );
+    if real_robot.is_some() && !can_drive {
+        return Err(CommandError::Open(
+            "--real-robot is for the prompt, for run and for swank: nothing else drives a robot"
+                .to_owned(),
+        ));
+    }
     // A robot's controllers refuse what is faster.
     arguments.options.faithful |= real_robot.is_some();
     let options = &arguments.options;

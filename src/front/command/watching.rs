@@ -72,6 +72,12 @@ pub(crate) fn begin(
     session: &mut Session,
     watch: &WatchArguments,
 ) -> Result<Watching, CommandError> {
+    if watch.ros2.is_some() && watch.real_robot.is_some() {
+        return Err(CommandError::Open(
+            "--ros2 would tell the plan what it believes itself as if the robot had said so: leave it out with --real-robot"
+                .to_owned(),
+        ));
+    }
     if let Some(path) = &watch.record {
         session.begin_recording(path)?;
     }

@@ -227,7 +227,7 @@ impl World {
     }
 
     /// Lets go of the handle that the hand holds.
-    pub(super) fn release_handle(&mut self, side: Side) {
+    pub fn release_handle(&mut self, side: Side) {
         self.state.handles.retain(|hold| hold.side != side);
     }
 

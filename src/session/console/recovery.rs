@@ -25,6 +25,7 @@ impl Evaluator {
         self.image.output.mute(None);
         let simulation = &mut self.host.simulation;
         self.host.person.snapshots.go_back_to_form(simulation);
+        simulation.give_robot_up();
         self.flush(sink);
         let report = format!("planwright failed: {defect}.\n{REQUEST}");
         self.host.audience.show(&self.host.simulation, Cause::Rest);

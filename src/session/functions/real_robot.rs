@@ -30,7 +30,7 @@ pub(super) static TABLE: &[Builtin] = &[
 
 fn begin(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
     simulation.drive_robot()?;
-    done(Value::NIL)
+    done(Value::T)
 }
 
 fn end(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {

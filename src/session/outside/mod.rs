@@ -1,4 +1,4 @@
-//! What a session has outside itself: files, and a clock.
+//! What a session has outside itself: files, a clock, and a robot elsewhere.
 //!
 //! Nothing else in a session opens a file or asks for the real time. A program that embeds a session
 //! where there is no file system or no clock of the machine's gives it others.

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
+use super::super::robot::pose;
 use super::super::ros2::warn;
 use super::end::{end_of, shown};
 use super::goal_message::{action_of, goal_message};
@@ -31,7 +32,7 @@ const SIGHT: Duration = Duration::from_secs(10);
 /// A clock that jumps by more than this has jumped.
 const JUMP: f64 = 1.0;
 /// The time over which the velocity of the base is measured.
-const BASE_TIME: Duration = Duration::from_millis(150);
+pub(super) const BASE_TIME: Duration = Duration::from_millis(150);
 /// How long goals may take to end when the program does.
 const GOODBYE: Duration = Duration::from_secs(2);
 
@@ -98,11 +99,13 @@ pub(super) struct Desk {
     begin: Instant,
     /// By how much the clock of this machine, and that of the robot, differ from the one that never jumps (s).
     own_clock: Option<f64>,
-    robot_clock: Option<f64>,
+    /// The latter for each topic of joint states.
+    robot_clocks: Vec<Option<f64>>,
     /// The topics of which has been told that they cannot be heard.
     remarked: Vec<String>,
     looked: Duration,
     oddities: u64,
+    oddities_of_camera: u64,
     _node: Node,
 }
 
@@ -163,10 +166,11 @@ impl Desk {
             shared,
             begin,
             own_clock: None,
-            robot_clock: None,
+            robot_clocks: vec![None; interface.joint_states.len()],
             remarked: Vec::new(),
             looked: Duration::ZERO,
             oddities: 0,
+            oddities_of_camera: 0,
             _node: node,
         })
     }
@@ -179,10 +183,6 @@ impl Desk {
             self.hear(now);
             let halt = signals.halt.swap(false, Ordering::Relaxed);
             let interrupt = signals.interrupt.load(Ordering::Relaxed);
-            if halt || (interrupt && !was_interrupted) {
-                self.cancel_all(now);
-            }
-            was_interrupted = interrupt;
             loop {
                 match orders.try_recv() {
                     Ok(order) => self.take(order, now),
@@ -193,6 +193,11 @@ impl Desk {
                     }
                 }
             }
+            // Also what was ordered just now.
+            if halt || (interrupt && !was_interrupted) {
+                self.cancel_all(now);
+            }
+            was_interrupted = interrupt;
             self.speak(now);
             self.ask_camera(now);
             self.remark(now);
@@ -207,6 +212,12 @@ impl Desk {
         while self.parts.iter().any(|part| part.client.may_run()) {
             let now = self.begin.elapsed();
             if now.saturating_sub(begin) > GOODBYE {
+                let running = self.parts.iter().filter(|part| part.client.may_run());
+                let names: Vec<&str> = running.map(|part| part.interface.name.as_str()).collect();
+                warn(&format!(
+                    "NOTHING SAYS THAT THE GOALS OF {} HAVE ENDED. Use the emergency stop if the robot moves.",
+                    names.join(", ")
+                ));
                 return;
             }
             self.speak(now);
@@ -288,7 +299,8 @@ impl Desk {
             lock(shared).ends.insert(goal.ticket, end);
             false
         });
-        let oddities = self.parts.iter().map(|part| part.client.oddities()).sum();
+        let of_parts = self.parts.iter().map(|part| part.client.oddities());
+        let oddities = of_parts.sum::<u64>() + self.oddities_of_camera;
         if oddities > self.oddities {
             if self.oddities == 0 {
                 warn("a server has answered what was not asked, or twice; that counts for nothing");
@@ -306,10 +318,10 @@ impl Desk {
         while let Some(message) = self.still_transforms.take() {
             shared.frames.hear(&message, true, now);
         }
-        for topic in &self.joint_states {
+        for (topic, clock) in self.joint_states.iter().zip(&mut self.robot_clocks) {
             while let Some(message) = topic.take() {
                 if let Some(stamp) = stamp(&message) {
-                    let robot = jumps(&mut self.robot_clock, stamp - now.as_secs_f64());
+                    let robot = jumps(clock, stamp - now.as_secs_f64());
                     has_jumped = has_jumped.or(robot.map(|by| ("of the robot", by)));
                 }
                 shared.joints.hear(&message, now);
@@ -348,7 +360,7 @@ impl Desk {
             match answer {
                 Answer::To(sequence, value) => answers.push((sequence, Some(value))),
                 Answer::Unreadable(sequence) => answers.push((sequence, None)),
-                Answer::ToNobody => self.oddities += 1,
+                Answer::ToNobody => self.oddities_of_camera += 1,
             }
         }
         let is_served = self.perception.is_served();
@@ -356,14 +368,14 @@ impl Desk {
         questions.retain_mut(|question| {
             let name = || self.interface.perception.clone();
             let end = match question.asked {
-                None if is_served => {
-                    let sequence = self.perception.ask(&question.request);
-                    question.asked = sequence.map(|sequence| (now, sequence));
-                    None
-                }
                 None => {
+                    if is_served {
+                        let sequence = self.perception.ask(&question.request);
+                        question.asked = sequence.map(|sequence| (now, sequence));
+                    }
                     let waited = now.saturating_sub(question.since).as_secs_f64();
-                    let is_over = waited >= self.interface.server_time_out;
+                    let is_over =
+                        question.asked.is_none() && waited >= self.interface.server_time_out;
                     is_over.then(|| {
                         Err(RobotTrouble::Unserved {
                             name: name(),
@@ -464,20 +476,8 @@ fn jumps(known: &mut Option<f64>, now: f64) -> Option<f64> {
 
 /// The stamp (s) of a message that has one.
 fn stamp(message: &Value) -> Option<f64> {
-    let part = |name| message.at(&["header", "stamp", name])?.as_float();
-    let stamp = part("sec")? + part("nanosec")? * 1e-9;
+    let stamp = ros::frames::seconds(message.at(&["header", "stamp"]));
     (stamp > 0.0).then_some(stamp)
-}
-
-/// A pose whose rotation is one.
-fn pose(value: Option<&Value>) -> Option<Pose> {
-    let number = |part: &str, axis: &str| value?.at(&[part, axis])?.as_float();
-    let at = |axis| number("position", axis);
-    let turn = |axis| number("orientation", axis);
-    spatial::pose::from_xyz_quaternion(
-        [at("x")?, at("y")?, at("z")?],
-        [turn("x")?, turn("y")?, turn("z")?, turn("w")?],
-    )
 }
 
 /// A duration of seconds; a minute if it cannot be one.

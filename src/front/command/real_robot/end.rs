@@ -23,7 +23,8 @@ pub(super) fn end_of(name: &str, part: RobotPart, end: &ClientEnd) -> RobotEnd {
         }
         ClientEnd::Aborted(result) => {
             fingers = report(part, result);
-            let text = complaint(result).unwrap_or_else(|| "it does not say why".to_owned());
+            let text = complaint(result).or_else(|| said(result));
+            let text = text.unwrap_or_else(|| "it does not say why".to_owned());
             Some(RobotTrouble::Aborted { name, text })
         }
         ClientEnd::Canceled { by_us: true } => {
@@ -64,18 +65,19 @@ pub(super) fn end_of(name: &str, part: RobotPart, end: &ClientEnd) -> RobotEnd {
 /// What a result complains of: a code that is not zero, and a text.
 fn complaint(result: &Value) -> Option<String> {
     let code = result.get("error_code").and_then(Value::as_integer);
-    let text = ["error_msg", "error_string"].map(|name| result.get(name).and_then(Value::as_text));
-    let text = text
-        .into_iter()
-        .flatten()
-        .find(|text| !text.trim().is_empty());
-    let text = text.map(shown);
-    match (code.filter(|code| *code != 0), text) {
+    match (code.filter(|code| *code != 0), said(result)) {
         (Some(code), Some(text)) => Some(format!("{text} (error {code})")),
         (Some(code), None) => Some(format!("error {code}")),
         // A text without a code complains of nothing.
         (None, _) => None,
     }
+}
+
+/// The text of a result, if it has one.
+fn said(result: &Value) -> Option<String> {
+    let texts = ["error_msg", "error_string"].map(|name| result.get(name).and_then(Value::as_text));
+    let mut texts = texts.into_iter().flatten();
+    texts.find(|text| !text.trim().is_empty()).map(shown)
 }
 
 /// What a server says, in one line that a terminal can show.
@@ -123,6 +125,10 @@ mod tests {
         assert_eq!(
             aborted(0, "").as_deref(),
             Some("/go has given up: it does not say why")
+        );
+        assert_eq!(
+            aborted(0, "no way").as_deref(),
+            Some("/go has given up: no way")
         );
         let long = aborted(1, &"a".repeat(100_000)).unwrap_or_default();
         assert!(long.chars().count() < 400 && long.ends_with("… (error 1)"));

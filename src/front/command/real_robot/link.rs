@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::super::failure::CommandError;
 use super::super::ros2::{open_node, say, warn};
-use super::desk::{Desk, Order, Shared, Signals, lock, seconds};
+use super::desk::{BASE_TIME, Desk, Order, Shared, Signals, lock, seconds};
 use robotics::motion::RobotTrouble;
 use robotics::robot::{RobotInterface, RobotPart};
 use session::Session;
@@ -19,8 +19,6 @@ use session::outside::{GoalTicket, PartGoal, RobotEnd, RobotLink, RobotState, Se
 const MOMENT: Duration = Duration::from_millis(4);
 /// What moves more slowly (rad/s or m/s) stands still.
 const STILL: f64 = 0.01;
-/// The time over which the velocity of the base is measured.
-const BASE_TIME: Duration = Duration::from_millis(100);
 
 /// A robot that plans drive; all its goals are cancelled when this ends.
 pub(crate) struct Driving {

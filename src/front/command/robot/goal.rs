@@ -287,7 +287,7 @@ fn point(value: Option<&Value>) -> Option<[f64; 3]> {
 }
 
 /// A pose whose rotation is one; quaternions need not be of length one.
-fn pose(value: Option<&Value>) -> Option<Pose> {
+pub(in super::super) fn pose(value: Option<&Value>) -> Option<Pose> {
     let at = point(value?.get("position"))?;
     let turn = value?.get("orientation")?;
     let part = |axis: &str| number(turn, &[axis]);

@@ -13,6 +13,9 @@ mod trajectory;
 
 use clap::Args;
 
+#[cfg(feature = "ros2")]
+pub(super) use goal::pose;
+
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::options::Options;

@@ -57,6 +57,11 @@ impl Grip {
         }
     }
 
+    /// The force (N) of each finger, if one is given.
+    pub(super) fn effort(&self) -> Option<f64> {
+        self.effort
+    }
+
     /// Closes both fingers, which one joint moves, by one step.
     pub(super) fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         let side = self.side;

@@ -95,6 +95,13 @@ impl Activity for Fingers {
         }
     }
 
+    fn grip_effort(&self) -> Option<f64> {
+        match self {
+            Self::Move(_) => None,
+            Self::Grip(grip) => grip.effort(),
+        }
+    }
+
     fn progress(&self) -> Progress {
         match self {
             Self::Move(fingers) => fingers.progress(),

@@ -139,6 +139,11 @@ pub trait Motion {
         None
     }
 
+    /// The force (N) of each finger that the job closes around something, if it says so.
+    fn grip_effort(&self) -> Option<f64> {
+        None
+    }
+
     /// A copy to restore, if the next tick may plan and so be abandoned half-way (see
     /// [`crate::motion::interruption`]).
     fn before_planning(&self) -> Option<Box<dyn Motion>>;
@@ -175,6 +180,11 @@ pub(crate) trait Activity: Clone + 'static {
 
     /// The point (m) of the map at which it aims the head.
     fn aims_at(&self, _: &World) -> Option<Point3<f64>> {
+        None
+    }
+
+    /// The force (N) of each finger that it closes around something.
+    fn grip_effort(&self) -> Option<f64> {
         None
     }
 }
@@ -240,6 +250,10 @@ impl<A: Activity> Motion for Job<A> {
 
     fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
         self.activity.aims_at(world)
+    }
+
+    fn grip_effort(&self) -> Option<f64> {
+        self.activity.grip_effort()
     }
 
     fn before_planning(&self) -> Option<Box<dyn Motion>> {

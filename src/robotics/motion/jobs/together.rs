@@ -85,6 +85,14 @@ impl Motion for Together {
         }))
     }
 
+    fn grip_effort(&self) -> Option<f64> {
+        let efforts = self
+            .running
+            .iter()
+            .filter_map(|motion| motion.grip_effort());
+        efforts.reduce(f64::min)
+    }
+
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
         None
     }

@@ -1,6 +1,7 @@
 //! The world here follows what the robot tells of itself.
 
 use super::RobotAccess;
+use super::check::OTHER_SIZE;
 use super::goals::joints_of;
 use crate::outside::RobotState;
 use robotics::motion::{RobotTrouble, held_objects};
@@ -42,6 +43,16 @@ impl Told {
     pub(super) fn base(&self) -> spatial::Pose {
         let at = self.state.base.translation;
         from_xy_yaw(at.x, at.y, yaw(&self.state.base))
+    }
+
+    /// Whether the robot is where it was when it told that.
+    pub(super) fn is_as(&self, before: &Told) -> bool {
+        let [now, then] = [self.base(), before.base()];
+        let way = (now.translation.vector - then.translation.vector).norm();
+        let turn = trig::wrap(yaw(&now) - yaw(&then)).abs();
+        let pairs = self.state.joints.iter().zip(&before.state.joints);
+        let farthest = pairs.map(|(now, then)| (now - then).abs());
+        farthest.fold(way.max(turn), f64::max) <= STEP
     }
 
     /// Where a joint is (rad or m).
@@ -117,14 +128,19 @@ impl Told {
             return false;
         }
         let gripper = &world.models().description.arm(side).gripper;
-        let is_empty = gripper.gap(position) <= gripper.gap(gripper.limits.lower) + closed;
-        if is_empty {
+        let believed = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
+        let gap = gripper.gap(position);
+        let is_empty = gap <= gripper.gap(gripper.limits.lower) + closed;
+        // Fingers that are so far open hold nothing.
+        let is_open = gap > believed + OTHER_SIZE;
+        if is_empty || is_open {
+            world.release_handle(side);
             for name in held {
                 // It has just been found.
                 let _link = world.detach(&name);
             }
         }
-        !is_empty
+        !(is_empty || is_open)
     }
 }
 

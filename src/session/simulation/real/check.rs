@@ -10,7 +10,7 @@ use spatial::pose::yaw;
 use spatial::trig;
 
 /// How far (m) from where they were to meet an object fingers may stop and still hold it.
-const OTHER_SIZE: f64 = 0.015;
+pub(super) const OTHER_SIZE: f64 = 0.015;
 
 /// What is wrong with the end of an order that its server reports as reached, if anything. `end` is the world as it was to
 /// be then.
@@ -48,7 +48,9 @@ pub(super) fn trouble(
             let joints = joints_of(models, order.part);
             for (id, wanted) in joints.iter().zip(&goal.positions) {
                 let joint = models.robot.joint(*id);
-                let there = told.position(*id)?;
+                let Some(there) = told.position(*id) else {
+                    return Some(unknown(&joint.name));
+                };
                 let way = match joint.limits {
                     Some(_) => (wanted - there).abs(),
                     None => trig::wrap(wanted - there).abs(),
@@ -72,7 +74,10 @@ pub(super) fn trouble(
                 return None;
             };
             let gripper = &end.models().description.arm(side).gripper;
-            let there = gripper.gap(told.position(gripper.joint)?);
+            let Some(there) = told.position(gripper.joint) else {
+                return Some(unknown(&end.models().robot.joint(gripper.joint).name));
+            };
+            let there = gripper.gap(there);
             let tolerance = interface.tolerance;
             if !order.grips {
                 let way = (there - gap).abs();
@@ -90,8 +95,11 @@ pub(super) fn trouble(
                     gap: there.min(reported),
                 });
             }
+            if !fingers.is_some_and(|fingers| fingers.is_stalled) {
+                return beside("without having been stopped by anything".to_owned());
+            }
             let met = gripper.gap(end.robot_configuration().joints.get(gripper.joint));
-            match there - met > OTHER_SIZE {
+            match (there - met).abs() > OTHER_SIZE {
                 true => beside(format!(
                     "with fingers {there:.3} m apart, which were to meet what they grip at {met:.3} m"
                 )),
@@ -101,4 +109,8 @@ pub(super) fn trouble(
         // There is no more than the server's word.
         PartGoal::Aim(_) => None,
     }
+}
+
+fn unknown(joint: &str) -> RobotTrouble {
+    RobotTrouble::NoState(format!("the joint states lack {joint}"))
 }

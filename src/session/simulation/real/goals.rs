@@ -66,9 +66,11 @@ pub(super) fn orders(
             grips: false,
         });
     };
-    if module == ProcessModule::Navigation {
+    let drives = trace.iter().any(|at| at.base != first.base);
+    let mut arms = models.description.sides().map(RobotPart::Arm);
+    if module == ProcessModule::Navigation && !arms.any(has_moved) {
         order(RobotPart::Base, PartGoal::Drive(last.base));
-    } else if trace.iter().any(|at| at.base != first.base) {
+    } else if drives {
         return Err(RobotTrouble::NotPossible(
             "the motion would move the base together with an arm, which no action of the robot does"
                 .to_owned(),
@@ -91,8 +93,10 @@ pub(super) fn orders(
         }
     }
     for side in models.description.sides() {
-        if has_moved(RobotPart::Gripper(side)) {
-            orders.push(fingers(&trial.world, side));
+        // Fingers that do not move here may have to on the robot, for what they hold from now on.
+        let held = |world: &World| (held_objects(world, side), world.handle_hold(side).is_some());
+        if has_moved(RobotPart::Gripper(side)) || held(world) != held(&trial.world) {
+            orders.push(fingers(&trial.world, side, motion.grip_effort()));
         }
     }
     Ok(orders)
@@ -157,8 +161,8 @@ fn follow(
     }
 }
 
-/// What the fingers of a hand are to do so that it is as in a world.
-fn fingers(end: &World, side: Side) -> Order {
+/// What the fingers of a hand are to do so that it is as in a world, with a force (N), or else the greatest.
+fn fingers(end: &World, side: Side, effort: Option<f64>) -> Order {
     let gripper = &end.models().description.arm(side).gripper;
     let grips = !held_objects(end, side).is_empty() || end.handle_hold(side).is_some();
     let position = match grips {
@@ -170,7 +174,7 @@ fn fingers(end: &World, side: Side) -> Order {
         part: RobotPart::Gripper(side),
         goal: PartGoal::Fingers {
             gap: gripper.gap(position).max(0.0),
-            effort: gripper.effort,
+            effort: effort.unwrap_or(gripper.effort),
         },
         grips,
     }

@@ -78,6 +78,13 @@ impl Simulation {
         }
     }
 
+    /// No plan drives the robot any more, whatever was begun.
+    pub(crate) fn give_robot_up(&self) {
+        if let Some(robot) = &self.robot {
+            robot.depth.set(0);
+        }
+    }
+
     /// The motion as one of the robot elsewhere, if plans drive one now.
     pub(crate) fn of_real_robot(&self, motion: Box<dyn Motion>) -> Box<dyn Motion> {
         let robot = self.robot.as_ref().filter(|robot| robot.is_driven());

@@ -166,6 +166,24 @@ impl RealMotion {
             Ok(orders) => orders,
             Err(trouble) => return self.fail(self.failure(trouble)),
         };
+        // Trying may have taken a while.
+        let trouble = match Told::now(&self.robot, world) {
+            Ok(now) if now.is_as(&told) => None,
+            Ok(_) => {
+                self.stage = Stage::Begin(Some(since));
+                let waited = self.now().saturating_sub(since).as_secs_f64();
+                if waited < self.robot.interface.server_time_out {
+                    return MotionStatus::Running;
+                }
+                Some(RobotTrouble::NoState(
+                    "the robot moves by itself".to_owned(),
+                ))
+            }
+            Err(trouble) => Some(trouble),
+        };
+        if let Some(trouble) = trouble {
+            return self.fail(self.failure(trouble));
+        }
         let mut sent = Vec::new();
         for order in orders {
             let part = order.part;
@@ -190,7 +208,7 @@ impl RealMotion {
         });
         self.stage = Stage::Moving(Box::new(Moving {
             sent: sent.collect(),
-            here: Some(here),
+            here: trial.begun.or(Some(here)),
             outcome: trial.outcome,
             end: trial.world,
             reported: None,
@@ -207,7 +225,11 @@ impl RealMotion {
     fn look(&mut self, world: &mut World, ticket: GoalTicket) -> MotionStatus {
         let seen = self.robot.link.borrow_mut().seen(ticket);
         let (Some(seen), Some(query)) = (seen, self.query.clone()) else {
-            return MotionStatus::Running;
+            // A robot that tells nothing any more does not see either.
+            return match Told::now(&self.robot, world) {
+                Ok(_) => MotionStatus::Running,
+                Err(trouble) => self.fail(self.failure(trouble)),
+            };
         };
         self.stage = Stage::Over;
         match seen {
@@ -299,7 +321,7 @@ impl RealMotion {
     fn stands(&mut self, world: &mut World) -> bool {
         let now = self.now();
         let robot = Rc::clone(&self.robot);
-        let Stage::Stopping(since, sent, _) = &mut self.stage else {
+        let Stage::Stopping(since, sent, ending) = &mut self.stage else {
             return true;
         };
         let mut link = robot.link.borrow_mut();
@@ -318,6 +340,17 @@ impl RealMotion {
                 true => "it still moves, or does not tell".to_owned(),
                 false => format!("nothing says that these have ended: {}", running.join(", ")),
             };
+            // Who does not stand gets no new goal.
+            if let Ending::Anew = ending {
+                let trouble = RobotTrouble::NoState(
+                    "the robot did not stand still when it was to stop".to_owned(),
+                );
+                let module = self.module;
+                *ending = Ending::Failed(Box::new(MotionFailure::Robot(Box::new(RobotFailure {
+                    module,
+                    trouble,
+                }))));
+            }
             link.shout(&format!(
                 "THE ROBOT DOES NOT STAND STILL 2 s after it was to stop ({what}). \
                  Use the emergency stop if it moves."

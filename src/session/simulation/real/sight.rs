@@ -9,6 +9,8 @@ use spatial::Pose;
 const SAME_PLACE: f64 = 0.15;
 /// An object that is seen less than this (m, and rad) from where it was has not moved.
 const UNMOVED: [f64; 2] = [0.003, 0.02];
+/// How far (m) beside where it is seen an object may be put, so that it stands on something and overlaps nothing.
+const MOVED: f64 = 0.03;
 
 /// Puts what is seen into the world, and returns how the motion that has looked ends.
 pub(super) fn believe(
@@ -26,16 +28,19 @@ pub(super) fn believe(
         }
         let taken: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
         let name = name_of(world, &object.name, &kind, &object.pose, &taken);
-        if let Err(error) = place(world, &name, &kind, &object.pose) {
-            strange.push(format!("{name} ({error})"));
-            continue;
-        }
+        let pose = match place(world, &name, &kind, &object.pose) {
+            Ok(pose) => pose,
+            Err(error) => {
+                strange.push(format!("{name} ({error})"));
+                continue;
+            }
+        };
         let base = world.robot_configuration().base;
         found.push(DetectedObject {
             name,
             type_name: kind,
-            pose_in_base: base.inverse() * object.pose,
-            pose_in_map: object.pose,
+            pose_in_base: base.inverse() * pose,
+            pose_in_map: pose,
         });
     }
     let types = &world.models().objects;
@@ -89,8 +94,8 @@ fn name_of(world: &World, given: &str, kind: &str, pose: &Pose, taken: &[&str]) 
     fresh.next().unwrap_or(given)
 }
 
-/// Puts an object where it is seen, unless it is there already, or in a hand.
-fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<(), String> {
+/// Puts an object where it is seen, unless it is there already, or in a hand. Returns where it is believed to be.
+fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<Pose, String> {
     if let Ok(known) = world.object(name) {
         let is_held = known.attachment().is_some();
         let there = world.object_pose(name).map_err(|error| error.to_string())?;
@@ -98,9 +103,18 @@ fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<(), S
         let turn = there.rotation.angle_to(&pose.rotation);
         let [near, alike] = UNMOVED;
         if is_held || (way <= near && turn <= alike) {
-            return Ok(());
+            return Ok(there);
         }
     }
     let placed = world.spawn(name, kind, pose, None, None);
-    placed.map(drop).map_err(|error| error.to_string())
+    let placed = placed.map_err(|error| error.to_string())?;
+    let moved = placed.lifted.abs().max(placed.shifted);
+    if moved > MOVED {
+        let what = placed.blocked_by.map_or_else(
+            || "nothing carries it there".to_owned(),
+            |body| format!("it would be in {body}"),
+        );
+        return Err(format!("{what}; there is room {moved:.2} m off"));
+    }
+    Ok(placed.pose)
 }

@@ -15,6 +15,8 @@ pub(super) struct Trial {
     pub(super) outcome: MotionOutcome,
     /// The world then.
     pub(super) world: World,
+    /// The motion after its first step, so that nothing is planned twice; `None` if it ended with that.
+    pub(super) begun: Option<Box<dyn Motion>>,
 }
 
 /// Carries out a motion in a copy of the world. May be abandoned by an interrupt, as searches are.
@@ -23,11 +25,13 @@ pub(super) fn try_motion(
     mut motion: Box<dyn Motion>,
 ) -> Result<Trial, Box<MotionFailure>> {
     let mut world = world.clone();
+    let mut begun = None;
     let mut trace = vec![world.robot_configuration().clone()];
     let steps = (MAX_SECONDS / STEP_SECONDS) as usize;
     while trace.len() < steps {
         interruption::look();
         match motion.tick(&mut world) {
+            MotionStatus::Running if trace.len() == 1 => begun = motion.copied(),
             MotionStatus::Running => {}
             MotionStatus::Done(outcome) => {
                 trace.push(world.robot_configuration().clone());
@@ -35,6 +39,7 @@ pub(super) fn try_motion(
                     trace,
                     outcome,
                     world,
+                    begun,
                 });
             }
             MotionStatus::Failed(failure) => return Err(failure),
