@@ -32,6 +32,8 @@ mod parking;
 mod past;
 mod published_code;
 mod putting_down;
+mod random_scenes;
+mod rays;
 mod refusals;
 mod renamed_robot;
 mod searching;

@@ -18,11 +18,15 @@ impl World {
     /// The bodies that push the object up, except the robot, with the upward part of what they exert,
     /// in a fixed order.
     pub fn carrying_forces(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+        let mut forces = self.pushes_up(name)?;
+        forces.retain(|one| one.body.robot_link().is_none());
+        Ok(forces)
+    }
+
+    /// The bodies that push the object up, with the upward part of what they exert, in a fixed order.
+    fn pushes_up(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let mut forces: Vec<ContactForce> = Vec::new();
         for press in self.presses(self.object(name)?) {
-            if press.body.robot_link().is_some() {
-                continue;
-            }
             match forces.iter_mut().find(|known| known.body == press.body) {
                 Some(known) => known.force += press.force.z,
                 None => forces.push(ContactForce {
@@ -36,13 +40,30 @@ impl World {
         Ok(forces)
     }
 
+    /// The bodies that carry the object, in a fixed order; of the robot, only links that do not hold it.
+    pub fn carried_by(&self, name: &str) -> Result<Vec<BodyName>, WorldError> {
+        let mut forces = self.pushes_up(name)?;
+        if self.object(name)?.attachment().is_some() {
+            forces.retain(|one| one.body.robot_link().is_none());
+        }
+        if forces.is_empty() {
+            return Ok(self.resting_on(name)?.into_iter().collect());
+        }
+        Ok(forces.into_iter().map(|one| one.body).collect())
+    }
+
     /// What carries most of the object, except the robot; `None` if it falls, or if a hand alone
     /// carries it.
     pub fn carrier(&self, name: &str) -> Result<Option<BodyName>, WorldError> {
         let forces = self.carrying_forces(name)?.into_iter();
-        if let Some(most) = forces.max_by(|a, b| a.force.total_cmp(&b.force)) {
-            return Ok(Some(most.body));
+        match forces.max_by(|a, b| a.force.total_cmp(&b.force)) {
+            Some(most) => Ok(Some(most.body)),
+            None => self.resting_on(name),
         }
+    }
+
+    /// What is just below an object at rest that no hand holds, for want of a contact that pushes it up.
+    fn resting_on(&self, name: &str) -> Result<Option<BodyName>, WorldError> {
         let is_held = self.object(name)?.attachment().is_some();
         if is_held || self.moving_objects().any(|object| object.name() == name) {
             return Ok(None);

@@ -38,6 +38,15 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(touching),
     ),
     control(
+        "%CARRIED-BY",
+        "name",
+        "What pushes a spawned object up, as %TOUCHING gives it; of the robot, only what does not hold it.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%carried-by 'bottle-1)) => ((:KITCHEN . \"table_area_main\"))",
+        ],
+        host!(carried_by),
+    ),
+    control(
         "%BOX",
         "body &optional link",
         "The box around a body in the map: the least and the greatest x, y and z (m), as two lists; NIL if it has no shape. :KITCHEN and :ROBOT are given with a link, and without one stand for all of them.",
@@ -208,11 +217,22 @@ fn shown(simulation: &Simulation, image: &mut Image, body: &BodyName) -> Value {
 fn touching(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
     let bodies = simulation.world.touching(&name).map_err(raise)?;
+    done(all_shown(simulation, image, &bodies))
+}
+
+fn carried_by(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let bodies = simulation.world.carried_by(&name).map_err(raise)?;
+    done(all_shown(simulation, image, &bodies))
+}
+
+/// Bodies with their links.
+fn all_shown(simulation: &Simulation, image: &mut Image, bodies: &[BodyName]) -> Value {
     let bodies: Vec<Value> = bodies
         .iter()
         .map(|body| shown(simulation, image, body))
         .collect();
-    done(Value::list(bodies))
+    Value::list(bodies)
 }
 
 /// Which of the two trees is meant, if it is one of them.
