@@ -108,13 +108,23 @@ impl Simulation {
         grasp: &GraspDefinition,
     ) -> Result<bool, Box<Raise>> {
         let raise = |error: WorldError| Raise::reporting(error);
+        let side = imagined.side;
+        let axes = &self.models.description.arm(side).tool_axes;
+        if imagined.object_pose.is_none() && imagined.base_pose.is_none() {
+            // Most grasps are out of the arm's reach, which is known without a copy of the world.
+            let base = self.world.robot_configuration().base;
+            let object = self.world.object_pose(imagined.object).map_err(raise)?;
+            let poses = grasp.tool_poses(&(base.inverse() * object), axes);
+            let poses = poses.map_err(Raise::reporting)?;
+            if !self.is_reachable(side, &[poses.second_pregrasp, poses.grasp]) {
+                return Ok(false);
+            }
+        }
         let Some(world) = imagined.world(&self.world).map_err(raise)? else {
             return Ok(false);
         };
         let base = world.robot_configuration().base;
         let object = base.inverse() * world.object_pose(imagined.object).map_err(raise)?;
-        let side = imagined.side;
-        let axes = &self.models.description.arm(side).tool_axes;
         let poses = grasp.tool_poses(&object, axes).map_err(Raise::reporting)?;
         let overhead = Overhead::of(&world, imagined.object, &(base * object)).map_err(raise)?;
         let poses = overhead.picking(&base, poses);
