@@ -32,6 +32,7 @@ mod parking;
 mod past;
 mod published_code;
 mod putting_down;
+mod real_robot;
 mod refusals;
 mod renamed_robot;
 mod searching;

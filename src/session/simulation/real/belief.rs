@@ -1,7 +1,7 @@
 //! The world here follows what the robot tells of itself.
 
 use super::RobotAccess;
-use super::check::OTHER_SIZE;
+use super::check::{OTHER_SIZE, closed as closed_gap};
 use super::goals::joints_of;
 use crate::outside::RobotState;
 use robotics::motion::{RobotTrouble, held_objects};
@@ -35,6 +35,9 @@ impl Told {
             .map(|(_, id)| models.robot.joint(*id).name.as_str());
         let names: Vec<&str> = names.collect();
         let state = robot.link.borrow().state(&names)?;
+        if let Some(wrong) = wrong(&state, &names) {
+            return Err(RobotTrouble::NoState(wrong));
+        }
         robot.was_heard.set(true);
         Ok(Self { state, joints })
     }
@@ -130,7 +133,7 @@ impl Told {
         let gripper = &world.models().description.arm(side).gripper;
         let believed = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
         let gap = gripper.gap(position);
-        let is_empty = gap <= gripper.gap(gripper.limits.lower) + closed;
+        let is_empty = gap <= closed_gap(gripper.gap(gripper.limits.lower), closed);
         // Fingers that are so far open hold nothing.
         let is_open = gap > believed + OTHER_SIZE;
         if is_empty || is_open {
@@ -142,6 +145,30 @@ impl Told {
         }
         !(is_empty || is_open)
     }
+}
+
+/// What of a state cannot be.
+fn wrong(state: &RobotState, names: &[&str]) -> Option<String> {
+    let base = &state.base;
+    let numbers = base
+        .translation
+        .vector
+        .iter()
+        .chain(base.rotation.coords.iter());
+    if !numbers.copied().all(f64::is_finite) {
+        return Some("the place of the base is no number".to_owned());
+    }
+    let [positions, joints] = [state.joints.len(), names.len()];
+    if positions != joints {
+        return Some(format!(
+            "the joint states have {positions} positions for {joints} joints"
+        ));
+    }
+    let mut pairs = names.iter().zip(&state.joints);
+    let (name, _) = pairs.find(|(_, position)| !position.is_finite())?;
+    Some(format!(
+        "the joint states have no finite position of {name}"
+    ))
 }
 
 /// Takes the robot to a configuration: within the next step if that is near, since what it holds follows; at once if not.

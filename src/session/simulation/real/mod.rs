@@ -17,7 +17,7 @@ use super::Simulation;
 use crate::outside::RobotLink;
 use lisp::value::raise::Raise;
 use robotics::motion::{DetectQuery, Motion, ProcessModule};
-use robotics::robot::{RobotInterface, RobotPart};
+use robotics::robot::{RobotInterface, RobotPart, Side};
 
 use motion::RealMotion;
 
@@ -29,6 +29,9 @@ pub(crate) struct RobotAccess {
     depth: Cell<u32>,
     /// The parts that have goals.
     busy: RefCell<Vec<RobotPart>>,
+    /// Hands that have closed farther than what they were to grip is wide, and the gap (m) at which they were to meet it. Until
+    /// they open, the world here has fingers in what they missed.
+    missed: RefCell<Vec<(Side, f64)>>,
     /// Whether it has told how it is at least once.
     was_heard: Cell<bool>,
 }
@@ -44,8 +47,27 @@ impl RobotAccess {
             interface,
             depth: Cell::new(0),
             busy: RefCell::default(),
+            missed: RefCell::default(),
             was_heard: Cell::new(false),
         })
+    }
+
+    /// The gap (m) at which a hand was to meet what it has missed, if it has.
+    fn missed(&self, part: RobotPart) -> Option<f64> {
+        let missed = self.missed.borrow();
+        let mut missed = missed.iter();
+        let missed = missed.find(|(side, _)| part == RobotPart::Gripper(*side));
+        missed.map(|(_, gap)| *gap)
+    }
+
+    /// Remembers, or forgets, that a hand has missed what it was to meet at a gap (m).
+    fn note_missed(&self, part: RobotPart, gap: Option<f64>) {
+        let RobotPart::Gripper(side) = part else {
+            return;
+        };
+        let mut missed = self.missed.borrow_mut();
+        missed.retain(|(known, _)| *known != side);
+        missed.extend(gap.map(|gap| (side, gap)));
     }
 
     fn is_driven(&self) -> bool {

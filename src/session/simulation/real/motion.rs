@@ -19,6 +19,9 @@ use robotics::world::World;
 const SETTLING: Duration = Duration::from_millis(500);
 /// How long a robot that was to stop may take for that.
 const STOPPING: Duration = Duration::from_secs(2);
+/// How much longer (s) than it was allowed a goal, or a question to the camera, may take until it counts as lost, whatever
+/// the link says or does not say: it may have waited for its server and for its turn.
+const LOST: f64 = 90.0;
 
 /// A motion that a robot elsewhere carries out.
 pub(super) struct RealMotion {
@@ -34,7 +37,7 @@ enum Stage {
     /// Nothing has been sent. Since when it has waited to hear the robot.
     Begin(Option<Duration>),
     /// The camera was asked.
-    Looking(GoalTicket),
+    Looking(GoalTicket, Duration),
     /// The robot has goals.
     Moving(Box<Moving>),
     /// The robot is to stand still, since when, and how the motion ends then.
@@ -60,6 +63,9 @@ struct Sent {
     interface: PartInterface,
     ticket: GoalTicket,
     end: Option<RobotEnd>,
+    /// When it was sent, and how long (s) it may take.
+    since: Duration,
+    time_out: f64,
 }
 
 struct Moving {
@@ -148,7 +154,7 @@ impl RealMotion {
             let is_exact = world.models().objects.get(&one.to_lowercase()).is_some();
             let kind = if is_exact { one } else { "" };
             let ticket = self.robot.link.borrow_mut().look(kind, &name);
-            self.stage = Stage::Looking(ticket);
+            self.stage = Stage::Looking(ticket, self.now());
             return MotionStatus::Running;
         }
         let Some(copies) = self.original.copied().zip(self.original.copied()) else {
@@ -204,6 +210,8 @@ impl RealMotion {
                 interface,
                 ticket,
                 end: None,
+                since: link.now(),
+                time_out,
             }
         });
         self.stage = Stage::Moving(Box::new(Moving {
@@ -222,9 +230,14 @@ impl RealMotion {
         MotionStatus::Failed(failure)
     }
 
-    fn look(&mut self, world: &mut World, ticket: GoalTicket) -> MotionStatus {
+    fn look(&mut self, world: &mut World, ticket: GoalTicket, since: Duration) -> MotionStatus {
         let seen = self.robot.link.borrow_mut().seen(ticket);
         let (Some(seen), Some(query)) = (seen, self.query.clone()) else {
+            let waited = self.now().saturating_sub(since).as_secs_f64();
+            if waited > LOST {
+                let name = self.robot.interface.perception.clone();
+                return self.fail(self.failure(RobotTrouble::NoAnswer { name, waited }));
+            }
             // A robot that tells nothing any more does not see either.
             return match Told::now(&self.robot, world) {
                 Ok(_) => MotionStatus::Running,
@@ -268,13 +281,21 @@ impl RealMotion {
         if !moving.is_checked {
             let trouble = moving.sent.iter().find_map(|sent| {
                 let fingers = sent.end.as_ref().and_then(|end| end.fingers);
-                check::trouble(&sent.order, &sent.interface, &told, &moving.end, fingers)
+                let missed = self.robot.missed(sent.order.part);
+                let (order, interface) = (&sent.order, &sent.interface);
+                check::trouble(order, interface, &told, &moving.end, fingers, missed)
             });
             match trouble {
                 // What it tells of itself may come later than what it reports.
                 Some(_) if now.saturating_sub(reported) < SETTLING => return Ok(None),
-                Some(trouble) => return Err(self.failure(trouble)),
-                None => moving.is_checked = true,
+                Some(trouble) => {
+                    self.note_missed(moving, true);
+                    return Err(self.failure(trouble));
+                }
+                None => {
+                    self.note_missed(moving, false);
+                    moving.is_checked = true;
+                }
             }
         }
         if moving.here.is_some() {
@@ -285,11 +306,29 @@ impl RealMotion {
         Ok(Some(moving.outcome.clone()))
     }
 
+    /// Remembers which hands have missed what they were to grip, and which have not, or are open.
+    fn note_missed(&self, moving: &Moving, has_missed: bool) {
+        for Sent { order, .. } in &moving.sent {
+            let met = check::met(order, &moving.end).filter(|_| has_missed);
+            let before = self.robot.missed(order.part).filter(|_| has_missed);
+            let gap = met.into_iter().chain(before).reduce(f64::max);
+            self.robot.note_missed(order.part, gap);
+        }
+    }
+
     /// Hears how goals have ended.
     fn hear_ends(&self, sent: &mut [Sent]) -> Result<(), RobotTrouble> {
         for sent in sent.iter_mut().filter(|sent| sent.end.is_none()) {
             let end = self.robot.link.borrow_mut().end(sent.ticket);
             let Some(mut end) = end else {
+                let taken = self.now().saturating_sub(sent.since).as_secs_f64();
+                if taken > sent.time_out + LOST {
+                    return Err(RobotTrouble::Late {
+                        name: sent.interface.name.clone(),
+                        limit: taken,
+                        has_ended: false,
+                    });
+                }
                 continue;
             };
             // Fingers that something between them has stopped hold it, whatever their server makes of that.
@@ -381,9 +420,9 @@ impl Motion for RealMotion {
     fn tick(&mut self, world: &mut World) -> MotionStatus {
         match std::mem::replace(&mut self.stage, Stage::Over) {
             Stage::Begin(since) => self.begin(world, since),
-            Stage::Looking(ticket) => {
-                self.stage = Stage::Looking(ticket);
-                self.look(world, ticket)
+            Stage::Looking(ticket, since) => {
+                self.stage = Stage::Looking(ticket, since);
+                self.look(world, ticket, since)
             }
             Stage::Moving(mut moving) => match self.go_on(&mut moving, world) {
                 // The robot was stopped, but not by this motion: it begins anew if the plan goes on.
@@ -462,7 +501,7 @@ impl Motion for RealMotion {
                 what: "waiting for the robot",
                 fraction: 0.0,
             },
-            Stage::Looking(_) => Progress {
+            Stage::Looking(..) => Progress {
                 what: "asking the camera",
                 fraction: 0.0,
             },
