@@ -119,6 +119,8 @@ pub struct ClientGoal {
     is_late: bool,
     /// Since when the server says that the goal waits for its turn, if it does.
     queued: Option<Duration>,
+    /// Whether the server says that it has ended: a result that is not there yet may be lost.
+    has_ended: bool,
     /// How often, since when, and when last the server has told how far it is.
     told: u32,
     told_first: Duration,
@@ -142,6 +144,7 @@ impl ClientGoal {
             asked_end: None,
             is_late: false,
             queued: None,
+            has_ended: false,
             told: 0,
             told_first: now,
             told_last: now,
@@ -238,6 +241,12 @@ impl ClientGoal {
         if self.stage != Stage::Accepted {
             return;
         }
+        let ends = [
+            GoalState::Succeeded,
+            GoalState::Aborted,
+            GoalState::Canceled,
+        ];
+        self.has_ended |= ends.map(|end| end as i64).contains(&status);
         match (status == GoalState::Accepted as i64, self.queued) {
             (true, None) => self.queued = Some(now),
             (false, Some(_)) => {
@@ -256,6 +265,10 @@ impl ClientGoal {
             }
             self.told += 1;
             self.told_last = now;
+            // Its turn has come, whatever became of the message about that.
+            if self.queued.take().is_some() {
+                self.since = now;
+            }
         }
     }
 
@@ -317,7 +330,8 @@ impl ClientGoal {
         let is_due =
             |asked: Option<Duration>| asked.is_none_or(|at| now.saturating_sub(at) >= AGAIN);
         // A server answers a request for a result when the goal has ended; asked again, it answers again.
-        let asks_again = self.wanted_end.is_some() && is_due(self.asked_result);
+        let asks_again =
+            (self.wanted_end.is_some() || self.has_ended) && is_due(self.asked_result);
         if self.stage == Stage::Accepted && (self.asked_result.is_none() || asks_again) {
             self.asked_result = Some(now);
             asks.push(Ask::Result);
