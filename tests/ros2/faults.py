@@ -24,7 +24,7 @@ from cyclonedds.topic import Topic
 import messages as ros
 from actions import GRIPPER, RequestHeader
 from checks import check
-from faulty_robot import GRIPPER_JOINT, PARTS, Faults, Robot
+from faulty_robot import DOMAIN, GRIPPER_JOINT, PARTS, Faults, Robot
 
 PROGRAM = sys.argv[1]
 RUNS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -72,25 +72,27 @@ def calibrated():
         for line in robot.stdout:
             if line.startswith("/detect_objects"):
                 break
-        participant = DomainParticipant(77)
+        participant = DomainParticipant(DOMAIN)
         tf = DataReader(participant, Topic(participant, "rt/tf", ros.TFMessage), qos=ros.reliable(100))
         states = DataReader(participant, Topic(participant, "rt/joint_states", ros.JointState), qos=ros.reliable(100))
         inner = f"{PARTS['hand'][0]}/_action/"
         goals = Topic(participant, f"rq/{inner}send_goalRequest", GRIPPER["send_goal"])
         goals = DataWriter(participant, goals, qos=ros.reliable(10))
-        feedback = Topic(participant, f"rt/{inner}feedback", GRIPPER["feedback"])
-        feedback = DataReader(participant, feedback, qos=ros.reliable(10))
+        asking = Topic(participant, f"rq/{inner}get_resultRequest", GRIPPER["get_result"])
+        asking = DataWriter(participant, asking, qos=ros.reliable(10))
+        results = Topic(participant, f"rr/{inner}get_resultReply", GRIPPER["result"])
+        results = DataReader(participant, results, qos=ros.reliable(10))
         frame, joints, gaps = None, None, []
 
         def hear(seconds):
             nonlocal frame, joints
             gap, end = None, time.monotonic() + seconds
-            while time.monotonic() < end:
+            while time.monotonic() < end and gap is None:
                 for message in tf.take(100):
                     frame = message.transforms[0].child_frame_id
                 for message in states.take(100):
                     joints = dict(zip(message.name, message.position))
-                for message in feedback.take(100):
+                for message in results.take(100):
                     gap = message.position
                 time.sleep(0.01)
             return gap
@@ -99,7 +101,11 @@ def calibrated():
         for number, gap in enumerate((0.085, 0.06, 0.04, 0.02)):
             identity = [number + 1] * 16
             goals.write(GRIPPER["send_goal"](RequestHeader([1] * 8, number + 1, 0), identity, gap, 50.0))
-            heard = hear(1.2)
+            hear(0.1)
+            asking.write(GRIPPER["get_result"](RequestHeader([1] * 8, number + 1, 0), identity))
+            heard = hear(10)
+            # Where the joint is then.
+            hear(0.2)
             check(heard is not None and abs(heard - gap) < 0.01, f"the fingers do not open to {gap}: {heard}")
             gaps.append((heard, joints[GRIPPER_JOINT]))
         return frame, joints, gaps

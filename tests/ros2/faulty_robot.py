@@ -4,6 +4,7 @@ What goes wrong in a run is drawn from a seed."""
 import bisect
 import heapq
 import math
+import os
 import random
 import time
 
@@ -26,6 +27,7 @@ from actions import (
     RequestHeader,
 )
 
+DOMAIN = int(os.environ.get("ROS_DOMAIN_ID", 77))
 EXECUTING, SUCCEEDED, CANCELED, ABORTED = 2, 4, 5, 6
 NOW = ros.Time(0, 0)
 # How fast the base drives (m/s), and the fingers move (m/s).
@@ -88,7 +90,7 @@ class Server:
         self.open()
 
     def open(self):
-        self.participant = participant = DomainParticipant(77)
+        self.participant = participant = DomainParticipant(DOMAIN)
         self.life += 1
         self.goals, self.returns = {}, None
 
@@ -256,7 +258,7 @@ class Robot:
         self.begun, self.deaths, self.clock, self.since, self.next = [], 0, 0.0, self.now, 0.0
         self.stood = None
         self.set_gap(gaps[0][0])
-        self.participant = participant = DomainParticipant(77)
+        self.participant = participant = DomainParticipant(DOMAIN)
         self.tf = DataWriter(participant, Topic(participant, "rt/tf", ros.TFMessage), qos=ros.reliable(100))
         self.states = DataWriter(participant, Topic(participant, "rt/joint_states", ros.JointState), qos=ros.reliable(10))
         self.servers = {part: Server(self, part) for part in PARTS}

@@ -21,6 +21,7 @@ pub(super) fn interface<'a, 'r: 'a>(
             return Err(thing.error(DataProblem::Repeated(twice)));
         }
         seen.push(of.to_owned());
+        check_keys(record, of)?;
         let name = record.optional("name");
         let name = name.map(|node| full_name(node)).transpose()?;
         let positive = |key: &str| record.optional(key).map(|n| n.positive()).transpose();
@@ -61,6 +62,34 @@ pub(super) fn interface<'a, 'r: 'a>(
         }
     }
     Ok(interface)
+}
+
+/// The keys that the interface of something may have.
+fn keys(of: &str) -> &'static [&'static str] {
+    match of {
+        "map" => &["name", "max-age"],
+        "joint-states" => &["names", "max-age"],
+        "perception" => &["name"],
+        "server" => &["time-out"],
+        "base" => &["name", "time-out", "tolerance", "turn-tolerance"],
+        // Where the camera looks says only its server.
+        "neck" => &["name", "time-out"],
+        _ => &["name", "time-out", "tolerance"],
+    }
+}
+
+/// Refuses keys that mean nothing for what a record is of.
+fn check_keys(record: &Record<'_>, of: &str) -> Result<(), DataError> {
+    let known = keys(of);
+    match record.fields().iter().find(|(key, _)| !known.contains(key)) {
+        None => Ok(()),
+        Some((key, value)) => Err(value.error(DataProblem::UnknownKey {
+            record: format!("interface {of}"),
+            key: (*key).to_owned(),
+            known: known.iter().map(|key| (*key).to_owned()).collect(),
+            closest: closest_name(key, known.iter().copied()).map(|key| format!(":{key}")),
+        })),
+    }
 }
 
 /// A name of ROS, which begins at the root.

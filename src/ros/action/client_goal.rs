@@ -164,6 +164,11 @@ impl ClientGoal {
         self.end.is_some() && now.saturating_sub(self.ended_at) > REMEMBERED
     }
 
+    /// Whether the server has accepted it, or it has ended.
+    pub fn is_accepted(&self) -> bool {
+        self.end.is_some() || self.stage == Stage::Accepted
+    }
+
     /// Whether the server may be carrying it out.
     pub fn may_run(&self) -> bool {
         self.end.is_none() && matches!(self.stage, Stage::Sent | Stage::Accepted)
@@ -330,8 +335,7 @@ impl ClientGoal {
         let is_due =
             |asked: Option<Duration>| asked.is_none_or(|at| now.saturating_sub(at) >= AGAIN);
         // A server answers a request for a result when the goal has ended; asked again, it answers again.
-        let asks_again =
-            (self.wanted_end.is_some() || self.has_ended) && is_due(self.asked_result);
+        let asks_again = (self.wanted_end.is_some() || self.has_ended) && is_due(self.asked_result);
         if self.stage == Stage::Accepted && (self.asked_result.is_none() || asks_again) {
             self.asked_result = Some(now);
             asks.push(Ask::Result);

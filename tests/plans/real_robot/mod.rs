@@ -3,6 +3,7 @@
 //! Whatever such a robot says or does not say, a motion ends: in success if the robot is where it was to be, or else in the
 //! failure that CRAM has for that, with words that name what has happened.
 
+mod at_once;
 mod grips;
 mod lies;
 mod obedience;

@@ -88,6 +88,8 @@ pub(super) struct Robot {
     ends: BTreeMap<u64, RobotEnd>,
     /// What the camera answers; nothing if `None`.
     pub(super) sight: Option<Result<Vec<SeenObject>, RobotTrouble>>,
+    /// How many goals it had at once at most.
+    pub(super) at_once: usize,
     /// What it was told to do, in order.
     pub(super) told: Vec<String>,
     /// What a person has to notice.
@@ -109,6 +111,7 @@ impl Robot {
             goals: Vec::new(),
             ends: BTreeMap::new(),
             sight: None,
+            at_once: 0,
             told: Vec::new(),
             shouts: Vec::new(),
             next: 0,
@@ -124,6 +127,22 @@ impl Robot {
     fn conduct(&self, part: RobotPart) -> Conduct {
         let known = self.conducts.iter().find(|(known, _)| *known == part);
         known.map_or(Conduct::Obeys, |(_, conduct)| conduct.clone())
+    }
+
+    /// Whether a part has one of these joints.
+    fn has_joint(&self, part: RobotPart, joints: &[&str]) -> bool {
+        let body = &self.models.description;
+        let own = match part {
+            RobotPart::Arm(side) => body.arm(side).joints().to_vec(),
+            RobotPart::Gripper(side) => vec![body.arm(side).gripper.joint],
+            RobotPart::Torso => body.torso.joint.into_iter().collect(),
+            RobotPart::Neck => body.neck.joints.clone(),
+            RobotPart::Base => Vec::new(),
+        };
+        let mut names = own
+            .iter()
+            .map(|id| self.models.robot.joint(*id).name.as_str());
+        names.any(|name| joints.contains(&name))
     }
 
     /// Whether something moves.
@@ -347,23 +366,28 @@ impl RobotLink for ScriptedRobot {
         })
     }
 
-    fn send(&mut self, part: RobotPart, goal: &PartGoal, time_out: f64) -> GoalTicket {
+    fn send(&mut self, goals: &[(RobotPart, PartGoal, f64)]) -> Vec<GoalTicket> {
         let mut robot = self.0.borrow_mut();
-        robot.next += 1;
-        let ticket = robot.next;
-        robot.told.push(format!("{} goes", part.name()));
-        let goal = Goal {
-            ticket,
-            part,
-            goal: goal.clone(),
-            since: robot.time,
-            limit: time_out,
-            cancelled: None,
-            base: robot.base,
-            joints: robot.joints.clone(),
-        };
-        robot.goals.push(goal);
-        GoalTicket(ticket)
+        let mut tickets = Vec::new();
+        for (part, goal, time_out) in goals {
+            robot.next += 1;
+            let ticket = robot.next;
+            robot.told.push(format!("{} goes", part.name()));
+            let goal = Goal {
+                ticket,
+                part: *part,
+                goal: goal.clone(),
+                since: robot.time,
+                limit: *time_out,
+                cancelled: None,
+                base: robot.base,
+                joints: robot.joints.clone(),
+            };
+            robot.goals.push(goal);
+            tickets.push(GoalTicket(ticket));
+        }
+        robot.at_once = robot.at_once.max(robot.goals.len());
+        tickets
     }
 
     fn end(&mut self, ticket: GoalTicket) -> Option<RobotEnd> {
@@ -383,8 +407,16 @@ impl RobotLink for ScriptedRobot {
         robot.told.append(&mut told);
     }
 
-    fn stands_still(&self) -> bool {
-        !self.at_next_moment().moves()
+    fn stands_still(&self, joints: Option<&[&str]>, base: bool) -> bool {
+        let robot = self.at_next_moment();
+        let is_meant = |part: RobotPart| match joints {
+            None => true,
+            Some(_) if part == RobotPart::Base => base,
+            Some(joints) => robot.has_joint(part, joints),
+        };
+        let moves = |goal: &&Goal| !matches!(robot.conduct(goal.part), Conduct::Mute);
+        let mut goals = robot.goals.iter().filter(moves);
+        !goals.any(|goal| is_meant(goal.part))
     }
 
     fn look(&mut self, type_name: &str, name: &str) -> GoalTicket {

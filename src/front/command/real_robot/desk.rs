@@ -29,6 +29,12 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(2);
 const QUEUE: Duration = Duration::from_secs(60);
 /// How long the camera may take to answer.
 const SIGHT: Duration = Duration::from_secs(10);
+/// How long after they are sent goals of several parts begin, so that all servers have accepted them before.
+const TOGETHER: Duration = Duration::from_millis(500);
+/// How long before that it is decided whether they have: a cancellation takes its time, too.
+const CANCELLING: Duration = Duration::from_millis(150);
+/// By how much (s) what is known of how far the robot's clock is ahead becomes less with each message.
+const DRIFT: f64 = 1e-4;
 /// A clock that jumps by more than this has jumped.
 const JUMP: f64 = 1.0;
 /// The time over which the velocity of the base is measured.
@@ -38,8 +44,8 @@ const GOODBYE: Duration = Duration::from_secs(2);
 
 /// What a session wants.
 pub(super) enum Order {
-    /// A goal for a part, which may take so long.
-    Goal(u64, RobotPart, PartGoal, Duration),
+    /// Goals for parts that are to begin together.
+    Goals(Vec<Wanted>),
     /// The end of a goal.
     Cancel(u64),
     /// What the camera sees of a type and a name.
@@ -66,11 +72,30 @@ struct Part {
     client: ActionClient,
 }
 
+/// A goal that the session wants to be sent.
+pub(super) struct Wanted {
+    pub(super) ticket: u64,
+    pub(super) part: RobotPart,
+    pub(super) goal: PartGoal,
+    /// How long it may take.
+    pub(super) time_out: Duration,
+}
+
+/// Goals that wait for their servers.
+struct Waiting {
+    goals: Vec<Wanted>,
+    since: Duration,
+}
+
 /// A goal of the session that has not ended.
 struct Running {
     ticket: u64,
     part: usize,
     id: GoalId,
+    /// Until when its server has to accept it, and the first of the goals that begin with it.
+    together: Option<(Duration, u64)>,
+    /// Why it was given up, if this program has done that.
+    verdict: Option<RobotTrouble>,
 }
 
 /// A question to the camera.
@@ -90,6 +115,7 @@ pub(super) struct Desk {
     transforms: TopicReader,
     still_transforms: TopicReader,
     joint_states: Vec<TopicReader>,
+    waiting: Vec<Waiting>,
     running: Vec<Running>,
     questions: Vec<Question>,
     interface: RobotInterface,
@@ -101,6 +127,9 @@ pub(super) struct Desk {
     own_clock: Option<f64>,
     /// The latter for each topic of joint states.
     robot_clocks: Vec<Option<f64>>,
+    /// By how much (s) the robot's clock is ahead of the one that never jumps: most of what was heard lately, since messages
+    /// take their time.
+    ahead: Option<f64>,
     /// The topics of which has been told that they cannot be heard.
     remarked: Vec<String>,
     looked: Duration,
@@ -113,6 +142,8 @@ pub(super) struct Desk {
 pub(super) struct Signals {
     /// The robot is to stop: from a handler of Ctrl-C, which resets nothing.
     pub(super) halt: Arc<AtomicBool>,
+    /// The robot has no goals; for others to read.
+    pub(super) is_idle: Arc<AtomicBool>,
     /// The evaluation is interrupted; the session resets it.
     pub(super) interrupt: Arc<AtomicBool>,
     /// The work ends.
@@ -158,6 +189,7 @@ impl Desk {
             transforms,
             still_transforms,
             joint_states: joint_states.collect::<Result<_, _>>()?,
+            waiting: Vec::new(),
             running: Vec::new(),
             questions: Vec::new(),
             interface: interface.clone(),
@@ -167,6 +199,7 @@ impl Desk {
             begin,
             own_clock: None,
             robot_clocks: vec![None; interface.joint_states.len()],
+            ahead: None,
             remarked: Vec::new(),
             looked: Duration::ZERO,
             oddities: 0,
@@ -199,6 +232,8 @@ impl Desk {
             }
             was_interrupted = interrupt;
             self.speak(now);
+            let is_idle = !self.may_run() && self.waiting.is_empty();
+            signals.is_idle.store(is_idle, Ordering::Relaxed);
             self.ask_camera(now);
             self.remark(now);
             thread::sleep(BETWEEN_LOOKS);
@@ -206,10 +241,15 @@ impl Desk {
         self.say_goodbye();
     }
 
+    /// Whether the robot may be carrying something out.
+    fn may_run(&self) -> bool {
+        self.parts.iter().any(|part| part.client.may_run())
+    }
+
     fn say_goodbye(&mut self) {
         let begin = self.begin.elapsed();
         self.cancel_all(begin);
-        while self.parts.iter().any(|part| part.client.may_run()) {
+        while self.may_run() {
             let now = self.begin.elapsed();
             if now.saturating_sub(begin) > GOODBYE {
                 let running = self.parts.iter().filter(|part| part.client.may_run());
@@ -226,6 +266,9 @@ impl Desk {
     }
 
     fn cancel_all(&mut self, now: Duration) {
+        for waiting in std::mem::take(&mut self.waiting) {
+            self.give_up(waiting, None);
+        }
         for goal in &self.running {
             if let Some(part) = self.parts.get_mut(goal.part) {
                 part.client.cancel(&goal.id, now);
@@ -235,35 +278,14 @@ impl Desk {
 
     fn take(&mut self, order: Order, now: Duration) {
         match order {
-            Order::Goal(ticket, part, goal, time_out) => {
-                let of = self
-                    .parts
-                    .iter()
-                    .position(|known| known.interface.part == part);
-                let Some(of) = of else {
-                    let text = format!("the robot has no action for the part {}", part.name());
-                    let trouble = Some(RobotTrouble::NotPossible(text));
-                    let end = RobotEnd {
-                        trouble,
-                        ..RobotEnd::default()
-                    };
-                    lock(&self.shared).ends.insert(ticket, end);
-                    return;
-                };
-                let message = goal_message(&goal, &self.interface.map, &self.camera);
-                let patience = Patience {
-                    server: seconds(self.interface.server_time_out),
-                    queue: QUEUE,
-                    result: time_out,
-                };
-                let id = self.parts[of].client.send(message, patience, now);
-                self.running.push(Running {
-                    ticket,
-                    part: of,
-                    id,
-                });
-            }
+            Order::Goals(goals) => self.waiting.push(Waiting { goals, since: now }),
             Order::Cancel(ticket) => {
+                let is_it =
+                    |waiting: &Waiting| waiting.goals.iter().any(|goal| goal.ticket == ticket);
+                if let Some(place) = self.waiting.iter().position(is_it) {
+                    let waiting = self.waiting.remove(place);
+                    self.give_up(waiting, None);
+                }
                 for goal in self.running.iter().filter(|goal| goal.ticket == ticket) {
                     if let Some(part) = self.parts.get_mut(goal.part) {
                         part.client.cancel(&goal.id, now);
@@ -282,20 +304,141 @@ impl Desk {
         }
     }
 
+    /// Ends goals of which none was sent.
+    fn give_up(&self, waiting: Waiting, trouble: Option<RobotTrouble>) {
+        for goal in waiting.goals {
+            let end = RobotEnd {
+                is_cancelled: trouble.is_none(),
+                trouble: trouble.clone(),
+                ..RobotEnd::default()
+            };
+            lock(&self.shared).ends.insert(goal.ticket, end);
+        }
+    }
+
+    /// Sends goals whose servers are all there, each of them once.
+    fn send_waiting(&mut self, now: Duration) {
+        for waiting in std::mem::take(&mut self.waiting) {
+            let place = |goal: &Wanted| {
+                let mut parts = self.parts.iter();
+                parts.position(|part| part.interface.part == goal.part)
+            };
+            let places: Option<Vec<usize>> = waiting.goals.iter().map(place).collect();
+            let Some(places) = places else {
+                let unknown = waiting.goals.iter().find(|goal| place(goal).is_none());
+                let part = unknown.map_or("", |goal| goal.part.name());
+                let text = format!("the robot has no action for the part {part}");
+                self.give_up(waiting, Some(RobotTrouble::NotPossible(text)));
+                continue;
+            };
+            let mut trouble = None;
+            let waited = now.saturating_sub(waiting.since).as_secs_f64();
+            for part in places.iter().filter_map(|place| self.parts.get(*place)) {
+                let name = part.interface.name.clone();
+                match part.client.servers() {
+                    1 => {}
+                    0 => trouble = Some(RobotTrouble::Unserved { name, waited }),
+                    servers => {
+                        trouble = Some(RobotTrouble::Contested {
+                            name,
+                            servers,
+                            waited,
+                        });
+                    }
+                }
+            }
+            match trouble {
+                None => self.send(waiting.goals, &places, now),
+                Some(_) if waited < self.interface.server_time_out => self.waiting.push(waiting),
+                trouble => self.give_up(waiting, trouble),
+            }
+        }
+    }
+
+    /// Sends goals. Trajectories of several parts have a stamp, so that these begin together after all were accepted.
+    fn send(&mut self, goals: Vec<Wanted>, places: &[usize], now: Duration) {
+        let follows = |goal: &Wanted| matches!(goal.goal, PartGoal::Follow { .. });
+        let is_group = goals.len() > 1 && goals.iter().all(follows);
+        let is_free = self.running.is_empty();
+        // A server that carries out one goal after the other would find the stamp out of date behind others.
+        let ahead = self.ahead.filter(|_| is_group && is_free);
+        let stamp = ahead.and_then(|ahead| {
+            let stamp = (now + TOGETHER).as_secs_f64() + ahead;
+            Duration::try_from_secs_f64(stamp).ok()
+        });
+        let first = goals.first().map_or(0, |goal| goal.ticket);
+        let together = stamp.map(|_| (now + TOGETHER, first));
+        for (wanted, place) in goals.into_iter().zip(places) {
+            let Some(part) = self.parts.get_mut(*place) else {
+                continue;
+            };
+            let stamp = stamp.unwrap_or_default();
+            let message = goal_message(&wanted.goal, &self.interface.map, &self.camera, stamp);
+            let patience = Patience {
+                server: seconds(self.interface.server_time_out),
+                queue: QUEUE,
+                result: wanted.time_out + stamp_time(together.is_some()),
+            };
+            let id = part.client.send(message, patience, now);
+            self.running.push(Running {
+                ticket: wanted.ticket,
+                part: *place,
+                id,
+                together,
+                verdict: None,
+            });
+        }
+    }
+
+    /// Gives up all goals that were to begin together if one of them was not accepted by then.
+    fn keep_together(&mut self, now: Duration) {
+        let mut apart: Vec<(u64, RobotTrouble)> = Vec::new();
+        for goal in &self.running {
+            let (Some((begin, first)), Some(part)) = (goal.together, self.parts.get(goal.part))
+            else {
+                continue;
+            };
+            let name = part.interface.name.clone();
+            // A margin, so that what is cancelled has not begun.
+            if now + CANCELLING >= begin && !part.client.is_accepted(&goal.id) {
+                apart.push((first, RobotTrouble::Apart { name }));
+            }
+        }
+        for goal in &mut self.running {
+            let Some((begin, first)) = goal.together else {
+                continue;
+            };
+            let trouble = apart.iter().find(|(known, _)| *known == first);
+            if let (Some((_, trouble)), Some(part)) = (trouble, self.parts.get_mut(goal.part)) {
+                goal.verdict = Some(trouble.clone());
+                part.client.cancel(&goal.id, now);
+            }
+            if now + CANCELLING >= begin {
+                goal.together = None;
+            }
+        }
+    }
+
     /// Sends and hears what concerns goals.
     fn speak(&mut self, now: Duration) {
+        self.send_waiting(now);
         for part in &mut self.parts {
             part.client.poll(now);
         }
+        self.keep_together(now);
         let (parts, shared) = (&self.parts, &self.shared);
-        self.running.retain(|goal| {
+        self.running.retain_mut(|goal| {
             let Some(part) = parts.get(goal.part) else {
                 return false;
             };
             let Some(end) = part.client.end(&goal.id) else {
                 return true;
             };
-            let end = end_of(&part.interface.name, part.interface.part, end);
+            let mut end = end_of(&part.interface.name, part.interface.part, end);
+            if let Some(verdict) = goal.verdict.take() {
+                end.is_cancelled = false;
+                end.trouble = Some(verdict);
+            }
             lock(shared).ends.insert(goal.ticket, end);
             false
         });
@@ -321,7 +464,11 @@ impl Desk {
         for (topic, clock) in self.joint_states.iter().zip(&mut self.robot_clocks) {
             while let Some(message) = topic.take() {
                 if let Some(stamp) = stamp(&message) {
-                    let robot = jumps(clock, stamp - now.as_secs_f64());
+                    let ahead = stamp - now.as_secs_f64();
+                    let robot = jumps(clock, ahead);
+                    let known = self.ahead.filter(|_| robot.is_none());
+                    let known = known.map_or(ahead, |known| known - DRIFT);
+                    self.ahead = Some(known.max(ahead));
                     has_jumped = has_jumped.or(robot.map(|by| ("of the robot", by)));
                 }
                 shared.joints.hear(&message, now);
@@ -465,6 +612,15 @@ impl Desk {
                 self.remarked.push(name);
             }
         }
+    }
+}
+
+/// How much longer a goal takes that begins together with others.
+fn stamp_time(is_together: bool) -> Duration {
+    if is_together {
+        TOGETHER
+    } else {
+        Duration::ZERO
     }
 }
 

@@ -48,14 +48,20 @@ impl Told {
         from_xy_yaw(at.x, at.y, yaw(&self.state.base))
     }
 
-    /// Whether the robot is where it was when it told that.
-    pub(super) fn is_as(&self, before: &Told) -> bool {
+    /// Whether parts of the robot are where they were when it told that.
+    pub(super) fn is_as(&self, before: &Told, is_meant: impl Fn(RobotPart) -> bool) -> bool {
         let [now, then] = [self.base(), before.base()];
         let way = (now.translation.vector - then.translation.vector).norm();
         let turn = trig::wrap(yaw(&now) - yaw(&then)).abs();
+        let base = match is_meant(RobotPart::Base) {
+            true => way.max(turn),
+            false => 0.0,
+        };
+        let parts = self.joints.iter().map(|(part, _)| is_meant(*part));
         let pairs = self.state.joints.iter().zip(&before.state.joints);
-        let farthest = pairs.map(|(now, then)| (now - then).abs());
-        farthest.fold(way.max(turn), f64::max) <= STEP
+        let meant = pairs.zip(parts).filter(|(_, is_meant)| *is_meant);
+        let farthest = meant.map(|((now, then), _)| (now - then).abs());
+        farthest.fold(base, f64::max) <= STEP
     }
 
     /// Where a joint is (rad or m).

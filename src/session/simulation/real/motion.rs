@@ -4,9 +4,9 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use super::belief::Told;
-use super::goals::{Order, orders};
-use super::trial::try_motion;
-use super::{Query, RobotAccess, SharedRobot, check, sight};
+use super::goals::{Order, joints_of, orders, untried};
+use super::trial::{Misfit, try_motion};
+use super::{Query, RobotAccess, SharedRobot, UnderWay, check, sight};
 use crate::outside::{GoalTicket, RobotEnd};
 use robotics::motion::{
     Motion, MotionFailure, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
@@ -31,6 +31,8 @@ pub(super) struct RealMotion {
     query: Query,
     robot: SharedRobot,
     stage: Stage,
+    /// Whether it is to begin only when nothing else is under way, since it does not go together with what was.
+    waits_for_all: bool,
 }
 
 enum Stage {
@@ -97,6 +99,7 @@ impl RealMotion {
             query,
             robot,
             stage: Stage::Begin(None),
+            waits_for_all: false,
         }
     }
 
@@ -122,11 +125,18 @@ impl RealMotion {
 
     /// Hears how the robot is, tries the motion, and sends its goals.
     fn begin(&mut self, world: &mut World, since: Option<Duration>) -> MotionStatus {
-        // What is tried alone is carried out alone.
-        if !self.robot.busy.borrow().is_empty() {
+        let must_wait = match self.waits_for_all {
+            true => !self.robot.is_idle(),
+            false => self.robot.must_wait(self.module),
+        };
+        let companions = match must_wait {
+            true => None,
+            false => self.robot.companions(),
+        };
+        let Some(companions) = companions else {
             self.stage = Stage::Begin(None);
             return MotionStatus::Running;
-        }
+        };
         let now = self.now();
         let since = since.unwrap_or(now);
         self.stage = Stage::Begin(Some(since));
@@ -143,7 +153,10 @@ impl RealMotion {
                 return self.fail(self.failure(trouble));
             }
         };
-        told.believe(world, |_| true, self.closed());
+        let robot = Rc::clone(&self.robot);
+        // What moves already is followed by the motions here that belong to it.
+        let is_free = |part| !robot.is_busy(part);
+        told.believe(world, is_free, self.closed());
         if let Some(query) = &self.query {
             let one = match query.types.as_slice() {
                 [one] => one.as_str(),
@@ -162,19 +175,37 @@ impl RealMotion {
             return self.fail(self.failure(RobotTrouble::NotPossible(text)));
         };
         let (tried, here) = copies;
-        let trial = match try_motion(world, tried) {
-            Ok(trial) => trial,
+        if let Some(order) =
+            untried(world, self.original.as_ref()).filter(|_| !robot.is_tried.get())
+        {
+            // Where it ends is believed when it has ended.
+            return self.send(vec![order], None, MotionOutcome::Arrived, world.clone());
+        }
+        let is_alone = companions.is_empty();
+        // Others may be slower than they were tried, or take another way.
+        let is_apart = |world: &World| {
+            let alone = self.original.copied();
+            is_alone || alone.is_some_and(|alone| try_motion(world, alone, Vec::new()).is_ok())
+        };
+        let trial = match try_motion(world, tried, companions) {
+            Ok(trial) if is_apart(world) => trial,
             // What fails here is not tried in earnest.
-            Err(failure) => return self.fail(failure),
+            Err(Misfit::Fails(failure)) if is_alone => return self.fail(failure),
+            _ => {
+                self.waits_for_all = true;
+                self.stage = Stage::Begin(None);
+                return MotionStatus::Running;
+            }
         };
         let turns = |joint| told.turns(joint, world);
-        let orders = match orders(world, self.original.as_ref(), &trial, turns) {
+        let is_busy = |part| robot.is_busy(part);
+        let orders = match orders(world, self.original.as_ref(), &trial, turns, is_busy) {
             Ok(orders) => orders,
             Err(trouble) => return self.fail(self.failure(trouble)),
         };
         // Trying may have taken a while.
         let trouble = match Told::now(&self.robot, world) {
-            Ok(now) if now.is_as(&told) => None,
+            Ok(now) if now.is_as(&told, is_free) => None,
             Ok(_) => {
                 self.stage = Stage::Begin(Some(since));
                 let waited = self.now().saturating_sub(since).as_secs_f64();
@@ -190,35 +221,56 @@ impl RealMotion {
         if let Some(trouble) = trouble {
             return self.fail(self.failure(trouble));
         }
-        let mut sent = Vec::new();
-        for order in orders {
+        let here = trial.begun.or(Some(here));
+        self.send(orders, here, trial.outcome, trial.world)
+    }
+
+    /// Sends goals, so that something moves.
+    fn send(
+        &mut self,
+        orders: Vec<Order>,
+        here: Option<Box<dyn Motion>>,
+        outcome: MotionOutcome,
+        end: World,
+    ) -> MotionStatus {
+        let mut goals = Vec::new();
+        let mut interfaces = Vec::new();
+        for order in &orders {
             let part = order.part;
             let Some(interface) = self.robot.interface.part(part).cloned() else {
                 let text = format!("there is no action for the part {}", part.name());
                 return self.fail(self.failure(RobotTrouble::NotPossible(text)));
             };
-            sent.push((order, interface));
+            let time_out = interface.time_out + order.goal.duration();
+            goals.push((part, order.goal.clone(), time_out));
+            interfaces.push(interface);
         }
         // Only now does anything move.
-        let sent = sent.into_iter().map(|(order, interface)| {
-            let time_out = interface.time_out + order.goal.duration();
-            let mut link = self.robot.link.borrow_mut();
-            let ticket = link.send(order.part, &order.goal, time_out);
-            self.robot.busy.borrow_mut().push(order.part);
-            Sent {
-                order,
-                interface,
-                ticket,
-                end: None,
-                since: link.now(),
-                time_out,
-            }
+        let tickets = self.robot.link.borrow_mut().send(&goals);
+        let since = self.now();
+        // What moves nothing keeps nobody waiting.
+        if !orders.is_empty() {
+            self.robot.under_way.borrow_mut().push(UnderWay {
+                module: self.module,
+                parts: orders.iter().map(|order| order.part).collect(),
+                copy: None,
+            });
+        }
+        let goals = goals.into_iter().zip(tickets).zip(interfaces);
+        let sent = orders.into_iter().zip(goals);
+        let sent = sent.map(|(order, (((_, _, time_out), ticket), interface))| Sent {
+            order,
+            interface,
+            ticket,
+            end: None,
+            since,
+            time_out,
         });
         self.stage = Stage::Moving(Box::new(Moving {
             sent: sent.collect(),
-            here: trial.begun.or(Some(here)),
-            outcome: trial.outcome,
-            end: trial.world,
+            here,
+            outcome,
+            end,
             reported: None,
             is_checked: false,
         }));
@@ -272,6 +324,8 @@ impl RealMotion {
                 MotionStatus::Failed(failure) => return Err(failure),
             }
         }
+        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
+        self.robot.leave_copy(&parts, moving.here.as_deref());
         let is_reported = moving.sent.iter().all(|sent| sent.end.is_some());
         if !is_reported || moving.is_stopped() {
             return Ok(None);
@@ -301,7 +355,6 @@ impl RealMotion {
         if moving.here.is_some() {
             return Ok(None);
         }
-        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
         told.believe(world, |part| parts.contains(&part), self.closed());
         Ok(Some(moving.outcome.clone()))
     }
@@ -368,7 +421,20 @@ impl RealMotion {
             sent.end = link.end(sent.ticket);
         }
         let has_ended = sent.iter().all(|sent| sent.end.is_some());
-        let stands = has_ended && link.stands_still();
+        let parts: Vec<RobotPart> = sent.iter().map(|sent| sent.order.part).collect();
+        let under_way = robot.under_way.borrow();
+        let is_other = |other: &UnderWay| !other.parts.iter().any(|part| parts.contains(part));
+        // What others let move may go on.
+        let is_alone = !under_way.iter().any(is_other);
+        drop(under_way);
+        let models = world.models();
+        let joints = parts.iter().flat_map(|part| joints_of(models, *part));
+        let joints: Vec<&str> = joints
+            .map(|joint| models.robot.joint(joint).name.as_str())
+            .collect();
+        let joints = (!is_alone).then_some(joints.as_slice());
+        let base = is_alone || parts.contains(&RobotPart::Base);
+        let stands = has_ended && link.stands_still(joints, base);
         if !stands && now.saturating_sub(*since) < STOPPING {
             return false;
         }
@@ -395,9 +461,8 @@ impl RealMotion {
                  Use the emergency stop if it moves."
             ));
         }
-        let parts: Vec<RobotPart> = sent.iter().map(|sent| sent.order.part).collect();
         drop(link);
-        robot.busy.borrow_mut().retain(|part| !parts.contains(part));
+        robot.free(&parts);
         if let Ok(told) = Told::now(&robot, world) {
             told.believe(world, |part| parts.contains(&part), self.closed());
         }
@@ -407,8 +472,7 @@ impl RealMotion {
     /// The parts that this motion uses are free again.
     fn free(&self, moving: &Moving) {
         let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
-        let mut busy = self.robot.busy.borrow_mut();
-        busy.retain(|part| !parts.contains(part));
+        self.robot.free(&parts);
     }
 }
 
@@ -543,6 +607,7 @@ impl Motion for RealMotion {
                 query: self.query.clone(),
                 robot: Rc::clone(&self.robot),
                 stage: Stage::Begin(*since),
+                waits_for_all: self.waits_for_all,
             })),
             _ => None,
         }
@@ -562,8 +627,7 @@ impl Drop for RealMotion {
             if sent.end.is_none() {
                 robot.link.borrow_mut().cancel(sent.ticket);
             }
-            let part = sent.order.part;
-            robot.busy.borrow_mut().retain(|known| *known != part);
+            robot.free(&[sent.order.part]);
         }
     }
 }
