@@ -18,6 +18,7 @@ from actions import FOLLOW, NAVIGATE, CancelRequest, CancelResponse, GoalInfo, G
 from checks import check
 
 PROGRAM = sys.argv[1]
+DOMAIN = int(os.environ.get("ROS_DOMAIN_ID", 77))
 ACCEPTED, EXECUTING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 4, 5, 6
 NOW = ros.Time(0, 0)
 
@@ -26,7 +27,7 @@ class Liar:
     """A server that does nothing by itself."""
 
     def __init__(self, name="lying_base", kind=NAVIGATE):
-        self.participant = participant = DomainParticipant(77)
+        self.participant = participant = DomainParticipant(DOMAIN)
         self.kind = kind
         inner = f"{name}/_action/"
 
