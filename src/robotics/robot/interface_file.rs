@@ -100,3 +100,61 @@ fn full_name(node: Node<'_>) -> Result<String, DataError> {
         false => Ok(format!("/{name}")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sexp::DataFile;
+
+    const KEYS: &[&str] = &[
+        "name",
+        "names",
+        "time-out",
+        "tolerance",
+        "turn-tolerance",
+        "max-age",
+    ];
+
+    fn read(text: &str) -> Result<RobotInterface, String> {
+        let file = DataFile::read(text, "robot.sexp").unwrap();
+        let records = file
+            .nodes()
+            .map(|node| node.record("record", &[("interface", KEYS)]));
+        let records = records.collect::<Result<Vec<_>, _>>().unwrap();
+        interface(records.iter()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_a_record_leaves_out_stays() {
+        let interface =
+            read("(interface base :name go :time-out 3)\n(interface map :max-age 2)").unwrap();
+        let base = interface.part(RobotPart::Base).unwrap();
+        assert_eq!(
+            (base.name.as_str(), base.time_out, base.tolerance),
+            ("/go", 3.0, 0.05)
+        );
+        assert_eq!(
+            (interface.map.as_str(), interface.max_frame_age),
+            ("map", 2.0)
+        );
+    }
+
+    #[test]
+    fn keys_that_mean_nothing_are_refused_where_they_stand() {
+        let wrong = |text| read(text).unwrap_err();
+        assert_eq!(
+            wrong("(interface torso :name /lift)\n(interface base :max-age 1)"),
+            "robot.sexp:2:26: (interface base …) has no key :max-age; it knows :name :time-out :tolerance :turn-tolerance"
+        );
+        assert!(
+            wrong("(interface server :name /x)").contains("(interface server …) has no key :name")
+        );
+        assert!(wrong("(interface joint-states :name /x)").contains("did you mean :names?"));
+        assert!(wrong("(interface neck :tolerance 1)").contains("has no key :tolerance"));
+        assert!(
+            wrong("(interface map :max-age 1)\n(interface map :max-age 1)")
+                .contains("robot.sexp:2")
+        );
+        assert!(wrong("(interface leg :name /x)").contains("no part named leg"));
+    }
+}

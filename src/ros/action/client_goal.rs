@@ -621,4 +621,27 @@ mod tests {
         goal.result(0, nothing(), ms(100));
         assert_eq!(goal.end(), Some(&ClientEnd::Forgotten));
     }
+
+    #[test]
+    fn a_result_that_is_lost_is_asked_for_again_once_the_server_says_that_the_goal_has_ended() {
+        let mut goal = accepted();
+        goal.status(GoalState::Executing as i64, ms(20));
+        assert_eq!(goal.next(ms(3_000)), []);
+        goal.status(GoalState::Succeeded as i64, ms(3_100));
+        assert_eq!(goal.next(ms(3_100)), [Ask::Result]);
+        assert_eq!(goal.next(ms(3_200)), []);
+        assert_eq!(goal.next(ms(3_700)), [Ask::Result]);
+        goal.result(GoalState::Succeeded as i64, nothing(), ms(3_800));
+        assert_eq!(goal.end(), Some(&ClientEnd::Succeeded(nothing())));
+    }
+
+    #[test]
+    fn a_goal_that_reports_how_far_it_is_waits_for_its_turn_no_longer() {
+        let mut goal = accepted();
+        goal.status(GoalState::Accepted as i64, ms(20));
+        goal.feedback(ms(30_000));
+        // A minute from then on.
+        assert_eq!(goal.next(ms(89_000)), []);
+        assert_eq!(goal.next(ms(90_100)), [Ask::Result, Ask::Cancel]);
+    }
 }
