@@ -171,7 +171,7 @@ impl Robot {
             } else {
                 0.02
             };
-            self.base = self.base * Pose::translation(way, 0.0, 0.0);
+            self.base *= Pose::translation(way, 0.0, 0.0);
         }
         let goals = std::mem::take(&mut self.goals);
         for goal in goals {
@@ -191,7 +191,7 @@ impl Robot {
             Conduct::Mute => return None,
             Conduct::Ends(end) => return (since > 0.1).then(|| end.clone()),
             Conduct::RunsAway => {
-                self.base = self.base * Pose::translation(1e-4, 0.0, 0.0);
+                self.base *= Pose::translation(1e-4, 0.0, 0.0);
                 return None;
             }
             _ => {}
