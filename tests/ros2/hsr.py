@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-from checks import check
+from checks import check, patient
 
 PROGRAM = sys.argv[1]
 PACE = 4
@@ -52,7 +52,7 @@ try:
             break
     check("/hsrb/move_base" in served, f"the robot serves {served}")
     plan = write("there.plan", PLAN.replace("(with-simulated-robot", "(with-real-robot"))
-    there = run(plan, f"--realtime={PACE}", "--real-robot")
+    there = run(plan, f"--realtime={PACE}", "--real-robot", *patient("world/hsr.sexp", scratch.name))
 finally:
     robot.send_signal(signal.SIGINT)
     robot.wait(timeout=20)

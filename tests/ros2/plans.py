@@ -13,7 +13,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
-from checks import check, timely
+from checks import check, patient, timely
 
 PROGRAM = sys.argv[1]
 # How much faster than real time robot and plan are.
@@ -62,6 +62,8 @@ class Run:
         with open(self.plan, "w", encoding="utf-8") as file:
             file.write(text)
         self.began = time.monotonic()
+        if "--real-robot" in options:
+            options = (*options, *patient("world/pr2.sexp", folder))
         self.process = subprocess.Popen(
             [PROGRAM, *options, "run", self.plan, "--episode", self.episode],
             stdout=subprocess.PIPE,

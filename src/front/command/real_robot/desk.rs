@@ -1,5 +1,8 @@
 //! Speaks with the robot, in a thread of its own: a session that thinks must not keep it waiting.
 
+mod camera;
+mod groups;
+
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -7,32 +10,23 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
-use super::super::robot::pose;
 use super::super::ros2::warn;
-use super::end::{end_of, shown};
-use super::goal_message::{action_of, goal_message};
+use super::end::end_of;
+use super::goal_message::action_of;
+use camera::Question;
+use groups::Waiting;
 use robotics::motion::RobotTrouble;
 use robotics::robot::{PartInterface, RobotInterface, RobotPart};
-use ros::action::{GoalId, Patience};
+use ros::action::GoalId;
 use ros::frames::Frames;
 use ros::joints::Joints;
-use ros::wire::{
-    ActionClient, Answer, Node, NodeError, Sequence, ServiceClient, TopicQos, TopicReader,
-};
+use ros::wire::{ActionClient, Node, NodeError, ServiceClient, TopicQos, TopicReader};
 use ros::{Value, service_type};
 use session::outside::{PartGoal, RobotEnd, SeenObject};
 use spatial::Pose;
 
 /// Real time between two looks at what has been sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(2);
-/// How long a goal may wait for its turn, where its server says that it does.
-const QUEUE: Duration = Duration::from_secs(60);
-/// How long the camera may take to answer.
-const SIGHT: Duration = Duration::from_secs(10);
-/// How long after they are sent goals of several parts begin, so that all servers have accepted them before.
-const TOGETHER: Duration = Duration::from_millis(500);
-/// How long before that it is decided whether they have: a cancellation takes its time, too.
-const CANCELLING: Duration = Duration::from_millis(150);
 /// By how much (s) what is known of how far the robot's clock is ahead becomes less with each message.
 const DRIFT: f64 = 1e-4;
 /// A clock that jumps by more than this has jumped.
@@ -81,12 +75,6 @@ pub(super) struct Wanted {
     pub(super) time_out: Duration,
 }
 
-/// Goals that wait for their servers.
-struct Waiting {
-    goals: Vec<Wanted>,
-    since: Duration,
-}
-
 /// A goal of the session that has not ended.
 struct Running {
     ticket: u64,
@@ -96,15 +84,6 @@ struct Running {
     together: Option<(Duration, u64)>,
     /// Why it was given up, if this program has done that.
     verdict: Option<RobotTrouble>,
-}
-
-/// A question to the camera.
-struct Question {
-    ticket: u64,
-    request: Value,
-    since: Duration,
-    /// When it was asked, and as which request.
-    asked: Option<(Duration, Sequence)>,
 }
 
 /// Speaks with the robot.
@@ -304,121 +283,6 @@ impl Desk {
         }
     }
 
-    /// Ends goals of which none was sent.
-    fn give_up(&self, waiting: Waiting, trouble: Option<RobotTrouble>) {
-        for goal in waiting.goals {
-            let end = RobotEnd {
-                is_cancelled: trouble.is_none(),
-                trouble: trouble.clone(),
-                ..RobotEnd::default()
-            };
-            lock(&self.shared).ends.insert(goal.ticket, end);
-        }
-    }
-
-    /// Sends goals whose servers are all there, each of them once.
-    fn send_waiting(&mut self, now: Duration) {
-        for waiting in std::mem::take(&mut self.waiting) {
-            let place = |goal: &Wanted| {
-                let mut parts = self.parts.iter();
-                parts.position(|part| part.interface.part == goal.part)
-            };
-            let places: Option<Vec<usize>> = waiting.goals.iter().map(place).collect();
-            let Some(places) = places else {
-                let unknown = waiting.goals.iter().find(|goal| place(goal).is_none());
-                let part = unknown.map_or("", |goal| goal.part.name());
-                let text = format!("the robot has no action for the part {part}");
-                self.give_up(waiting, Some(RobotTrouble::NotPossible(text)));
-                continue;
-            };
-            let mut trouble = None;
-            let waited = now.saturating_sub(waiting.since).as_secs_f64();
-            for part in places.iter().filter_map(|place| self.parts.get(*place)) {
-                let name = part.interface.name.clone();
-                match part.client.servers() {
-                    1 => {}
-                    0 => trouble = Some(RobotTrouble::Unserved { name, waited }),
-                    servers => {
-                        trouble = Some(RobotTrouble::Contested {
-                            name,
-                            servers,
-                            waited,
-                        });
-                    }
-                }
-            }
-            match trouble {
-                None => self.send(waiting.goals, &places, now),
-                Some(_) if waited < self.interface.server_time_out => self.waiting.push(waiting),
-                trouble => self.give_up(waiting, trouble),
-            }
-        }
-    }
-
-    /// Sends goals. Trajectories of several parts have a stamp, so that these begin together after all were accepted.
-    fn send(&mut self, goals: Vec<Wanted>, places: &[usize], now: Duration) {
-        let follows = |goal: &Wanted| matches!(goal.goal, PartGoal::Follow { .. });
-        let is_group = goals.len() > 1 && goals.iter().all(follows);
-        let is_free = self.running.is_empty();
-        // A server that carries out one goal after the other would find the stamp out of date behind others.
-        let ahead = self.ahead.filter(|_| is_group && is_free);
-        let stamp = ahead.and_then(|ahead| {
-            let stamp = (now + TOGETHER).as_secs_f64() + ahead;
-            Duration::try_from_secs_f64(stamp).ok()
-        });
-        let first = goals.first().map_or(0, |goal| goal.ticket);
-        let together = stamp.map(|_| (now + TOGETHER, first));
-        for (wanted, place) in goals.into_iter().zip(places) {
-            let Some(part) = self.parts.get_mut(*place) else {
-                continue;
-            };
-            let stamp = stamp.unwrap_or_default();
-            let message = goal_message(&wanted.goal, &self.interface.map, &self.camera, stamp);
-            let patience = Patience {
-                server: seconds(self.interface.server_time_out),
-                queue: QUEUE,
-                result: wanted.time_out + stamp_time(together.is_some()),
-            };
-            let id = part.client.send(message, patience, now);
-            self.running.push(Running {
-                ticket: wanted.ticket,
-                part: *place,
-                id,
-                together,
-                verdict: None,
-            });
-        }
-    }
-
-    /// Gives up all goals that were to begin together if one of them was not accepted by then.
-    fn keep_together(&mut self, now: Duration) {
-        let mut apart: Vec<(u64, RobotTrouble)> = Vec::new();
-        for goal in &self.running {
-            let (Some((begin, first)), Some(part)) = (goal.together, self.parts.get(goal.part))
-            else {
-                continue;
-            };
-            let name = part.interface.name.clone();
-            // A margin, so that what is cancelled has not begun.
-            if now + CANCELLING >= begin && !part.client.is_accepted(&goal.id) {
-                apart.push((first, RobotTrouble::Apart { name }));
-            }
-        }
-        for goal in &mut self.running {
-            let Some((begin, first)) = goal.together else {
-                continue;
-            };
-            let trouble = apart.iter().find(|(known, _)| *known == first);
-            if let (Some((_, trouble)), Some(part)) = (trouble, self.parts.get_mut(goal.part)) {
-                goal.verdict = Some(trouble.clone());
-                part.client.cancel(&goal.id, now);
-            }
-            if now + CANCELLING >= begin {
-                goal.together = None;
-            }
-        }
-    }
-
     /// Sends and hears what concerns goals.
     fn speak(&mut self, now: Duration) {
         self.send_waiting(now);
@@ -500,99 +364,6 @@ impl Desk {
         }
     }
 
-    /// Asks the camera, and hears what it sees.
-    fn ask_camera(&mut self, now: Duration) {
-        let mut answers = Vec::new();
-        while let Some(answer) = self.perception.take() {
-            match answer {
-                Answer::To(sequence, value) => answers.push((sequence, Some(value))),
-                Answer::Unreadable(sequence) => answers.push((sequence, None)),
-                Answer::ToNobody => self.oddities_of_camera += 1,
-            }
-        }
-        let is_served = self.perception.is_served();
-        let mut questions = std::mem::take(&mut self.questions);
-        questions.retain_mut(|question| {
-            let name = || self.interface.perception.clone();
-            let end = match question.asked {
-                None => {
-                    if is_served {
-                        let sequence = self.perception.ask(&question.request);
-                        question.asked = sequence.map(|sequence| (now, sequence));
-                    }
-                    let waited = now.saturating_sub(question.since).as_secs_f64();
-                    let is_over =
-                        question.asked.is_none() && waited >= self.interface.server_time_out;
-                    is_over.then(|| {
-                        Err(RobotTrouble::Unserved {
-                            name: name(),
-                            waited,
-                        })
-                    })
-                }
-                Some((asked, sequence)) => {
-                    let answer = answers.iter().find(|(to, _)| *to == sequence);
-                    let waited = now.saturating_sub(asked);
-                    match answer {
-                        Some((_, answer)) => Some(self.seen(answer.as_ref(), now)),
-                        None if waited >= SIGHT => Some(Err(RobotTrouble::NoAnswer {
-                            name: name(),
-                            waited: waited.as_secs_f64(),
-                        })),
-                        None => None,
-                    }
-                }
-            };
-            match end {
-                None => true,
-                Some(end) => {
-                    lock(&self.shared).seen.insert(question.ticket, end);
-                    false
-                }
-            }
-        });
-        self.questions = questions;
-    }
-
-    /// The objects of an answer of the camera.
-    fn seen(&self, answer: Option<&Value>, now: Duration) -> Result<Vec<SeenObject>, RobotTrouble> {
-        let blind = |text: String| RobotTrouble::Blind {
-            name: self.interface.perception.clone(),
-            text,
-        };
-        let answer = answer.ok_or_else(|| blind("its answer cannot be read".to_owned()))?;
-        let error = answer.get("error").and_then(Value::as_text);
-        if let Some(error) = error.filter(|error| !error.trim().is_empty()) {
-            return Err(blind(shown(error)));
-        }
-        let objects = answer.get("objects").and_then(Value::as_list);
-        let objects = objects.unwrap_or_default().iter().map(|object| {
-            let text = |name| {
-                object
-                    .get(name)
-                    .and_then(Value::as_text)
-                    .unwrap_or_default()
-            };
-            let frame = object
-                .at(&["pose", "header", "frame_id"])
-                .and_then(Value::as_text);
-            let frame = frame.unwrap_or_default();
-            let pose = pose(object.at(&["pose", "pose"]));
-            let pose = pose
-                .ok_or_else(|| blind(format!("the pose of a {} is none", shown(text("type")))))?;
-            let max_age = seconds(self.interface.max_frame_age);
-            let frames = &lock(&self.shared).frames;
-            let carrier = frames.pose(frame, &self.interface.map, max_age, now);
-            let carrier = carrier.map_err(|error| blind(error.to_string()))?;
-            Ok(SeenObject {
-                type_name: text("type").to_owned(),
-                name: text("name").to_owned(),
-                pose: carrier * pose,
-            })
-        });
-        objects.collect()
-    }
-
     /// Tells of topics that cannot be heard.
     fn remark(&mut self, now: Duration) {
         if now.saturating_sub(self.looked) < Duration::from_millis(200) {
@@ -612,15 +383,6 @@ impl Desk {
                 self.remarked.push(name);
             }
         }
-    }
-}
-
-/// How much longer a goal takes that begins together with others.
-fn stamp_time(is_together: bool) -> Duration {
-    if is_together {
-        TOGETHER
-    } else {
-        Duration::ZERO
     }
 }
 
