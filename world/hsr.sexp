@@ -58,8 +58,14 @@
 (wheels base_r_drive_wheel_link base_l_drive_wheel_link)
 (idle-joints base_r_drive_wheel_joint base_l_drive_wheel_joint)
 
-; By which actions of ROS 2 programs outside drive the robot, where the names differ from those that are usual here. Time-outs
-; and tolerances that are not given are as in CRAM's process modules of the PR2. Not tried on the robot.
+; By which actions of ROS 2 programs outside drive the robot. Time-outs and tolerances that are not given are as in CRAM's process
+; modules of the PR2. The base is as CRAM's successor has it; the other names are those of controllers that offer the types of
+; action that planwright uses. Not tried on the robot.
 (interface base :name /hsrb/move_base :time-out 60 :tolerance 0.05 :turn-tolerance 0.1)
-(interface right-arm :name /arm_trajectory_controller/follow_joint_trajectory)
-(interface right-gripper :tolerance 0.003)
+(interface neck :name /head_controller/point_head_action :time-out 5)
+(interface right-arm :name /arm_trajectory_controller/follow_joint_trajectory :time-out 10 :tolerance 0.17)
+(interface right-gripper :name /right_gripper_controller/gripper_cmd :time-out 10 :tolerance 0.003)
+(interface map :name map :max-age 1)
+(interface joint-states :names (/joint_states) :max-age 0.5)
+(interface perception :name /detect_objects)
+(interface server :time-out 10)

@@ -80,7 +80,11 @@ pub static PACKAGES: &[PackageRow] = &[
     ),
     row("CRAM-PR2-PROJECTION", &["PR2-PROJ"], ""),
     row("CRAM-URDF-PROJECTION", &["URDF-PROJ"], ""),
-    row("CRAM-PR2-PROCESS-MODULES", &["PR2-PMS"], "WITH-REAL-ROBOT"),
+    row(
+        "CRAM-PR2-PROCESS-MODULES",
+        &["PR2-PMS"],
+        "WITH-REAL-ROBOT *PROSPECTION*",
+    ),
     row(
         "CRAM-MOBILE-PICK-PLACE-PLANS",
         &["PP-PLANS"],

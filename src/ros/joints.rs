@@ -164,7 +164,12 @@ impl Joints {
             .into_iter()
             .filter_map(|joint| self.joints.get(joint));
         let heard = heard.filter(|heard| now.saturating_sub(heard.at) <= max_age);
-        let velocities = heard.filter_map(|heard| Some(heard.velocity?.abs()));
+        // What is no number is not known to stand.
+        let speed = |velocity: f64| match velocity.is_nan() {
+            true => f64::INFINITY,
+            false => velocity.abs(),
+        };
+        let velocities = heard.filter_map(|heard| Some(speed(heard.velocity?)));
         velocities.reduce(f64::max)
     }
 }

@@ -34,6 +34,7 @@ mod published_code;
 mod putting_down;
 mod random_scenes;
 mod rays;
+mod real_robot;
 mod refusals;
 mod renamed_robot;
 mod searching;

@@ -104,6 +104,8 @@ tf = reader(participant, "rt/tf", ros.TFMessage, ros.reliable(1000))
 joints = reader(participant, "rt/joint_states", ros.JointState, ros.reliable(1000))
 sensors = reader(participant, "rt/joint_states", ros.JointState, ros.best_effort(1000))
 clock = reader(participant, "rt/clock", ros.Clock, ros.best_effort(1000))
+images = reader(participant, "rt/camera/image", ros.Image, ros.best_effort(5))
+infos = reader(participant, "rt/camera/camera_info", ros.CameraInfo, ros.best_effort(5))
 elsewhere = reader(DomainParticipant(0), "rt/tf", ros.TFMessage, ros.reliable(10))
 incompatible = reader(participant, "rt/tf", ros.TFMessage, ros.latched())
 
@@ -120,6 +122,7 @@ movable = {name for name, kind in kinds.items() if kind != "fixed"}
 
 heard = {"tf": [], "joints": [], "sensors": []}
 clocks = 0
+pictures, info = [], None
 end = time.monotonic() + SECONDS
 while time.monotonic() < end:
     for message in joints.take(1000):
@@ -136,6 +139,8 @@ while time.monotonic() < end:
         heard["tf"].append(stamps.pop())
         last_tf = message
     clocks += len(clock.take(1000))
+    pictures += images.take(10)
+    info = (infos.take(10) or [info])[-1]
     time.sleep(0.005)
 
 # What one topic has and another has not was lost; the first and the last messages may still be on their way.
@@ -152,6 +157,17 @@ for topic in ("joints", "tf"):
     timely(50 <= rate <= 100, f"{topic}: {rate}/s")
 timely(len(heard["sensors"]) > 0.9 * len(within), "a reader of best effort hears too little")
 timely(clocks > 0.9 * len(within), f"the clock was heard {clocks} times")
+rate = len(pictures) / SECONDS
+print(f"pictures: {len(pictures)} in {SECONDS:.1f} s ({rate:.1f}/s)")
+check(pictures and info, "the camera's pictures are not heard")
+timely(2 <= rate <= 6, f"pictures: {rate}/s")
+for picture in pictures:
+    check(picture.encoding == "rgb8" and picture.step == 3 * picture.width, f"a picture in {picture.encoding}")
+    check(len(picture.data) == picture.step * picture.height, f"a picture of {len(picture.data)} bytes")
+    check(len(set(picture.data)) > 30, "a picture shows nothing")
+check((info.width, info.height) == (picture.width, picture.height), "a camera of another size")
+check(info.k[2] == info.width / 2 and info.k[0] == info.k[4] > 50, f"the camera is {info.k}")
+check(len({bytes(picture.data) for picture in pictures}) > 2, "all pictures of a drive are the same")
 now = time.time_ns()
 timely(abs(now - max(stamps)) < 2e9, f"stamps are not of now: {now - max(stamps)} ns")
 
@@ -175,6 +191,7 @@ frames = {frame.child_frame_id: frame.header.frame_id for frame in [*still, *las
 check(len(frames) == len(still) + len(last_tf.transforms), "a frame has two parents")
 links = {link.get("name") for link in described.iter("link")}
 check(links <= set(frames), f"links without frames: {links - set(frames)}")
+check(picture.header.frame_id == info.header.frame_id in frames, f"pictures in {picture.header.frame_id}")
 for frame in frames:
     steps = 0
     while frame != "map":
@@ -188,9 +205,9 @@ check(wait(volatile, 0.5) is None, "who asks for nothing old gets something old"
 
 # The node is in the graph of nodes, with its topics.
 graph = reader(late, "ros_discovery_info", ros.ParticipantEntitiesInfo, ros.latched())
-info = wait(graph, 5, lambda info: len(info.node_entities_info_seq[0].writer_gid_seq) >= 8)
-check(info is not None, "the node is not announced with its topics")
-node = info.node_entities_info_seq[0]
+nodes = wait(graph, 5, lambda info: len(info.node_entities_info_seq[0].writer_gid_seq) >= 10)
+check(nodes is not None, "the node is not announced with its topics")
+node = nodes.node_entities_info_seq[0]
 check((node.node_namespace, node.node_name) == ("/", "planwright"), f"the node is {node}")
 
 # The robot arrives where it does without listeners, and is heard there.

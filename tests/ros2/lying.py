@@ -14,20 +14,22 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
-from actions import NAVIGATE, CancelRequest, CancelResponse, GoalInfo, GoalStatus, GoalStatusArray, RequestHeader
+from actions import FOLLOW, NAVIGATE, CancelRequest, CancelResponse, GoalInfo, GoalStatus, GoalStatusArray, RequestHeader
 from checks import check
 
 PROGRAM = sys.argv[1]
+DOMAIN = int(os.environ.get("ROS_DOMAIN_ID", 77))
 ACCEPTED, EXECUTING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 4, 5, 6
 NOW = ros.Time(0, 0)
 
 
 class Liar:
-    """A server of NavigateToPose that does nothing by itself."""
+    """A server that does nothing by itself."""
 
-    def __init__(self):
-        self.participant = participant = DomainParticipant(77)
-        inner = "lying_base/_action/"
+    def __init__(self, name="lying_base", kind=NAVIGATE):
+        self.participant = participant = DomainParticipant(DOMAIN)
+        self.kind = kind
+        inner = f"{name}/_action/"
 
         def read(part, kind):
             return DataReader(participant, Topic(participant, f"rq/{inner}{part}Request", kind), qos=ros.reliable(100))
@@ -35,13 +37,13 @@ class Liar:
         def write(topic, kind, qos=ros.reliable(100)):
             return DataWriter(participant, Topic(participant, topic, kind), qos=qos)
 
-        self.goals = read("send_goal", NAVIGATE["send_goal"])
-        self.accepting = write(f"rr/{inner}send_goalReply", NAVIGATE["accepted"])
-        self.asked = read("get_result", NAVIGATE["get_result"])
-        self.results = write(f"rr/{inner}get_resultReply", NAVIGATE["result"])
+        self.goals = read("send_goal", self.kind["send_goal"])
+        self.accepting = write(f"rr/{inner}send_goalReply", self.kind["accepted"])
+        self.asked = read("get_result", self.kind["get_result"])
+        self.results = write(f"rr/{inner}get_resultReply", self.kind["result"])
         self.cancels = read("cancel_goal", CancelRequest)
         self.cancelling = write(f"rr/{inner}cancel_goalReply", CancelResponse)
-        self.feedback = write(f"rt/{inner}feedback", NAVIGATE["feedback"])
+        self.feedback = write(f"rt/{inner}feedback", self.kind["feedback"])
         self.status = write(f"rt/{inner}status", GoalStatusArray, ros.latched())
 
     def wait(self, reader, seconds=20):
@@ -60,10 +62,10 @@ class Liar:
         return goal
 
     def accept(self, goal, accepted=True):
-        self.accepting.write(NAVIGATE["accepted"](goal.request, accepted, NOW))
+        self.accepting.write(self.kind["accepted"](goal.request, accepted, NOW))
 
     def result(self, request, status, code=0, text=""):
-        self.results.write(NAVIGATE["result"](request.request, status, code, text))
+        self.results.write(self.kind["result"](request.request, status, code, text))
 
     def tell(self, goal, status):
         self.status.write(GoalStatusArray([GoalStatus(GoalInfo(goal.goal_id, NOW), status)]))
@@ -87,7 +89,9 @@ description = os.path.join(scratch.name, "pr2.sexp")
 with open("world/pr2.sexp", encoding="utf-8") as file:
     text = file.read()
 text = text.replace("/navigate_to_pose :time-out 60", "/lying_base :time-out 2")
-text = text.replace("(interface server :time-out 10)", "(interface server :time-out 8)")
+for side in ("left", "right"):
+    text = text.replace(f"/{side}_arm_controller/follow_joint_trajectory", f"/lying_{side}")
+text = text.replace("(interface server :time-out 10)", "(interface server :time-out 3)")
 with open(description, "w", encoding="utf-8") as file:
     file.write(text)
 
@@ -129,17 +133,46 @@ try:
         if line.startswith("/detect_objects"):
             break
     tell("""(in-package :pp-tut)
+(defmacro told (&body body)
+  `(format t "~&FAILURE ~a~%"
+           (handler-case (progn (with-real-robot ,@body) "none")
+             (cram-common-failures:low-level-failure (failure)
+               (format nil "~a: ~a" (type-of failure) (substitute #\\Space #\\Newline (princ-to-string failure)))))))
 (defun drive ()
   (let ((?pose (make-pose "map" '((0.3 0 0) (0 0 0 1)))))
-    (format t "~&FAILURE ~a~%"
-            (handler-case (progn (with-real-robot (perform (a motion (type going) (target (a location (pose ?pose)))))) "none")
-              (cram-common-failures:low-level-failure (failure)
-                (format nil "~a: ~a" (type-of failure) (substitute #\\Space #\\Newline (princ-to-string failure))))))))
+    (told (perform (a motion (type going) (target (a location (pose ?pose))))))))
+(defun reach ()
+  (told (perform (a motion (type moving-arm-joints) (left-configuration (1.9 0.2 1.4 -1.8 1.3 -0.6 0.4))
+                                                    (right-configuration (-1.9 0.2 -1.4 -1.8 -1.3 -0.6 -0.4))))))
 """)
-    drive()
-    failure("no server", "NAVIGATION-LOW-LEVEL-FAILURE", "nobody serves /lying_base (waited 8 s)")
+    # Two arms begin together or not at all.
+    left = Liar("lying_left", FOLLOW)
+    tell("(reach)\n")
+    failure("one of two servers", "MANIPULATION-LOW-LEVEL-FAILURE", "nobody serves /lying_right (waited 3 s)")
+    check(left.wait(left.goals, 0.1) is None, "one arm has got its goal without the other")
+    right = Liar("lying_right", FOLLOW)
+    tell("(reach)\n")
+    goals = [left.goal(), right.goal()]
+    stamps = [goal.trajectory.header.stamp.nanoseconds() for goal in goals]
+    check(stamps[0] == stamps[1] > 1e9 * time.time(), f"the arms are not to begin together: {stamps}")
+    left.accept(goals[0])
+    check(left.is_cancelled(goals[0], 2), "an arm whose other one is not accepted is not cancelled")
+    check(1e9 * time.time() < stamps[0], "it is cancelled only after it has begun")
+    left.result(left.wait(left.asked), CANCELED, -4, "")
+    words = "/lying_right has not accepted its goal by when all parts were to begin together: all were cancelled"
+    failure("one of two accepted", "MANIPULATION-LOW-LEVEL-FAILURE", words)
+    right.accept(goals[1])
+    check(right.is_cancelled(goals[1]), "an arm that is accepted late is not cancelled")
+    del left, right
 
-    liar = Liar()
+    drive()
+    failure("no server", "NAVIGATION-LOW-LEVEL-FAILURE", "nobody serves /lying_base (waited 3 s)")
+
+    liar, other = Liar(), Liar()
+    drive()
+    failure("two servers", "NAVIGATION-LOW-LEVEL-FAILURE", "2 servers serve /lying_base: end all but one (waited 3 s)")
+    check(liar.wait(liar.goals, 0.1) is None, "a goal is sent to two servers")
+    del other
     drive()
     goal = liar.goal()
     liar.accept(goal, False)

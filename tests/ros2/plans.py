@@ -13,7 +13,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 import messages as ros
-from checks import check, timely
+from checks import check, patient, timely
 
 PROGRAM = sys.argv[1]
 # How much faster than real time robot and plan are.
@@ -62,6 +62,8 @@ class Run:
         with open(self.plan, "w", encoding="utf-8") as file:
             file.write(text)
         self.began = time.monotonic()
+        if "--real-robot" in options:
+            options = (*options, *patient("world/pr2.sexp", folder))
         self.process = subprocess.Popen(
             [PROGRAM, *options, "run", self.plan, "--episode", self.episode],
             stdout=subprocess.PIPE,
@@ -205,13 +207,13 @@ try:
         check(one.split(":")[0] == other.split(":")[0], f"another failure: {one} | {other}")
     check(len(here.lines("FAILURE")) == len(there.lines("FAILURE")) == 6, f"{here.output} {there.output}")
 
-    # Ctrl-C lets the robot stop; it does not move after that.
+    # Ctrl-C and `kill` let the robot stop; it does not move after that.
     away = """(in-package :pp-tut)
 (let ((?pose (make-pose "map" '((-1.447 -0.15 0) (0 0 -0.7071 0.7071)))))
   (with-real-robot (perform (a motion (type going) (target (a location (pose ?pose)))))))
 (format t "~&ARRIVED~%")
 """
-    for number in range(3):
+    for number, ending in enumerate((signal.SIGINT, signal.SIGTERM, signal.SIGINT)):
         before = robot.base()
         run = Run(scratch.name, f"stopped-{number}", away, f"--realtime={PACE}", "--real-robot")
         deadline = time.monotonic() + 30
@@ -220,15 +222,16 @@ try:
             if abs(x - before[0]) + abs(y - before[1]) > 0.05:
                 break
         check(time.monotonic() < deadline, "the robot does not begin to move")
-        run.process.send_signal(signal.SIGINT)
+        run.process.send_signal(ending)
         moved = robot.rests(2.5)
         run.end(20)
-        print(f"Ctrl-C: the robot stands after {1e3 * moved:.0f} ms")
-        timely(moved < 0.5, "the robot moves on after Ctrl-C")
-        check(moved < 2.0, "the robot moves on after Ctrl-C")
+        print(f"{ending.name}: the robot stands after {1e3 * moved:.0f} ms")
+        timely(moved < 0.5, f"the robot moves on after {ending.name}")
+        check(moved < 2.0, f"the robot moves on after {ending.name}")
         check("DOES NOT STAND STILL" not in run.output, run.output)
         check(not run.lines("ARRIVED"), "the plan goes on after Ctrl-C")
-        check(run.process.returncode != 0, "Ctrl-C is no success")
+        status = run.process.returncode
+        check(status == 143 if ending is signal.SIGTERM else status != 0, f"{ending.name} ends with status {status}")
 finally:
     robot.end()
 print("ROS 2: the plan on a robot in another process does what it does in simulation")

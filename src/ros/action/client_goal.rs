@@ -119,6 +119,8 @@ pub struct ClientGoal {
     is_late: bool,
     /// Since when the server says that the goal waits for its turn, if it does.
     queued: Option<Duration>,
+    /// Whether the server says that it has ended: a result that is not there yet may be lost.
+    has_ended: bool,
     /// How often, since when, and when last the server has told how far it is.
     told: u32,
     told_first: Duration,
@@ -142,6 +144,7 @@ impl ClientGoal {
             asked_end: None,
             is_late: false,
             queued: None,
+            has_ended: false,
             told: 0,
             told_first: now,
             told_last: now,
@@ -159,6 +162,11 @@ impl ClientGoal {
     /// Whether it may be forgotten: it has ended, and no late answer matters any more.
     pub fn is_over(&self, now: Duration) -> bool {
         self.end.is_some() && now.saturating_sub(self.ended_at) > REMEMBERED
+    }
+
+    /// Whether the server has accepted it, or it has ended.
+    pub fn is_accepted(&self) -> bool {
+        self.end.is_some() || self.stage == Stage::Accepted
     }
 
     /// Whether the server may be carrying it out.
@@ -238,6 +246,12 @@ impl ClientGoal {
         if self.stage != Stage::Accepted {
             return;
         }
+        let ends = [
+            GoalState::Succeeded,
+            GoalState::Aborted,
+            GoalState::Canceled,
+        ];
+        self.has_ended |= ends.map(|end| end as i64).contains(&status);
         match (status == GoalState::Accepted as i64, self.queued) {
             (true, None) => self.queued = Some(now),
             (false, Some(_)) => {
@@ -256,6 +270,10 @@ impl ClientGoal {
             }
             self.told += 1;
             self.told_last = now;
+            // Its turn has come, whatever became of the message about that.
+            if self.queued.take().is_some() {
+                self.since = now;
+            }
         }
     }
 
@@ -317,7 +335,7 @@ impl ClientGoal {
         let is_due =
             |asked: Option<Duration>| asked.is_none_or(|at| now.saturating_sub(at) >= AGAIN);
         // A server answers a request for a result when the goal has ended; asked again, it answers again.
-        let asks_again = self.wanted_end.is_some() && is_due(self.asked_result);
+        let asks_again = (self.wanted_end.is_some() || self.has_ended) && is_due(self.asked_result);
         if self.stage == Stage::Accepted && (self.asked_result.is_none() || asks_again) {
             self.asked_result = Some(now);
             asks.push(Ask::Result);
@@ -602,5 +620,28 @@ mod tests {
         let mut goal = accepted();
         goal.result(0, nothing(), ms(100));
         assert_eq!(goal.end(), Some(&ClientEnd::Forgotten));
+    }
+
+    #[test]
+    fn a_result_that_is_lost_is_asked_for_again_once_the_server_says_that_the_goal_has_ended() {
+        let mut goal = accepted();
+        goal.status(GoalState::Executing as i64, ms(20));
+        assert_eq!(goal.next(ms(3_000)), []);
+        goal.status(GoalState::Succeeded as i64, ms(3_100));
+        assert_eq!(goal.next(ms(3_100)), [Ask::Result]);
+        assert_eq!(goal.next(ms(3_200)), []);
+        assert_eq!(goal.next(ms(3_700)), [Ask::Result]);
+        goal.result(GoalState::Succeeded as i64, nothing(), ms(3_800));
+        assert_eq!(goal.end(), Some(&ClientEnd::Succeeded(nothing())));
+    }
+
+    #[test]
+    fn a_goal_that_reports_how_far_it_is_waits_for_its_turn_no_longer() {
+        let mut goal = accepted();
+        goal.status(GoalState::Accepted as i64, ms(20));
+        goal.feedback(ms(30_000));
+        // A minute from then on.
+        assert_eq!(goal.next(ms(89_000)), []);
+        assert_eq!(goal.next(ms(90_100)), [Ask::Result, Ask::Cancel]);
     }
 }

@@ -1,8 +1,10 @@
 //! The messages that a session sends.
 
+mod camera;
 mod marker;
 mod robot;
 
+pub use camera::{camera_info, image};
 pub use marker::{furniture_markers, object_markers};
 pub use robot::{clock, joint_states, moving_frames, still_frames, text};
 

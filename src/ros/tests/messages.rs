@@ -175,3 +175,27 @@ fn markers_begin_with_forgetting_all_earlier_ones() {
     assert_eq!((action(0), action(1)), (Some(3), Some(0)));
     assert!(markers.len() > 20, "{}", markers.len());
 }
+
+#[test]
+fn a_camera_is_told_by_its_focus_in_pixels() {
+    let camera = robotics::perception::Camera {
+        pose: Pose::identity(),
+        width: 320,
+        height: 200,
+        vertical_fov: std::f64::consts::FRAC_PI_2,
+        near: 0.1,
+        far: 10.0,
+    };
+    let info = message::camera_info(Duration::ZERO, "eye", &camera);
+    let matrix = info.get("k").and_then(Value::as_list).unwrap();
+    let matrix: Vec<f64> = matrix.iter().filter_map(Value::as_float).collect();
+    let wanted = [100.0, 0.0, 160.0, 0.0, 100.0, 100.0, 0.0, 0.0, 1.0];
+    let farthest = matrix.iter().zip(wanted).map(|(a, b)| (a - b).abs());
+    assert!(farthest.fold(0.0, f64::max) < 1e-9, "{matrix:?}");
+    let mut picture = view::picture::Image::filled(2, 1, [1, 2, 3]);
+    picture.set(1, 0, [4, 5, 6]);
+    let image = message::image(Duration::ZERO, "eye", &picture);
+    let data = image.get("data").and_then(Value::as_bytes);
+    assert_eq!(data, Some(&[1, 2, 3, 4, 5, 6][..]));
+    assert_eq!(image.get("step").and_then(Value::as_integer), Some(6));
+}

@@ -77,6 +77,22 @@ impl ActionClient {
         services.map(ServiceClient::is_served) == [true; 3]
     }
 
+    /// How many servers there are, with all that a goal needs.
+    pub fn servers(&self) -> usize {
+        let services = [&self.send_goal, &self.cancel_goal, &self.get_result];
+        let servers = services.map(ServiceClient::servers);
+        match servers.contains(&0) {
+            true => 0,
+            false => servers.into_iter().max().unwrap_or(0),
+        }
+    }
+
+    /// Whether the server has accepted a goal, or it has ended already.
+    pub fn is_accepted(&self, id: &GoalId) -> bool {
+        let sent = self.sent.iter().find(|sent| sent.id == *id);
+        sent.is_none_or(|sent| sent.goal.is_accepted())
+    }
+
     /// Sends a goal as soon as there is a server.
     pub fn send(&mut self, value: Value, patience: Patience, now: Duration) -> GoalId {
         let id = self.fresh_id();

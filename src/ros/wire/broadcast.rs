@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
+use super::camera_broadcast::{CameraBroadcast, CameraFollow};
 use super::node::{Node, NodeError, TopicQos, TopicWriter};
 use crate::message;
 use crate::scene_state::{SceneModel, SceneState};
@@ -54,10 +55,26 @@ impl Newest {
     }
 }
 
+/// Tells a person what is remarkable.
+#[derive(Clone)]
+pub(super) struct Remark(Arc<Mutex<dyn Fn(String) + Send>>);
+
+impl Remark {
+    /// Somebody listens to a topic who asks for more than it offers, by a policy of quality of service.
+    pub(super) fn of_listener(&self, topic: &str, policy: &str) {
+        let tell = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        tell(format!(
+            "somebody listens to {topic} in vain: the listener asks for more than is offered by \
+             quality of service ({policy})"
+        ));
+    }
+}
+
 /// A session that is sent. Ends when it is dropped.
 pub struct Broadcast {
     model: Arc<SceneModel>,
     newest: Newest,
+    _camera: CameraBroadcast,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -67,6 +84,7 @@ pub struct Follow {
     model: Arc<SceneModel>,
     newest: Newest,
     left: Option<Instant>,
+    camera: CameraFollow,
 }
 
 impl Broadcast {
@@ -85,13 +103,15 @@ impl Broadcast {
         topics
             .still_frames
             .send(&message::still_frames(now(), &model))?;
+        let remark = Remark(Arc::new(Mutex::new(remark)));
+        let (camera, camera_follow) = CameraBroadcast::start(node, models, remark.clone())?;
         let (stop, stopped) = channel();
         let sender = Sending {
             model: Arc::clone(&model),
             newest: newest.clone(),
             topics,
             markers: Markers::default(),
-            remark: Box::new(remark),
+            remark,
             remarked: Vec::new(),
             looked: Instant::now(),
         };
@@ -104,6 +124,7 @@ impl Broadcast {
         let broadcast = Self {
             model: Arc::clone(&model),
             newest: newest.clone(),
+            _camera: camera,
             stop: Some(stop),
             thread: Some(thread),
         };
@@ -111,6 +132,7 @@ impl Broadcast {
             model,
             newest,
             left: None,
+            camera: camera_follow,
         };
         Ok((broadcast, follow))
     }
@@ -138,6 +160,7 @@ impl Drop for Broadcast {
 
 impl Follower for Follow {
     fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
+        self.camera.see(observation.world, cause);
         let now = Instant::now();
         let is_new = |left: Instant| now.duration_since(left) >= BETWEEN_STATES;
         if self.left.is_some_and(|left| !is_new(left)) && cause == Cause::Step {
@@ -219,7 +242,7 @@ struct Sending {
     newest: Newest,
     topics: Topics,
     markers: Markers,
-    remark: Box<dyn Fn(String) + Send>,
+    remark: Remark,
     /// The topics of which has been told that somebody listens in vain.
     remarked: Vec<String>,
     looked: Instant,
@@ -288,10 +311,7 @@ impl Sending {
                 continue;
             }
             let name = topic.topic();
-            (self.remark)(format!(
-                "somebody listens to {name} in vain: the listener asks for more than is offered by \
-                 quality of service ({policy})"
-            ));
+            self.remark.of_listener(name, &policy);
             self.remarked.push(name.to_owned());
         }
     }
@@ -323,7 +343,7 @@ impl Sending {
 }
 
 /// Real time since 1970, which stamps all messages.
-fn now() -> Duration {
+pub(super) fn now() -> Duration {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     now.unwrap_or_default()
 }

@@ -3,6 +3,7 @@
 mod action_client;
 mod action_server;
 mod broadcast;
+mod camera_broadcast;
 mod matches;
 mod node;
 mod payload;

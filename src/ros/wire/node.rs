@@ -325,6 +325,8 @@ impl Node {
             message: message.to_owned(),
             layouts: Arc::clone(&self.layouts),
             writer: writer.map_err(|error| failed(&error))?,
+            listeners: Cell::new(0),
+            mismatch: RefCell::default(),
         })
     }
 
@@ -372,6 +374,8 @@ pub struct TopicWriter {
     message: String,
     layouts: Arc<Layouts>,
     writer: DataWriter<Payload, AsBytes>,
+    listeners: Cell<i32>,
+    mismatch: RefCell<Option<String>>,
 }
 
 impl TopicWriter {
@@ -393,12 +397,28 @@ impl TopicWriter {
     /// The quality of service by which the last listener since the last call does not match, if there was one: it
     /// gets nothing, and the protocol tells neither side's user.
     pub fn mismatch(&self) -> Option<String> {
-        let mut mismatch = None;
+        self.hear();
+        self.mismatch.take()
+    }
+
+    /// How many listen.
+    pub fn listeners(&self) -> i32 {
+        self.hear();
+        self.listeners.get()
+    }
+
+    /// Hears who has come, and who has gone.
+    fn hear(&self) {
         while let Some(status) = self.writer.try_recv_status() {
-            if let DataWriterStatus::OfferedIncompatibleQos { last_policy_id, .. } = status {
-                mismatch = Some(format!("{last_policy_id:?}"));
+            match status {
+                DataWriterStatus::OfferedIncompatibleQos { last_policy_id, .. } => {
+                    self.mismatch.replace(Some(format!("{last_policy_id:?}")));
+                }
+                DataWriterStatus::PublicationMatched { current, .. } => {
+                    self.listeners.set(current.count());
+                }
+                _ => {}
             }
         }
-        mismatch
     }
 }

@@ -48,11 +48,20 @@ const MAX_PENDING: usize = 256;
 impl ServiceClient {
     /// Whether somebody serves it: who hears requests, and whom replies come from. A request before that is lost.
     pub fn is_served(&self) -> bool {
+        self.servers() > 0
+    }
+
+    /// How many serve it, as far as is known: who both hear requests and reply.
+    pub fn servers(&self) -> usize {
         let [mut readers, mut writers] = self.matched.get();
         readers = reads(&self.requests).unwrap_or(readers);
         writers = writes(&self.replies).unwrap_or(writers);
         self.matched.set([readers, writers]);
-        readers > 0 && writers > 0
+        // Several that are not whole are several still.
+        match readers.min(writers) {
+            none if none <= 0 => 0,
+            _ => usize::try_from(readers.max(writers)).unwrap_or(0),
+        }
     }
 
     /// Sends a request; `None` if it cannot be sent.

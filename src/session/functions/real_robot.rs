@@ -26,7 +26,19 @@ pub(super) static TABLE: &[Builtin] = &[
         &["(pr2-pms::%end-real-robot) => NIL"],
         host!(end),
     ),
+    control(
+        "%SET-PROSPECTION",
+        "is-tried",
+        "Whether each motion of the robot is tried before its goals are sent, also where the robot itself finds the way. Returns how it was.",
+        &["(pr2-pms::%set-prospection t) => T"],
+        host!(set_prospection),
+    ),
 ];
+
+fn set_prospection(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply> {
+    let is_tried = args.first().is_some_and(|value| !value.is_nil());
+    done(Value::bool(simulation.set_prospection(is_tried)))
+}
 
 fn begin(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
     simulation.drive_robot()?;

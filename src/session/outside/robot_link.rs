@@ -103,8 +103,9 @@ pub trait RobotLink {
     /// What of that is not known.
     fn state(&self, joints: &[&str]) -> Result<RobotState, RobotTrouble>;
 
-    /// Sends a goal for a part, which may take so long (s).
-    fn send(&mut self, part: RobotPart, goal: &PartGoal, time_out: f64) -> GoalTicket;
+    /// Sends goals for parts, each of which may take so long (s). The parts begin together: none moves unless all their
+    /// servers are there and have accepted the goals.
+    fn send(&mut self, goals: &[(RobotPart, PartGoal, f64)]) -> Vec<GoalTicket>;
 
     /// How a goal has ended, if it has. Tells it once.
     fn end(&mut self, ticket: GoalTicket) -> Option<RobotEnd>;
@@ -112,8 +113,8 @@ pub trait RobotLink {
     /// Lets a goal end.
     fn cancel(&mut self, ticket: GoalTicket);
 
-    /// Whether nothing of the robot moves, as it tells now.
-    fn stands_still(&self) -> bool;
+    /// Whether these joints do not move, or none of the robot's if `None`, nor the base if that is meant, as it tells now.
+    fn stands_still(&self, joints: Option<&[&str]>, base: bool) -> bool;
 
     /// Asks what objects the camera sees: of a type and a name, or of any if these are empty.
     fn look(&mut self, type_name: &str, name: &str) -> GoalTicket;

@@ -1,5 +1,8 @@
 //! Speaks with the robot, in a thread of its own: a session that thinks must not keep it waiting.
 
+mod camera;
+mod groups;
+
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -7,28 +10,25 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
-use super::super::robot::pose;
 use super::super::ros2::warn;
-use super::end::{end_of, shown};
-use super::goal_message::{action_of, goal_message};
+use super::end::end_of;
+use super::goal_message::action_of;
+use camera::Question;
+use groups::Waiting;
 use robotics::motion::RobotTrouble;
 use robotics::robot::{PartInterface, RobotInterface, RobotPart};
-use ros::action::{GoalId, Patience};
+use ros::action::GoalId;
 use ros::frames::Frames;
 use ros::joints::Joints;
-use ros::wire::{
-    ActionClient, Answer, Node, NodeError, Sequence, ServiceClient, TopicQos, TopicReader,
-};
+use ros::wire::{ActionClient, Node, NodeError, ServiceClient, TopicQos, TopicReader};
 use ros::{Value, service_type};
 use session::outside::{PartGoal, RobotEnd, SeenObject};
 use spatial::Pose;
 
 /// Real time between two looks at what has been sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(2);
-/// How long a goal may wait for its turn, where its server says that it does.
-const QUEUE: Duration = Duration::from_secs(60);
-/// How long the camera may take to answer.
-const SIGHT: Duration = Duration::from_secs(10);
+/// By how much (s) what is known of how far the robot's clock is ahead becomes less with each message.
+const DRIFT: f64 = 1e-4;
 /// A clock that jumps by more than this has jumped.
 const JUMP: f64 = 1.0;
 /// The time over which the velocity of the base is measured.
@@ -38,8 +38,8 @@ const GOODBYE: Duration = Duration::from_secs(2);
 
 /// What a session wants.
 pub(super) enum Order {
-    /// A goal for a part, which may take so long.
-    Goal(u64, RobotPart, PartGoal, Duration),
+    /// Goals for parts that are to begin together.
+    Goals(Vec<Wanted>),
     /// The end of a goal.
     Cancel(u64),
     /// What the camera sees of a type and a name.
@@ -66,20 +66,24 @@ struct Part {
     client: ActionClient,
 }
 
+/// A goal that the session wants to be sent.
+pub(super) struct Wanted {
+    pub(super) ticket: u64,
+    pub(super) part: RobotPart,
+    pub(super) goal: PartGoal,
+    /// How long it may take.
+    pub(super) time_out: Duration,
+}
+
 /// A goal of the session that has not ended.
 struct Running {
     ticket: u64,
     part: usize,
     id: GoalId,
-}
-
-/// A question to the camera.
-struct Question {
-    ticket: u64,
-    request: Value,
-    since: Duration,
-    /// When it was asked, and as which request.
-    asked: Option<(Duration, Sequence)>,
+    /// Until when its server has to accept it, and the first of the goals that begin with it.
+    together: Option<(Duration, u64)>,
+    /// Why it was given up, if this program has done that.
+    verdict: Option<RobotTrouble>,
 }
 
 /// Speaks with the robot.
@@ -90,6 +94,7 @@ pub(super) struct Desk {
     transforms: TopicReader,
     still_transforms: TopicReader,
     joint_states: Vec<TopicReader>,
+    waiting: Vec<Waiting>,
     running: Vec<Running>,
     questions: Vec<Question>,
     interface: RobotInterface,
@@ -101,6 +106,9 @@ pub(super) struct Desk {
     own_clock: Option<f64>,
     /// The latter for each topic of joint states.
     robot_clocks: Vec<Option<f64>>,
+    /// By how much (s) the robot's clock is ahead of the one that never jumps: most of what was heard lately, since messages
+    /// take their time.
+    ahead: Option<f64>,
     /// The topics of which has been told that they cannot be heard.
     remarked: Vec<String>,
     looked: Duration,
@@ -113,6 +121,8 @@ pub(super) struct Desk {
 pub(super) struct Signals {
     /// The robot is to stop: from a handler of Ctrl-C, which resets nothing.
     pub(super) halt: Arc<AtomicBool>,
+    /// The robot has no goals; for others to read.
+    pub(super) is_idle: Arc<AtomicBool>,
     /// The evaluation is interrupted; the session resets it.
     pub(super) interrupt: Arc<AtomicBool>,
     /// The work ends.
@@ -158,6 +168,7 @@ impl Desk {
             transforms,
             still_transforms,
             joint_states: joint_states.collect::<Result<_, _>>()?,
+            waiting: Vec::new(),
             running: Vec::new(),
             questions: Vec::new(),
             interface: interface.clone(),
@@ -167,6 +178,7 @@ impl Desk {
             begin,
             own_clock: None,
             robot_clocks: vec![None; interface.joint_states.len()],
+            ahead: None,
             remarked: Vec::new(),
             looked: Duration::ZERO,
             oddities: 0,
@@ -199,6 +211,8 @@ impl Desk {
             }
             was_interrupted = interrupt;
             self.speak(now);
+            let is_idle = !self.may_run() && self.waiting.is_empty();
+            signals.is_idle.store(is_idle, Ordering::Relaxed);
             self.ask_camera(now);
             self.remark(now);
             thread::sleep(BETWEEN_LOOKS);
@@ -206,10 +220,15 @@ impl Desk {
         self.say_goodbye();
     }
 
+    /// Whether the robot may be carrying something out.
+    fn may_run(&self) -> bool {
+        self.parts.iter().any(|part| part.client.may_run())
+    }
+
     fn say_goodbye(&mut self) {
         let begin = self.begin.elapsed();
         self.cancel_all(begin);
-        while self.parts.iter().any(|part| part.client.may_run()) {
+        while self.may_run() {
             let now = self.begin.elapsed();
             if now.saturating_sub(begin) > GOODBYE {
                 let running = self.parts.iter().filter(|part| part.client.may_run());
@@ -226,6 +245,9 @@ impl Desk {
     }
 
     fn cancel_all(&mut self, now: Duration) {
+        for waiting in std::mem::take(&mut self.waiting) {
+            self.give_up(waiting, None);
+        }
         for goal in &self.running {
             if let Some(part) = self.parts.get_mut(goal.part) {
                 part.client.cancel(&goal.id, now);
@@ -235,35 +257,14 @@ impl Desk {
 
     fn take(&mut self, order: Order, now: Duration) {
         match order {
-            Order::Goal(ticket, part, goal, time_out) => {
-                let of = self
-                    .parts
-                    .iter()
-                    .position(|known| known.interface.part == part);
-                let Some(of) = of else {
-                    let text = format!("the robot has no action for the part {}", part.name());
-                    let trouble = Some(RobotTrouble::NotPossible(text));
-                    let end = RobotEnd {
-                        trouble,
-                        ..RobotEnd::default()
-                    };
-                    lock(&self.shared).ends.insert(ticket, end);
-                    return;
-                };
-                let message = goal_message(&goal, &self.interface.map, &self.camera);
-                let patience = Patience {
-                    server: seconds(self.interface.server_time_out),
-                    queue: QUEUE,
-                    result: time_out,
-                };
-                let id = self.parts[of].client.send(message, patience, now);
-                self.running.push(Running {
-                    ticket,
-                    part: of,
-                    id,
-                });
-            }
+            Order::Goals(goals) => self.waiting.push(Waiting { goals, since: now }),
             Order::Cancel(ticket) => {
+                let is_it =
+                    |waiting: &Waiting| waiting.goals.iter().any(|goal| goal.ticket == ticket);
+                if let Some(place) = self.waiting.iter().position(is_it) {
+                    let waiting = self.waiting.remove(place);
+                    self.give_up(waiting, None);
+                }
                 for goal in self.running.iter().filter(|goal| goal.ticket == ticket) {
                     if let Some(part) = self.parts.get_mut(goal.part) {
                         part.client.cancel(&goal.id, now);
@@ -284,18 +285,24 @@ impl Desk {
 
     /// Sends and hears what concerns goals.
     fn speak(&mut self, now: Duration) {
+        self.send_waiting(now);
         for part in &mut self.parts {
             part.client.poll(now);
         }
+        self.keep_together(now);
         let (parts, shared) = (&self.parts, &self.shared);
-        self.running.retain(|goal| {
+        self.running.retain_mut(|goal| {
             let Some(part) = parts.get(goal.part) else {
                 return false;
             };
             let Some(end) = part.client.end(&goal.id) else {
                 return true;
             };
-            let end = end_of(&part.interface.name, part.interface.part, end);
+            let mut end = end_of(&part.interface.name, part.interface.part, end);
+            if let Some(verdict) = goal.verdict.take() {
+                end.is_cancelled = false;
+                end.trouble = Some(verdict);
+            }
             lock(shared).ends.insert(goal.ticket, end);
             false
         });
@@ -321,7 +328,11 @@ impl Desk {
         for (topic, clock) in self.joint_states.iter().zip(&mut self.robot_clocks) {
             while let Some(message) = topic.take() {
                 if let Some(stamp) = stamp(&message) {
-                    let robot = jumps(clock, stamp - now.as_secs_f64());
+                    let ahead = stamp - now.as_secs_f64();
+                    let robot = jumps(clock, ahead);
+                    let known = self.ahead.filter(|_| robot.is_none());
+                    let known = known.map_or(ahead, |known| known - DRIFT);
+                    self.ahead = Some(known.max(ahead));
                     has_jumped = has_jumped.or(robot.map(|by| ("of the robot", by)));
                 }
                 shared.joints.hear(&message, now);
@@ -351,99 +362,6 @@ impl Desk {
         while shared.base.front().is_some_and(|(at, _)| is_old(*at)) {
             shared.base.pop_front();
         }
-    }
-
-    /// Asks the camera, and hears what it sees.
-    fn ask_camera(&mut self, now: Duration) {
-        let mut answers = Vec::new();
-        while let Some(answer) = self.perception.take() {
-            match answer {
-                Answer::To(sequence, value) => answers.push((sequence, Some(value))),
-                Answer::Unreadable(sequence) => answers.push((sequence, None)),
-                Answer::ToNobody => self.oddities_of_camera += 1,
-            }
-        }
-        let is_served = self.perception.is_served();
-        let mut questions = std::mem::take(&mut self.questions);
-        questions.retain_mut(|question| {
-            let name = || self.interface.perception.clone();
-            let end = match question.asked {
-                None => {
-                    if is_served {
-                        let sequence = self.perception.ask(&question.request);
-                        question.asked = sequence.map(|sequence| (now, sequence));
-                    }
-                    let waited = now.saturating_sub(question.since).as_secs_f64();
-                    let is_over =
-                        question.asked.is_none() && waited >= self.interface.server_time_out;
-                    is_over.then(|| {
-                        Err(RobotTrouble::Unserved {
-                            name: name(),
-                            waited,
-                        })
-                    })
-                }
-                Some((asked, sequence)) => {
-                    let answer = answers.iter().find(|(to, _)| *to == sequence);
-                    let waited = now.saturating_sub(asked);
-                    match answer {
-                        Some((_, answer)) => Some(self.seen(answer.as_ref(), now)),
-                        None if waited >= SIGHT => Some(Err(RobotTrouble::NoAnswer {
-                            name: name(),
-                            waited: waited.as_secs_f64(),
-                        })),
-                        None => None,
-                    }
-                }
-            };
-            match end {
-                None => true,
-                Some(end) => {
-                    lock(&self.shared).seen.insert(question.ticket, end);
-                    false
-                }
-            }
-        });
-        self.questions = questions;
-    }
-
-    /// The objects of an answer of the camera.
-    fn seen(&self, answer: Option<&Value>, now: Duration) -> Result<Vec<SeenObject>, RobotTrouble> {
-        let blind = |text: String| RobotTrouble::Blind {
-            name: self.interface.perception.clone(),
-            text,
-        };
-        let answer = answer.ok_or_else(|| blind("its answer cannot be read".to_owned()))?;
-        let error = answer.get("error").and_then(Value::as_text);
-        if let Some(error) = error.filter(|error| !error.trim().is_empty()) {
-            return Err(blind(shown(error)));
-        }
-        let objects = answer.get("objects").and_then(Value::as_list);
-        let objects = objects.unwrap_or_default().iter().map(|object| {
-            let text = |name| {
-                object
-                    .get(name)
-                    .and_then(Value::as_text)
-                    .unwrap_or_default()
-            };
-            let frame = object
-                .at(&["pose", "header", "frame_id"])
-                .and_then(Value::as_text);
-            let frame = frame.unwrap_or_default();
-            let pose = pose(object.at(&["pose", "pose"]));
-            let pose = pose
-                .ok_or_else(|| blind(format!("the pose of a {} is none", shown(text("type")))))?;
-            let max_age = seconds(self.interface.max_frame_age);
-            let frames = &lock(&self.shared).frames;
-            let carrier = frames.pose(frame, &self.interface.map, max_age, now);
-            let carrier = carrier.map_err(|error| blind(error.to_string()))?;
-            Ok(SeenObject {
-                type_name: text("type").to_owned(),
-                name: text("name").to_owned(),
-                pose: carrier * pose,
-            })
-        });
-        objects.collect()
     }
 
     /// Tells of topics that cannot be heard.

@@ -19,8 +19,9 @@ pub(super) fn action_of(part: RobotPart) -> &'static str {
     }
 }
 
-/// A goal as a message. Poses are in the frame `map`; `camera` is the frame that is aimed.
-pub(super) fn goal_message(goal: &PartGoal, map: &str, camera: &str) -> Value {
+/// A goal as a message. Poses are in the frame `map`; `camera` is the frame that is aimed. A trajectory begins when the stamp
+/// says, by the robot's clock, or at once if that is zero.
+pub(super) fn goal_message(goal: &PartGoal, map: &str, camera: &str, begin: Duration) -> Value {
     // A stamp of zero is now.
     let header = || message::header(Duration::ZERO, map);
     match goal {
@@ -43,7 +44,7 @@ pub(super) fn goal_message(goal: &PartGoal, map: &str, camera: &str) -> Value {
             Value::record([(
                 "trajectory",
                 Value::record([
-                    ("header", message::header(Duration::ZERO, "")),
+                    ("header", message::header(begin, "")),
                     ("joint_names", Value::texts(joints.iter().cloned())),
                     ("points", Value::list(points)),
                 ]),

@@ -1,6 +1,6 @@
 //! A robot that is reached over ROS 2, as a session drives it.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::super::failure::CommandError;
 use super::super::ros2::{open_node, say, warn};
-use super::desk::{BASE_TIME, Desk, Order, Shared, Signals, lock, seconds};
+use super::desk::{BASE_TIME, Desk, Order, Shared, Signals, Wanted, lock, seconds};
 use robotics::motion::RobotTrouble;
 use robotics::robot::{RobotInterface, RobotPart};
 use session::Session;
@@ -74,15 +74,17 @@ pub(crate) fn connect(session: &mut Session, distribution: &str) -> Result<Drivi
     let desk = Desk::open(node, &interface, &parts, base.clone(), camera, known, begin);
     let desk = desk.map_err(|error| wrong(&error))?;
     let (halt, stop) = (Arc::<AtomicBool>::default(), Arc::<AtomicBool>::default());
+    let is_idle = Arc::new(AtomicBool::new(true));
     let signals = Signals {
         halt: Arc::clone(&halt),
+        is_idle: Arc::clone(&is_idle),
         interrupt: session.interrupt_handle(),
         stop: Arc::clone(&stop),
     };
     let (orders, ordered) = channel();
     let thread = thread::Builder::new().name("robot".to_owned());
     let desk = thread.spawn(move || desk.run(&ordered, &signals))?;
-    session.drive(Box::new(Link {
+    let link = Link {
         orders,
         shared,
         interface,
@@ -90,7 +92,9 @@ pub(crate) fn connect(session: &mut Session, distribution: &str) -> Result<Drivi
         joints,
         begin,
         next: 0,
-    }));
+    };
+    end_at_termination(link.clone(), Arc::clone(&halt), is_idle)?;
+    session.drive(Box::new(link));
     say(&format!(
         "Plans drive the robot whose actions are served over ROS 2 ({distribution}) in {reach}"
     ));
@@ -101,7 +105,71 @@ pub(crate) fn connect(session: &mut Session, distribution: &str) -> Result<Drivi
     })
 }
 
+/// How long the robot may take to stand still when the program is to end.
+const ENDING: Duration = Duration::from_millis(2500);
+/// The numbers of the signals that end a program.
+#[cfg(unix)]
+const TERMINATION: usize = 15;
+#[cfg(unix)]
+const HANG_UP: usize = 1;
+
+/// When the program is to end (`kill`, a terminal that is closed), the goals are cancelled, and it ends once the robot stands
+/// still, or has been waited for.
+#[cfg(unix)]
+fn end_at_termination(
+    link: Link,
+    halt: Arc<AtomicBool>,
+    is_idle: Arc<AtomicBool>,
+) -> Result<(), CommandError> {
+    use signal_hook::consts::{SIGHUP, SIGTERM};
+    use signal_hook::flag::register_usize;
+
+    let received = Arc::<AtomicUsize>::default();
+    for (signal, number) in [(SIGTERM, TERMINATION), (SIGHUP, HANG_UP)] {
+        register_usize(signal, Arc::clone(&received), number)?;
+    }
+    let wait = move || {
+        let signal = loop {
+            match received.load(Ordering::Relaxed) {
+                0 => thread::sleep(5 * MOMENT),
+                signal => break signal,
+            }
+        };
+        let begin = link.now();
+        let mut was_halted = false;
+        loop {
+            // Again and again: the session may order something meanwhile.
+            halt.store(true, Ordering::Relaxed);
+            let has_stopped = is_idle.load(Ordering::Relaxed) && link.stands_still(None, true);
+            if was_halted && has_stopped {
+                break;
+            }
+            if link.now().saturating_sub(begin) > ENDING {
+                warn(
+                    "THE ROBOT DOES NOT STAND STILL, OR DOES NOT TELL. Use the emergency stop if it moves.",
+                );
+                break;
+            }
+            thread::sleep(10 * MOMENT);
+            was_halted = true;
+        }
+        let status = if signal == HANG_UP { 129 } else { 143 };
+        std::process::exit(status);
+    };
+    thread::Builder::new()
+        .name("ending".to_owned())
+        .spawn(wait)?;
+    Ok(())
+}
+
+/// Elsewhere, the program ends at once.
+#[cfg(not(unix))]
+fn end_at_termination(_: Link, _: Arc<AtomicBool>, _: Arc<AtomicBool>) -> Result<(), CommandError> {
+    Ok(())
+}
+
 /// The session's end.
+#[derive(Clone)]
 struct Link {
     orders: Sender<Order>,
     shared: Arc<Mutex<Shared>>,
@@ -146,10 +214,17 @@ impl RobotLink for Link {
         })
     }
 
-    fn send(&mut self, part: RobotPart, goal: &PartGoal, time_out: f64) -> GoalTicket {
-        let ticket = self.fresh();
-        self.order(Order::Goal(ticket.0, part, goal.clone(), seconds(time_out)));
-        ticket
+    fn send(&mut self, goals: &[(RobotPart, PartGoal, f64)]) -> Vec<GoalTicket> {
+        let tickets: Vec<GoalTicket> = goals.iter().map(|_| self.fresh()).collect();
+        let wanted = goals.iter().zip(&tickets);
+        let wanted = wanted.map(|((part, goal, time_out), ticket)| Wanted {
+            ticket: ticket.0,
+            part: *part,
+            goal: goal.clone(),
+            time_out: seconds(*time_out),
+        });
+        self.order(Order::Goals(wanted.collect()));
+        tickets
     }
 
     fn end(&mut self, ticket: GoalTicket) -> Option<RobotEnd> {
@@ -160,25 +235,22 @@ impl RobotLink for Link {
         self.order(Order::Cancel(ticket.0));
     }
 
-    fn stands_still(&self) -> bool {
+    fn stands_still(&self, joints: Option<&[&str]>, base: bool) -> bool {
         let now = self.now();
         let shared = lock(&self.shared);
         let max_age = seconds(self.interface.max_joint_age);
-        let joints = self.joints.iter().map(String::as_str);
-        let fastest = shared.joints.fastest(joints, max_age, now);
-        let (Some((_, last)), Some(fastest)) = (shared.base.back(), fastest) else {
-            return false;
+        let stand = match joints {
+            // A base has none of its own.
+            Some([]) => true,
+            Some(joints) => stand(&shared, joints.iter().copied(), max_age, now),
+            None => stand(
+                &shared,
+                self.joints.iter().map(String::as_str),
+                max_age,
+                now,
+            ),
         };
-        let mut before = shared.base.iter();
-        let before = before.find(|(at, _)| now.saturating_sub(*at) <= 2 * BASE_TIME);
-        let Some((since, first)) = before.filter(|(at, _)| now.saturating_sub(*at) >= BASE_TIME)
-        else {
-            return false;
-        };
-        let time = now.saturating_sub(*since).as_secs_f64().max(1e-3);
-        let way = (last.translation.vector - first.translation.vector).norm();
-        let turn = last.rotation.angle_to(&first.rotation);
-        fastest < STILL && way.max(turn) / time < STILL
+        stand && (!base || base_stands(&shared, now))
     }
 
     fn look(&mut self, type_name: &str, name: &str) -> GoalTicket {
@@ -202,4 +274,31 @@ impl RobotLink for Link {
     fn shout(&self, text: &str) {
         warn(text);
     }
+}
+
+/// Whether joints that were heard lately do not move.
+fn stand<'a>(
+    shared: &Shared,
+    joints: impl Iterator<Item = &'a str>,
+    max_age: Duration,
+    now: Duration,
+) -> bool {
+    let fastest = shared.joints.fastest(joints, max_age, now);
+    fastest.is_some_and(|fastest| fastest < STILL)
+}
+
+/// Whether the base does not move, by where it was lately.
+fn base_stands(shared: &Shared, now: Duration) -> bool {
+    let Some((_, last)) = shared.base.back() else {
+        return false;
+    };
+    let mut before = shared.base.iter();
+    let before = before.find(|(at, _)| now.saturating_sub(*at) <= 2 * BASE_TIME);
+    let Some((since, first)) = before.filter(|(at, _)| now.saturating_sub(*at) >= BASE_TIME) else {
+        return false;
+    };
+    let time = now.saturating_sub(*since).as_secs_f64().max(1e-3);
+    let way = (last.translation.vector - first.translation.vector).norm();
+    let turn = last.rotation.angle_to(&first.rotation);
+    way.max(turn) / time < STILL
 }

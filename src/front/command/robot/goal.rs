@@ -64,15 +64,27 @@ pub(super) enum Call {
     Function(&'static str, Vec<Datum>),
     /// A trajectory of arms, one after the other, or of the torso.
     Follow(Vec<Side>, Trajectory),
+    /// Trajectories of the torso, and of arms, one after the other.
+    FollowAll(Trajectory, Vec<Side>, Trajectory),
 }
 
 impl Call {
-    /// Both at once, if they are trajectories of two arms; otherwise the first one.
+    /// Both at once, if they are trajectories of different parts; otherwise the first one.
     pub(super) fn together(self, other: Self) -> Self {
         match (self, other) {
+            (Self::Follow(sides, torso), Self::Follow(others, arms)) if sides.is_empty() => {
+                Self::FollowAll(torso, others, arms)
+            }
+            (Self::Follow(sides, arms), Self::Follow(others, torso)) if others.is_empty() => {
+                Self::FollowAll(torso, sides, arms)
+            }
             (Self::Follow(mut sides, one), Self::Follow(others, two)) => {
                 sides.extend(others);
                 Self::Follow(sides, one.beside(&two))
+            }
+            (Self::FollowAll(torso, mut sides, one), Self::Follow(others, two)) => {
+                sides.extend(others);
+                Self::FollowAll(torso, sides, one.beside(&two))
             }
             (one, _) => one,
         }
@@ -85,6 +97,13 @@ impl Call {
             Self::Follow(sides, trajectory) => (
                 "planwright-robot::follow-trajectory",
                 trajectory.arguments(&sides),
+            ),
+            Self::FollowAll(torso, sides, arms) => (
+                "planwright-robot::follow-trajectories",
+                vec![
+                    Datum::List(torso.arguments(&[])),
+                    Datum::List(arms.arguments(&sides)),
+                ],
             ),
         }
     }

@@ -30,7 +30,7 @@ const REFUSED: &str = "MANIPULATION-POSE-UNREACHABLE";
 /// The service that tells what the camera sees.
 const DETECT: &str = "planwright_msgs/srv/DetectObjects";
 
-/// How long the second arm's goal may come after the first one's if both are to move at once.
+/// How long the goal of a part may come after that of another one if both are to move at once.
 const TOGETHER: Duration = Duration::from_millis(60);
 
 /// Real time between two looks at what clients have sent.
@@ -61,7 +61,7 @@ enum Done {
 /// What both threads know.
 #[derive(Default)]
 struct Shared {
-    /// The goals that are carried out: one, or one of each arm.
+    /// The goals that are carried out: one, or trajectories of several parts.
     running: Vec<Key>,
     /// Goals that are to end.
     unwanted: Vec<Key>,
@@ -136,15 +136,18 @@ pub(super) fn serve(
         match order {
             Ok(Order::Goal(key, deed, goal)) => {
                 let mut goals = vec![(key, deed, goal)];
-                // Arms that are to move at once are sent their goals one after the other.
-                if let Deed::Follow(Some(side)) = deed {
+                // Parts that are to move at once are sent their goals one after the other.
+                let parts = offered.iter();
+                let parts = parts.filter(|offered| matches!(offered.deed, Deed::Follow(_)));
+                let parts = parts.count();
+                while matches!(deed, Deed::Follow(_)) && goals.len() < parts && next.is_none() {
+                    let is_new = |deed: &Deed| goals.iter().all(|(_, known, _)| known != deed);
                     match ordered.recv_timeout(TOGETHER) {
-                        Ok(Order::Goal(key, deed @ Deed::Follow(Some(other)), goal))
-                            if other != side =>
-                        {
+                        Ok(Order::Goal(key, deed @ Deed::Follow(_), goal)) if is_new(&deed) => {
                             goals.push((key, deed, goal));
                         }
-                        other => next = other.ok(),
+                        Ok(other) => next = Some(other),
+                        Err(_) => break,
                     }
                 }
                 for (key, end) in carry_out(&mut session, &both, &goals, &models, &scene, &newest) {

@@ -16,6 +16,24 @@ pub enum RobotTrouble {
         /// How long (s) was waited.
         waited: f64,
     },
+    /// Several offer an action by one name: which of them moves the robot is not known, so nothing was sent.
+    #[error("{servers} servers serve {name}: end all but one (waited {waited:.0} s)")]
+    Contested {
+        /// Its name.
+        name: String,
+        /// How many they are.
+        servers: usize,
+        /// How long (s) was waited.
+        waited: f64,
+    },
+    /// Parts were to begin together, and one of them was not accepted by then; all were cancelled.
+    #[error(
+        "{name} has not accepted its goal by when all parts were to begin together: all were cancelled"
+    )]
+    Apart {
+        /// Its name.
+        name: String,
+    },
     /// It was not said whether a goal is accepted, or a question was not answered.
     #[error("{name} has not answered (waited {waited:.0} s)")]
     NoAnswer {
@@ -163,6 +181,8 @@ impl RobotFailure {
                 P::Clock => "LOW-LEVEL-FAILURE",
             },
             T::Unserved { .. }
+            | T::Contested { .. }
+            | T::Apart { .. }
             | T::NoAnswer { .. }
             | T::Gone { .. }
             | T::Forgotten { .. }

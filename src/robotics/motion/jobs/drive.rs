@@ -353,6 +353,11 @@ impl Activity for BaseMotion {
         follower.is_some_and(TrajectoryFollower::is_moving)
     }
 
+    fn drives_to(&self) -> Option<Pose> {
+        let [x, y, heading] = self.goal;
+        Some(pose::from_xy_yaw(x, y, heading))
+    }
+
     fn brake(&mut self, world: &mut World) {
         self.slow_down(world);
     }

@@ -139,6 +139,11 @@ pub trait Motion {
         None
     }
 
+    /// The pose in the map to which the job drives the base, if it does so.
+    fn drives_to(&self) -> Option<Pose> {
+        None
+    }
+
     /// The force (N) of each finger that the job closes around something, if it says so.
     fn grip_effort(&self) -> Option<f64> {
         None
@@ -180,6 +185,11 @@ pub(crate) trait Activity: Clone + 'static {
 
     /// The point (m) of the map at which it aims the head.
     fn aims_at(&self, _: &World) -> Option<Point3<f64>> {
+        None
+    }
+
+    /// The pose in the map to which it drives the base.
+    fn drives_to(&self) -> Option<Pose> {
         None
     }
 
@@ -250,6 +260,10 @@ impl<A: Activity> Motion for Job<A> {
 
     fn aims_at(&self, world: &World) -> Option<Point3<f64>> {
         self.activity.aims_at(world)
+    }
+
+    fn drives_to(&self) -> Option<Pose> {
+        self.activity.drives_to()
     }
 
     fn grip_effort(&self) -> Option<f64> {

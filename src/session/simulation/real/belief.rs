@@ -1,7 +1,7 @@
 //! The world here follows what the robot tells of itself.
 
 use super::RobotAccess;
-use super::check::OTHER_SIZE;
+use super::check::{OTHER_SIZE, closed as closed_gap};
 use super::goals::joints_of;
 use crate::outside::RobotState;
 use robotics::motion::{RobotTrouble, held_objects};
@@ -35,6 +35,9 @@ impl Told {
             .map(|(_, id)| models.robot.joint(*id).name.as_str());
         let names: Vec<&str> = names.collect();
         let state = robot.link.borrow().state(&names)?;
+        if let Some(wrong) = wrong(&state, &names) {
+            return Err(RobotTrouble::NoState(wrong));
+        }
         robot.was_heard.set(true);
         Ok(Self { state, joints })
     }
@@ -45,14 +48,20 @@ impl Told {
         from_xy_yaw(at.x, at.y, yaw(&self.state.base))
     }
 
-    /// Whether the robot is where it was when it told that.
-    pub(super) fn is_as(&self, before: &Told) -> bool {
+    /// Whether parts of the robot are where they were when it told that.
+    pub(super) fn is_as(&self, before: &Told, is_meant: impl Fn(RobotPart) -> bool) -> bool {
         let [now, then] = [self.base(), before.base()];
         let way = (now.translation.vector - then.translation.vector).norm();
         let turn = trig::wrap(yaw(&now) - yaw(&then)).abs();
+        let base = match is_meant(RobotPart::Base) {
+            true => way.max(turn),
+            false => 0.0,
+        };
+        let parts = self.joints.iter().map(|(part, _)| is_meant(*part));
         let pairs = self.state.joints.iter().zip(&before.state.joints);
-        let farthest = pairs.map(|(now, then)| (now - then).abs());
-        farthest.fold(way.max(turn), f64::max) <= STEP
+        let meant = pairs.zip(parts).filter(|(_, is_meant)| *is_meant);
+        let farthest = meant.map(|((now, then), _)| (now - then).abs());
+        farthest.fold(base, f64::max) <= STEP
     }
 
     /// Where a joint is (rad or m).
@@ -130,7 +139,7 @@ impl Told {
         let gripper = &world.models().description.arm(side).gripper;
         let believed = gripper.gap(world.robot_configuration().joints.get(gripper.joint));
         let gap = gripper.gap(position);
-        let is_empty = gap <= gripper.gap(gripper.limits.lower) + closed;
+        let is_empty = gap <= closed_gap(gripper.gap(gripper.limits.lower), closed);
         // Fingers that are so far open hold nothing.
         let is_open = gap > believed + OTHER_SIZE;
         if is_empty || is_open {
@@ -142,6 +151,30 @@ impl Told {
         }
         !(is_empty || is_open)
     }
+}
+
+/// What of a state cannot be.
+fn wrong(state: &RobotState, names: &[&str]) -> Option<String> {
+    let base = &state.base;
+    let numbers = base
+        .translation
+        .vector
+        .iter()
+        .chain(base.rotation.coords.iter());
+    if !numbers.copied().all(f64::is_finite) {
+        return Some("the place of the base is no number".to_owned());
+    }
+    let [positions, joints] = [state.joints.len(), names.len()];
+    if positions != joints {
+        return Some(format!(
+            "the joint states have {positions} positions for {joints} joints"
+        ));
+    }
+    let mut pairs = names.iter().zip(&state.joints);
+    let (name, _) = pairs.find(|(_, position)| !position.is_finite())?;
+    Some(format!(
+        "the joint states have no finite position of {name}"
+    ))
 }
 
 /// Takes the robot to a configuration: within the next step if that is near, since what it holds follows; at once if not.

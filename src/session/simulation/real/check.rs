@@ -12,14 +12,31 @@ use spatial::trig;
 /// How far (m) from where they were to meet an object fingers may stop and still hold it.
 pub(super) const OTHER_SIZE: f64 = 0.015;
 
+/// The gap (m) up to which nothing is between fingers, from that at the lower limit of their joint: where that is below
+/// zero, no robot gets there.
+pub(super) fn closed(least: f64, tolerance: f64) -> f64 {
+    least.max(0.0) + tolerance
+}
+
+/// The gap (m) at which the fingers of an order meet what they are to grip, as it was tried.
+pub(super) fn met(order: &Order, end: &World) -> Option<f64> {
+    let RobotPart::Gripper(side) = order.part else {
+        return None;
+    };
+    let gripper = &end.models().description.arm(side).gripper;
+    let joint = end.robot_configuration().joints.get(gripper.joint);
+    order.grips.then(|| gripper.gap(joint))
+}
+
 /// What is wrong with the end of an order that its server reports as reached, if anything. `end` is the world as it was to
-/// be then.
+/// be then, and `missed` the gap (m) at which the fingers were to meet what they have missed before.
 pub(super) fn trouble(
     order: &Order,
     interface: &PartInterface,
     told: &Told,
     end: &World,
     fingers: Option<FingersReport>,
+    missed: Option<f64>,
 ) -> Option<RobotTrouble> {
     let beside = |beside: String| {
         Some(RobotTrouble::Beside {
@@ -87,7 +104,7 @@ pub(super) fn trouble(
                     false => beside(format!("{way:.4} m from the gap of {gap:.4} m")),
                 };
             }
-            let closed = gripper.gap(gripper.limits.lower) + tolerance;
+            let closed = closed(gripper.gap(gripper.limits.lower), tolerance);
             let reported = fingers.map_or(there, |fingers| fingers.gap);
             if there <= closed || reported <= closed {
                 return Some(RobotTrouble::NothingGripped {
@@ -98,7 +115,8 @@ pub(super) fn trouble(
             if !fingers.is_some_and(|fingers| fingers.is_stalled) {
                 return beside("without having been stopped by anything".to_owned());
             }
-            let met = gripper.gap(end.robot_configuration().joints.get(gripper.joint));
+            let met = met(order, end).into_iter().chain(missed);
+            let met = met.fold(0.0, f64::max);
             match (there - met).abs() > OTHER_SIZE {
                 true => beside(format!(
                     "with fingers {there:.3} m apart, which were to meet what they grip at {met:.3} m"

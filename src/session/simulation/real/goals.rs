@@ -40,13 +40,31 @@ pub(super) fn joints_of(models: &Models, part: RobotPart) -> Vec<JointId> {
     }
 }
 
+/// What a part is to do that the robot does by its own lights, without a trial.
+pub(super) fn untried(world: &World, motion: &dyn Motion) -> Option<Order> {
+    let (part, goal) = match motion.module() {
+        ProcessModule::Navigation => (RobotPart::Base, PartGoal::Drive(motion.drives_to()?)),
+        ProcessModule::Neck => (
+            RobotPart::Neck,
+            PartGoal::Aim(motion.aims_at(world)?.into()),
+        ),
+        _ => return None,
+    };
+    Some(Order {
+        part,
+        goal,
+        grips: false,
+    })
+}
+
 /// What the parts of the robot are to do so that it does what was tried. `turns` is, for a joint, by how much (rad) the
-/// robot counts it otherwise than the world here.
+/// robot counts it otherwise than the world here; parts that are busy do what other motions want.
 pub(super) fn orders(
     world: &World,
     motion: &dyn Motion,
     trial: &Trial,
     turns: impl Fn(JointId) -> f64,
+    is_busy: impl Fn(RobotPart) -> bool,
 ) -> Result<Vec<Order>, RobotTrouble> {
     let models = world.models();
     let trace = &trial.trace;
@@ -56,7 +74,7 @@ pub(super) fn orders(
     let module = motion.module();
     let has_moved = |part: RobotPart| {
         let joints = joints_of(models, part);
-        trace.iter().any(|at| moved(&joints, first, at))
+        !is_busy(part) && trace.iter().any(|at| moved(&joints, first, at))
     };
     let mut orders = Vec::new();
     let mut order = |part, goal| {
@@ -66,7 +84,7 @@ pub(super) fn orders(
             grips: false,
         });
     };
-    let drives = trace.iter().any(|at| at.base != first.base);
+    let drives = !is_busy(RobotPart::Base) && trace.iter().any(|at| at.base != first.base);
     let mut arms = models.description.sides().map(RobotPart::Arm);
     if module == ProcessModule::Navigation && !arms.any(has_moved) {
         order(RobotPart::Base, PartGoal::Drive(last.base));
@@ -95,7 +113,9 @@ pub(super) fn orders(
     for side in models.description.sides() {
         // Fingers that do not move here may have to on the robot, for what they hold from now on.
         let held = |world: &World| (held_objects(world, side), world.handle_hold(side).is_some());
-        if has_moved(RobotPart::Gripper(side)) || held(world) != held(&trial.world) {
+        let holds_otherwise =
+            !is_busy(RobotPart::Gripper(side)) && held(world) != held(&trial.world);
+        if has_moved(RobotPart::Gripper(side)) || holds_otherwise {
             orders.push(fingers(&trial.world, side, motion.grip_effort()));
         }
     }

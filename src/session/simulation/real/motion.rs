@@ -1,12 +1,14 @@
 //! A motion that a robot elsewhere carries out.
 
+mod stopping;
+
 use std::rc::Rc;
 use std::time::Duration;
 
 use super::belief::Told;
-use super::goals::{Order, orders};
-use super::trial::try_motion;
-use super::{Query, RobotAccess, SharedRobot, check, sight};
+use super::goals::{Order, orders, untried};
+use super::trial::{Misfit, try_motion};
+use super::{Query, RobotAccess, SharedRobot, UnderWay, check, sight};
 use crate::outside::{GoalTicket, RobotEnd};
 use robotics::motion::{
     Motion, MotionFailure, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
@@ -17,8 +19,9 @@ use robotics::world::World;
 
 /// How long a robot that has done what it was to do may take to tell so of itself.
 const SETTLING: Duration = Duration::from_millis(500);
-/// How long a robot that was to stop may take for that.
-const STOPPING: Duration = Duration::from_secs(2);
+/// How much longer (s) than it was allowed a goal, or a question to the camera, may take until it counts as lost, whatever
+/// the link says or does not say: it may have waited for its server and for its turn.
+const LOST: f64 = 90.0;
 
 /// A motion that a robot elsewhere carries out.
 pub(super) struct RealMotion {
@@ -28,13 +31,15 @@ pub(super) struct RealMotion {
     query: Query,
     robot: SharedRobot,
     stage: Stage,
+    /// Whether it is to begin only when nothing else is under way, since it does not go together with what was.
+    waits_for_all: bool,
 }
 
 enum Stage {
     /// Nothing has been sent. Since when it has waited to hear the robot.
     Begin(Option<Duration>),
     /// The camera was asked.
-    Looking(GoalTicket),
+    Looking(GoalTicket, Duration),
     /// The robot has goals.
     Moving(Box<Moving>),
     /// The robot is to stand still, since when, and how the motion ends then.
@@ -60,6 +65,9 @@ struct Sent {
     interface: PartInterface,
     ticket: GoalTicket,
     end: Option<RobotEnd>,
+    /// When it was sent, and how long (s) it may take.
+    since: Duration,
+    time_out: f64,
 }
 
 struct Moving {
@@ -91,6 +99,7 @@ impl RealMotion {
             query,
             robot,
             stage: Stage::Begin(None),
+            waits_for_all: false,
         }
     }
 
@@ -116,11 +125,18 @@ impl RealMotion {
 
     /// Hears how the robot is, tries the motion, and sends its goals.
     fn begin(&mut self, world: &mut World, since: Option<Duration>) -> MotionStatus {
-        // What is tried alone is carried out alone.
-        if !self.robot.busy.borrow().is_empty() {
+        let must_wait = match self.waits_for_all {
+            true => !self.robot.is_idle(),
+            false => self.robot.must_wait(self.module),
+        };
+        let companions = match must_wait {
+            true => None,
+            false => self.robot.companions(),
+        };
+        let Some(companions) = companions else {
             self.stage = Stage::Begin(None);
             return MotionStatus::Running;
-        }
+        };
         let now = self.now();
         let since = since.unwrap_or(now);
         self.stage = Stage::Begin(Some(since));
@@ -137,7 +153,10 @@ impl RealMotion {
                 return self.fail(self.failure(trouble));
             }
         };
-        told.believe(world, |_| true, self.closed());
+        let robot = Rc::clone(&self.robot);
+        // What moves already is followed by the motions here that belong to it.
+        let is_free = |part| !robot.is_busy(part);
+        told.believe(world, is_free, self.closed());
         if let Some(query) = &self.query {
             let one = match query.types.as_slice() {
                 [one] => one.as_str(),
@@ -148,7 +167,7 @@ impl RealMotion {
             let is_exact = world.models().objects.get(&one.to_lowercase()).is_some();
             let kind = if is_exact { one } else { "" };
             let ticket = self.robot.link.borrow_mut().look(kind, &name);
-            self.stage = Stage::Looking(ticket);
+            self.stage = Stage::Looking(ticket, self.now());
             return MotionStatus::Running;
         }
         let Some(copies) = self.original.copied().zip(self.original.copied()) else {
@@ -156,19 +175,37 @@ impl RealMotion {
             return self.fail(self.failure(RobotTrouble::NotPossible(text)));
         };
         let (tried, here) = copies;
-        let trial = match try_motion(world, tried) {
-            Ok(trial) => trial,
+        if let Some(order) =
+            untried(world, self.original.as_ref()).filter(|_| !robot.is_tried.get())
+        {
+            // Where it ends is believed when it has ended.
+            return self.send(vec![order], None, MotionOutcome::Arrived, world.clone());
+        }
+        let is_alone = companions.is_empty();
+        // Others may be slower than they were tried, or take another way.
+        let is_apart = |world: &World| {
+            let alone = self.original.copied();
+            is_alone || alone.is_some_and(|alone| try_motion(world, alone, Vec::new()).is_ok())
+        };
+        let trial = match try_motion(world, tried, companions) {
+            Ok(trial) if is_apart(world) => trial,
             // What fails here is not tried in earnest.
-            Err(failure) => return self.fail(failure),
+            Err(Misfit::Fails(failure)) if is_alone => return self.fail(failure),
+            _ => {
+                self.waits_for_all = true;
+                self.stage = Stage::Begin(None);
+                return MotionStatus::Running;
+            }
         };
         let turns = |joint| told.turns(joint, world);
-        let orders = match orders(world, self.original.as_ref(), &trial, turns) {
+        let is_busy = |part| robot.is_busy(part);
+        let orders = match orders(world, self.original.as_ref(), &trial, turns, is_busy) {
             Ok(orders) => orders,
             Err(trouble) => return self.fail(self.failure(trouble)),
         };
         // Trying may have taken a while.
         let trouble = match Told::now(&self.robot, world) {
-            Ok(now) if now.is_as(&told) => None,
+            Ok(now) if now.is_as(&told, is_free) => None,
             Ok(_) => {
                 self.stage = Stage::Begin(Some(since));
                 let waited = self.now().saturating_sub(since).as_secs_f64();
@@ -184,33 +221,56 @@ impl RealMotion {
         if let Some(trouble) = trouble {
             return self.fail(self.failure(trouble));
         }
-        let mut sent = Vec::new();
-        for order in orders {
+        let here = trial.begun.or(Some(here));
+        self.send(orders, here, trial.outcome, trial.world)
+    }
+
+    /// Sends goals, so that something moves.
+    fn send(
+        &mut self,
+        orders: Vec<Order>,
+        here: Option<Box<dyn Motion>>,
+        outcome: MotionOutcome,
+        end: World,
+    ) -> MotionStatus {
+        let mut goals = Vec::new();
+        let mut interfaces = Vec::new();
+        for order in &orders {
             let part = order.part;
             let Some(interface) = self.robot.interface.part(part).cloned() else {
                 let text = format!("there is no action for the part {}", part.name());
                 return self.fail(self.failure(RobotTrouble::NotPossible(text)));
             };
-            sent.push((order, interface));
+            let time_out = interface.time_out + order.goal.duration();
+            goals.push((part, order.goal.clone(), time_out));
+            interfaces.push(interface);
         }
         // Only now does anything move.
-        let sent = sent.into_iter().map(|(order, interface)| {
-            let time_out = interface.time_out + order.goal.duration();
-            let mut link = self.robot.link.borrow_mut();
-            let ticket = link.send(order.part, &order.goal, time_out);
-            self.robot.busy.borrow_mut().push(order.part);
-            Sent {
-                order,
-                interface,
-                ticket,
-                end: None,
-            }
+        let tickets = self.robot.link.borrow_mut().send(&goals);
+        let since = self.now();
+        // What moves nothing keeps nobody waiting.
+        if !orders.is_empty() {
+            self.robot.under_way.borrow_mut().push(UnderWay {
+                module: self.module,
+                parts: orders.iter().map(|order| order.part).collect(),
+                copy: None,
+            });
+        }
+        let goals = goals.into_iter().zip(tickets).zip(interfaces);
+        let sent = orders.into_iter().zip(goals);
+        let sent = sent.map(|(order, (((_, _, time_out), ticket), interface))| Sent {
+            order,
+            interface,
+            ticket,
+            end: None,
+            since,
+            time_out,
         });
         self.stage = Stage::Moving(Box::new(Moving {
             sent: sent.collect(),
-            here: trial.begun.or(Some(here)),
-            outcome: trial.outcome,
-            end: trial.world,
+            here,
+            outcome,
+            end,
             reported: None,
             is_checked: false,
         }));
@@ -222,9 +282,14 @@ impl RealMotion {
         MotionStatus::Failed(failure)
     }
 
-    fn look(&mut self, world: &mut World, ticket: GoalTicket) -> MotionStatus {
+    fn look(&mut self, world: &mut World, ticket: GoalTicket, since: Duration) -> MotionStatus {
         let seen = self.robot.link.borrow_mut().seen(ticket);
         let (Some(seen), Some(query)) = (seen, self.query.clone()) else {
+            let waited = self.now().saturating_sub(since).as_secs_f64();
+            if waited > LOST {
+                let name = self.robot.interface.perception.clone();
+                return self.fail(self.failure(RobotTrouble::NoAnswer { name, waited }));
+            }
             // A robot that tells nothing any more does not see either.
             return match Told::now(&self.robot, world) {
                 Ok(_) => MotionStatus::Running,
@@ -259,6 +324,8 @@ impl RealMotion {
                 MotionStatus::Failed(failure) => return Err(failure),
             }
         }
+        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
+        self.robot.leave_copy(&parts, moving.here.as_deref());
         let is_reported = moving.sent.iter().all(|sent| sent.end.is_some());
         if !is_reported || moving.is_stopped() {
             return Ok(None);
@@ -268,21 +335,38 @@ impl RealMotion {
         if !moving.is_checked {
             let trouble = moving.sent.iter().find_map(|sent| {
                 let fingers = sent.end.as_ref().and_then(|end| end.fingers);
-                check::trouble(&sent.order, &sent.interface, &told, &moving.end, fingers)
+                let missed = self.robot.missed(sent.order.part);
+                let (order, interface) = (&sent.order, &sent.interface);
+                check::trouble(order, interface, &told, &moving.end, fingers, missed)
             });
             match trouble {
                 // What it tells of itself may come later than what it reports.
                 Some(_) if now.saturating_sub(reported) < SETTLING => return Ok(None),
-                Some(trouble) => return Err(self.failure(trouble)),
-                None => moving.is_checked = true,
+                Some(trouble) => {
+                    self.note_missed(moving, true);
+                    return Err(self.failure(trouble));
+                }
+                None => {
+                    self.note_missed(moving, false);
+                    moving.is_checked = true;
+                }
             }
         }
         if moving.here.is_some() {
             return Ok(None);
         }
-        let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
         told.believe(world, |part| parts.contains(&part), self.closed());
         Ok(Some(moving.outcome.clone()))
+    }
+
+    /// Remembers which hands have missed what they were to grip, and which have not, or are open.
+    fn note_missed(&self, moving: &Moving, has_missed: bool) {
+        for Sent { order, .. } in &moving.sent {
+            let met = check::met(order, &moving.end).filter(|_| has_missed);
+            let before = self.robot.missed(order.part).filter(|_| has_missed);
+            let gap = met.into_iter().chain(before).reduce(f64::max);
+            self.robot.note_missed(order.part, gap);
+        }
     }
 
     /// Hears how goals have ended.
@@ -290,6 +374,14 @@ impl RealMotion {
         for sent in sent.iter_mut().filter(|sent| sent.end.is_none()) {
             let end = self.robot.link.borrow_mut().end(sent.ticket);
             let Some(mut end) = end else {
+                let taken = self.now().saturating_sub(sent.since).as_secs_f64();
+                if taken > sent.time_out + LOST {
+                    return Err(RobotTrouble::Late {
+                        name: sent.interface.name.clone(),
+                        limit: taken,
+                        has_ended: false,
+                    });
+                }
                 continue;
             };
             // Fingers that something between them has stopped hold it, whatever their server makes of that.
@@ -309,67 +401,10 @@ impl RealMotion {
         Ok(())
     }
 
-    /// Lets all goals end; the robot is to stand still.
-    fn stop(&mut self, sent: Vec<Sent>, ending: Ending) {
-        for sent in sent.iter().filter(|sent| sent.end.is_none()) {
-            self.robot.link.borrow_mut().cancel(sent.ticket);
-        }
-        self.stage = Stage::Stopping(self.now(), sent, ending);
-    }
-
-    /// Whether the robot stands still, or has been waited for long enough.
-    fn stands(&mut self, world: &mut World) -> bool {
-        let now = self.now();
-        let robot = Rc::clone(&self.robot);
-        let Stage::Stopping(since, sent, ending) = &mut self.stage else {
-            return true;
-        };
-        let mut link = robot.link.borrow_mut();
-        for sent in sent.iter_mut().filter(|sent| sent.end.is_none()) {
-            sent.end = link.end(sent.ticket);
-        }
-        let has_ended = sent.iter().all(|sent| sent.end.is_some());
-        let stands = has_ended && link.stands_still();
-        if !stands && now.saturating_sub(*since) < STOPPING {
-            return false;
-        }
-        if !stands {
-            let running = sent.iter().filter(|sent| sent.end.is_none());
-            let running: Vec<&str> = running.map(|sent| sent.interface.name.as_str()).collect();
-            let what = match running.is_empty() {
-                true => "it still moves, or does not tell".to_owned(),
-                false => format!("nothing says that these have ended: {}", running.join(", ")),
-            };
-            // Who does not stand gets no new goal.
-            if let Ending::Anew = ending {
-                let trouble = RobotTrouble::NoState(
-                    "the robot did not stand still when it was to stop".to_owned(),
-                );
-                let module = self.module;
-                *ending = Ending::Failed(Box::new(MotionFailure::Robot(Box::new(RobotFailure {
-                    module,
-                    trouble,
-                }))));
-            }
-            link.shout(&format!(
-                "THE ROBOT DOES NOT STAND STILL 2 s after it was to stop ({what}). \
-                 Use the emergency stop if it moves."
-            ));
-        }
-        let parts: Vec<RobotPart> = sent.iter().map(|sent| sent.order.part).collect();
-        drop(link);
-        robot.busy.borrow_mut().retain(|part| !parts.contains(part));
-        if let Ok(told) = Told::now(&robot, world) {
-            told.believe(world, |part| parts.contains(&part), self.closed());
-        }
-        true
-    }
-
     /// The parts that this motion uses are free again.
     fn free(&self, moving: &Moving) {
         let parts: Vec<RobotPart> = moving.sent.iter().map(|sent| sent.order.part).collect();
-        let mut busy = self.robot.busy.borrow_mut();
-        busy.retain(|part| !parts.contains(part));
+        self.robot.free(&parts);
     }
 }
 
@@ -381,9 +416,9 @@ impl Motion for RealMotion {
     fn tick(&mut self, world: &mut World) -> MotionStatus {
         match std::mem::replace(&mut self.stage, Stage::Over) {
             Stage::Begin(since) => self.begin(world, since),
-            Stage::Looking(ticket) => {
-                self.stage = Stage::Looking(ticket);
-                self.look(world, ticket)
+            Stage::Looking(ticket, since) => {
+                self.stage = Stage::Looking(ticket, since);
+                self.look(world, ticket, since)
             }
             Stage::Moving(mut moving) => match self.go_on(&mut moving, world) {
                 // The robot was stopped, but not by this motion: it begins anew if the plan goes on.
@@ -462,7 +497,7 @@ impl Motion for RealMotion {
                 what: "waiting for the robot",
                 fraction: 0.0,
             },
-            Stage::Looking(_) => Progress {
+            Stage::Looking(..) => Progress {
                 what: "asking the camera",
                 fraction: 0.0,
             },
@@ -504,6 +539,7 @@ impl Motion for RealMotion {
                 query: self.query.clone(),
                 robot: Rc::clone(&self.robot),
                 stage: Stage::Begin(*since),
+                waits_for_all: self.waits_for_all,
             })),
             _ => None,
         }
@@ -523,8 +559,7 @@ impl Drop for RealMotion {
             if sent.end.is_none() {
                 robot.link.borrow_mut().cancel(sent.ticket);
             }
-            let part = sent.order.part;
-            robot.busy.borrow_mut().retain(|known| *known != part);
+            robot.free(&[sent.order.part]);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What the robot's camera sees becomes what is believed of the world.
 
 use crate::outside::SeenObject;
+use lisp::visible::visible;
 use robotics::motion::{DetectQuery, DetectedObject, MotionFailure, MotionOutcome, MotionStatus};
 use robotics::world::World;
 use spatial::Pose;
@@ -11,6 +12,8 @@ const SAME_PLACE: f64 = 0.15;
 const UNMOVED: [f64; 2] = [0.003, 0.02];
 /// How far (m) beside where it is seen an object may be put, so that it stands on something and overlaps nothing.
 const MOVED: f64 = 0.03;
+/// What is farther (m) from the middle of the map is no place.
+const FARTHEST: f64 = 1e4;
 
 /// Puts what is seen into the world, and returns how the motion that has looked ends.
 pub(super) fn believe(
@@ -20,10 +23,10 @@ pub(super) fn believe(
 ) -> MotionStatus {
     let mut found: Vec<DetectedObject> = Vec::new();
     let mut strange: Vec<String> = Vec::new();
-    for object in seen {
+    for object in once(seen, &mut strange) {
         let kind = object.type_name.to_lowercase();
         if world.models().objects.get(&kind).is_none() {
-            strange.push(object.type_name);
+            strange.push(format!("{:?} (a type that is not known)", object.type_name));
             continue;
         }
         let taken: Vec<&str> = found.iter().map(|found| found.name.as_str()).collect();
@@ -68,6 +71,52 @@ pub(super) fn believe(
     }))
 }
 
+/// The objects that can be, each once: what is told twice is one, and one at two places is nowhere. What cannot be is added to
+/// `strange`.
+fn once(seen: Vec<SeenObject>, strange: &mut Vec<String>) -> Vec<SeenObject> {
+    let called = |object: &SeenObject| {
+        let name = match object.name.is_empty() {
+            true => format!("a {}", object.type_name),
+            false => object.name.to_uppercase(),
+        };
+        visible(&name).to_string()
+    };
+    let mut single: Vec<SeenObject> = Vec::new();
+    let mut doubtful: Vec<String> = Vec::new();
+    for object in seen {
+        let at = &object.pose;
+        let mut numbers = at
+            .translation
+            .vector
+            .iter()
+            .chain(at.rotation.coords.iter());
+        if !numbers.all(|number| number.is_finite() && number.abs() < FARTHEST) {
+            strange.push(format!("{} (its pose is none)", called(&object)));
+            continue;
+        }
+        let is_near = |other: &SeenObject| {
+            let way = (other.pose.translation.vector - at.translation.vector).norm();
+            way <= UNMOVED[0]
+        };
+        let is_it = |other: &&SeenObject| match object.name.is_empty() && other.name.is_empty() {
+            true => other.type_name.eq_ignore_ascii_case(&object.type_name) && is_near(other),
+            false => other.name.eq_ignore_ascii_case(&object.name),
+        };
+        match single.iter().find(is_it) {
+            None => single.push(object),
+            Some(other) if is_near(other) => {}
+            Some(_) => doubtful.push(object.name.to_uppercase()),
+        }
+    }
+    doubtful.dedup();
+    single.retain(|object| !doubtful.contains(&object.name.to_uppercase()));
+    let doubtful = doubtful
+        .iter()
+        .map(|name| format!("{} (at two places)", visible(name)));
+    strange.extend(doubtful);
+    single
+}
+
 /// By which name the world knows an object that is seen.
 fn name_of(world: &World, given: &str, kind: &str, pose: &Pose, taken: &[&str]) -> String {
     let given = given.to_uppercase();
@@ -106,6 +155,10 @@ fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<Pose,
             return Ok(there);
         }
     }
+    if pose.translation.z < -MOVED {
+        return Err("it would be below the floor".to_owned());
+    }
+    let before = world.clone();
     let placed = world.spawn(name, kind, pose, None, None);
     let placed = placed.map_err(|error| error.to_string())?;
     let moved = placed.lifted.abs().max(placed.shifted);
@@ -114,6 +167,8 @@ fn place(world: &mut World, name: &str, kind: &str, pose: &Pose) -> Result<Pose,
             || "nothing carries it there".to_owned(),
             |body| format!("it would be in {body}"),
         );
+        // It is nowhere else either, and what was known of it before still is.
+        *world = before;
         return Err(format!("{what}; there is room {moved:.2} m off"));
     }
     Ok(placed.pose)

@@ -19,17 +19,39 @@ pub(super) struct Trial {
     pub(super) begun: Option<Box<dyn Motion>>,
 }
 
-/// Carries out a motion in a copy of the world. May be abandoned by an interrupt, as searches are.
+/// Why a motion that was tried cannot be.
+pub(super) enum Misfit {
+    /// It fails.
+    Fails(Box<MotionFailure>),
+    /// It would let something fail that goes on already.
+    Disturbs,
+}
+
+/// Carries out a motion in a copy of the world, together with others that go on there. May be abandoned by an interrupt,
+/// as searches are.
 pub(super) fn try_motion(
     world: &World,
     mut motion: Box<dyn Motion>,
-) -> Result<Trial, Box<MotionFailure>> {
+    mut companions: Vec<Box<dyn Motion>>,
+) -> Result<Trial, Misfit> {
     let mut world = world.clone();
     let mut begun = None;
     let mut trace = vec![world.robot_configuration().clone()];
     let steps = (MAX_SECONDS / STEP_SECONDS) as usize;
     while trace.len() < steps {
         interruption::look();
+        let mut disturbs = false;
+        companions.retain_mut(|companion| match companion.tick(&mut world) {
+            MotionStatus::Running => true,
+            MotionStatus::Done(_) => false,
+            MotionStatus::Failed(_) => {
+                disturbs = true;
+                false
+            }
+        });
+        if disturbs {
+            return Err(Misfit::Disturbs);
+        }
         match motion.tick(&mut world) {
             MotionStatus::Running if trace.len() == 1 => begun = motion.copied(),
             MotionStatus::Running => {}
@@ -42,11 +64,11 @@ pub(super) fn try_motion(
                     begun,
                 });
             }
-            MotionStatus::Failed(failure) => return Err(failure),
+            MotionStatus::Failed(failure) => return Err(Misfit::Fails(failure)),
         }
         trace.push(world.robot_configuration().clone());
         world.step();
     }
     let module = motion.module();
-    Err(Box::new(MotionFailure::Stalled { module }))
+    Err(Misfit::Fails(Box::new(MotionFailure::Stalled { module })))
 }
