@@ -34,6 +34,7 @@ mod published_code;
 mod putting_down;
 mod refusals;
 mod renamed_robot;
+mod salting;
 mod searching;
 mod session_copies;
 mod spawning;
