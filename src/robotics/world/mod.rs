@@ -84,7 +84,7 @@ pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;
 
 pub use kitchen_description::KitchenDescription;
-pub use knob::Knob;
+pub use knob::{KNOB_ON, Knob};
 pub use map_area::MapArea;
 pub use models::Models;
 pub use moved_part::{MovedPart, Part};

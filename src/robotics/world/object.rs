@@ -102,11 +102,9 @@ impl Object {
         self.is_hollow
     }
 
-    /// Whether what is in it would run out if it were tilted: it is hollow, or it has been opened and filled.
+    /// Whether what is in it could leave it if it were tilted: it is hollow, or it has an opening or holes and is not empty.
     pub(crate) fn may_lose_content(&self) -> bool {
-        self.is_hollow
-            || self.content.volume > 0.0
-                && self.inside.is_some_and(|inside| inside.portion.is_none())
+        self.is_hollow || self.inside.is_some() && self.content.volume > 0.0
     }
 
     /// Which definition of its type it was made by; 0 for one that is built in.

@@ -19,7 +19,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "SET-CONTENT",
         "name what amount",
-        "Fills an open vessel with so much (ml) of something, in place of what was in it. What is above its rim when it is tilted leaves it, into a vessel below or beside it.",
+        "Fills a vessel with so much (ml) of something, in place of what was in it; to fill a bottle or a carton is to open it. What is above its rim when it is tilted leaves it, into a vessel below or beside it.",
         &[
             "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (set-content 'cup-1 :water 200) (content-of 'cup-1)) => (:WATER 200.0d0)",
         ],
