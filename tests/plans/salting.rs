@@ -63,23 +63,24 @@ fn what_falls_out_of_a_shaker_gets_into_the_bowl_and_more_shakes_give_more() {
 fn what_is_shaken_beside_the_bowl_has_fallen_beside_it() {
     let mut cook = at_island();
     cook.done("(set-content 'salt-1 :salt 60)");
-    // The bowl is taken away meanwhile.
-    let report = cook.fails(
-        "POURING-SPILLED",
-        &format!(
-            "(with-simulated-robot
-               (cpl:pursue
-                 (progn (cpl:wait-for (cpl:make-fluent :value nil)))
-                 (progn
-                   (loop until (> (pp-plans::volume-in 'bowl-1) 300.5) do (cpl:sleep 0.05))
-                   (btr-utils:move-object 'bowl-1 '((-0.75 0.9 0.95) (0 0 0 1)))
-                   (cpl:wait-for (cpl:make-fluent :value nil)))
-                 {}))",
-            salting("(object ?salt) (on-object ?bowl)")
-        ),
+    cook.done(
+        "(with-simulated-robot
+           (let ((?salt *salt*))
+             (perform (an action (type fetching) (object ?salt))))
+           (let ((arm (pp-plans::holder-of 'salt-1)))
+             (multiple-value-bind (way ?stand torso posture)
+                 (funcall (fd-plans::ways-to-salt 'salt-1 arm (cl-tf:make-3d-vector -0.75 1.55 0.95)
+                                                  (cons nil (pp-plans::stands-about -0.75 1.55))))
+               (when ?stand
+                 (perform (an action (type navigating) (location (a location (pose ?stand))))))
+               (pp-plans::take-posture arm torso posture)
+               (fd-plans::shake-along arm 'salt-1 way 2))))",
     );
-    assert!(report.contains("fell beside"), "{report}");
-    assert!(number(&mut cook, "(spilled-from 'salt-1)") > 0.1);
+    let beside = number(&mut cook, "(spilled-from 'salt-1)");
+    assert!(beside >= 2.0 * 0.17 - 1e-6, "{beside} ml");
+    let left = number(&mut cook, "(second (content-of 'salt-1))");
+    assert!((60.0 - left - beside).abs() < 1e-6, "{left} ml");
+    assert_eq!(number(&mut cook, "(second (content-of 'bowl-1))"), 300.0);
 }
 
 #[test]

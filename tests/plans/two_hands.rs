@@ -142,15 +142,16 @@ const POT: &str = "
   (defparameter *table* (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))
   (defparameter *island* (a location (on (an object (urdf-name kitchen-island-surface) (part-of kitchen)))))
   (with-simulated-robot
-    (let* ((?table *table*)
-           (?pot (perform (an action (type searching) (object (an object (type pot))) (location ?table)))))
+    (let ((?table *table*))
+      (defparameter *pot*
+        (perform (an action (type searching) (object (an object (type pot))) (location ?table)))))
+    (let ((?pot *pot*))
       (perform (an action (type fetching) (object ?pot)))))";
 
 #[test]
 fn a_pot_of_soup_is_carried_by_its_handles_and_nothing_is_spilled() {
     let mut cook = Cook::unwatched();
     cook.done(POT);
-    // Each hand is at a handle, 14.5 cm beside the middle.
     let world = cook.session.simulation().world();
     let pot = world.object_pose("POT-1").unwrap();
     for side in Side::BOTH {
@@ -160,8 +161,8 @@ fn a_pot_of_soup_is_carried_by_its_handles_and_nothing_is_spilled() {
     assert!(height > 0.9, "{height}");
     cook.done(
         "(with-simulated-robot
-           (let ((?island *island*))
-             (perform (an action (type transporting) (object (an object (type pot))) (target ?island)))))",
+           (let ((?island *island*) (?pot *pot*))
+             (perform (an action (type delivering) (object ?pot) (target ?island)))))",
     );
     let said =
         cook.done("(list (on-surface-p 'pot-1 'kitchen-island-surface) (spilled-from 'pot-1))");
