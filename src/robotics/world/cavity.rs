@@ -291,7 +291,7 @@ mod tests {
     fn cartons_and_bottles_hold_what_is_behind_their_opening() {
         let models = crate::world::Models::pr2_in_kitchen().expect("it is built in");
         for (name, least, most) in [
-            ("milk", 900.0, 1200.0),
+            ("milk", 1100.0, 1300.0),
             ("bottle", 450.0, 620.0),
             ("breakfast-cereal", 1500.0, 2000.0),
             ("salt-shaker", 100.0, 180.0),
@@ -303,7 +303,10 @@ mod tests {
             assert!((least..most).contains(&holds), "{name} holds {holds} ml");
             // Lying, it keeps some; upside down, nothing.
             let lying = cavity.volume_at(std::f64::consts::FRAC_PI_2);
-            assert!(lying > 0.1 * holds && lying < 0.6 * holds, "{name} {lying}");
+            assert!(
+                lying > 0.05 * holds && lying < 0.6 * holds,
+                "{name} {lying}"
+            );
             let turned = cavity.volume_at(std::f64::consts::PI);
             assert!(turned < 0.05 * holds, "{name} {turned}");
         }
