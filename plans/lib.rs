@@ -66,6 +66,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "wiping.plan",
     "slicing.plan",
     "mixing.plan",
+    "salting.plan",
     "turning-knob.plan",
     "handing-over.plan",
     "holding.plan",

@@ -50,7 +50,8 @@
 (grip (orange) :effort 30 :opening 0.109)
 (grip (shoe) :effort 40 :opening 0.1)
 (grip (sponge) :effort 60 :opening 0.1)
-(grip (big-knife whisk) :effort 100 :opening 0.06)
+(grip (salt-shaker) :effort 60 :opening 0.08)
+(grip (big-knife whisk ladle) :effort 100 :opening 0.06)
 (grip (bread-slice weisswurst-slice apple-slice orange-slice) :effort 20 :opening 0.06)
 (grip (cap glasses glove) :effort 30 :opening 0.1)
 (grip (weisswurst spatula visualization-box) :effort 30 :opening 0.07)
@@ -65,7 +66,8 @@
 (order (tray) left-side right-side top top-front top-left top-right)
 (order (tray-base) front back left-side right-side)
 (order (bowl cutlery spoon fork knife spatula weisswurst glasses glove cap) top)
-(order (sponge big-knife whisk bread-slice weisswurst-slice apple-slice orange-slice) top)
+(order (salt-shaker) back front left-side right-side)
+(order (sponge big-knife whisk ladle bread-slice weisswurst-slice apple-slice orange-slice) top)
 (order (cube) top top2 back front left-side right-side)
 (order (buttermilk) left-side right-side back front top)
 (order (mug) back front top top-left top-right)
@@ -412,6 +414,27 @@
        :lift (0 0 0.1) :second-lift (0 0 0.1))
 (grasp top :types (big-knife) :arms (left right)
        :translation (0 -0.035 -0.004) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; Around its upper half: turned down, it is near what is salted, and upright, the arm is above the edge of a counter.
+(grasp back :types (salt-shaker) :arms (left right)
+       :translation (0.015 0 0.012) :rotation back
+       :pregrasp (-0.15 0 0.1) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (salt-shaker) :arms (left right)
+       :translation (-0.015 0 0.012) :rotation front
+       :pregrasp (0.15 0 0.1) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (salt-shaker) :arms (left right)
+       :translation (0 -0.015 0.012) :rotation left-side
+       :pregrasp (0 0.15 0.1) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (salt-shaker) :arms (left right)
+       :translation (0 0.015 0.012) :rotation right-side
+       :pregrasp (0 -0.15 0.1) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (ladle) :arms (left right)
+       :translation (0 -0.05 0.006) :rotation top-across-y
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
 (grasp top :types (whisk) :arms (left right)

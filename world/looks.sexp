@@ -249,6 +249,24 @@
    (turned :axis y :color steel
          :line ((0 0.045) (0.006 0.05) (0.009 0.08) (0.013 0.12) (0.015 0.15) (0.012 0.17) (0.005 0.179) (0 0.18)))))
 
+; A ladle.
+(object ladle
+ :surfaces
+  ((lofted :axis y :ends (0.003 0.002)
+         :sections ((-0.11 (0.006 0.009) 0.004 (0.01 0))
+                    (0.03 (0.004 0.006) 0.003 (0.011 0))
+                    (0.055 (0.003 0.008) 0.002 (0.013 0))))
+   (vessel)))
+
+; A glass shaker with a lid of steel.
+(object salt-shaker
+ :surfaces
+  ((turned :axis z
+         :line ((0 -0.055) (0.0215 -0.055) (0.023 -0.052) (0.022 -0.01) (0.0205 0.03) (0.0195 0.04) (0 0.04)))
+   (turned :axis z :color steel
+         :line ((0.0205 0.034) (0.021 0.038) (0.02 0.046) (0.015 0.053) (0.008 0.0548) (0 0.055)))
+   (disc :axis z :color ink :span (0.0545 0.0553) :radius 0.0035)))
+
 ; A knife with a broad blade.
 (object big-knife
  :surfaces

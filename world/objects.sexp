@@ -5,6 +5,9 @@
 ; a sphere, and a ring of equal boxes (staves, thickness x width x height) around :at, whose tops
 ; :lean outwards by that angle. :at and :rpy give the pose of the shape's centre; they and :lean
 ; default to zero.
+; :inside says what is in something whose solids are closed, behind the middle of its top: an (opening :radius :wall) once
+; it has been filled, which is to open it, or (holes :radius :wall :portion) out of which a portion (ml) falls each
+; time it is shaken; walls, bottom and top are so thick (m).
 ; Colours are linear red, green, blue and optionally alpha.
 
 ; The types that list-available-objects returns, in that order.
@@ -13,7 +16,7 @@
            fork knife spatula cap glasses glove shoe)
 
 ; Types and their kinds; an object of a kind may be used wherever its type is asked for.
-(kinds household-item kitchen-item clothing-item wiping-tool stirring-tool)
+(kinds household-item kitchen-item clothing-item wiping-tool stirring-tool shaker)
 (kinds kitchen-item cutlery plate tray bottle cup milk cereal bowl open-box pot spatula)
 (kinds food bread weisswurst)
 (kinds cutlery knife fork spoon)
@@ -22,7 +25,8 @@
 (kinds clothing-item shoe)
 (kinds wiping-tool sponge)
 (kinds knife big-knife)
-(kinds stirring-tool whisk)
+(kinds stirring-tool whisk ladle)
+(kinds shaker salt-shaker)
 (kinds bread bread-slice)
 (kinds weisswurst weisswurst-slice)
 (kinds apple apple-slice)
@@ -53,7 +57,7 @@
    (ring :count 12 :radius 0.1183 :stave (0.025 0.0701 0.0096) :at (0 0 0.0045))))
 
 ; A slim carton with a low gable top.
-(object milk :mass 0.2 :color (0.12 0.22 0.42)
+(object milk :mass 0.2 :color (0.12 0.22 0.42) :inside (opening :radius 0.014 :wall 0.001)
  :shapes
   ((box :size (0.0765 0.0761 0.205) :at (0.0018 -0.0009 -0.01))
    (box :size (0.066 0.05 0.0235) :at (0.001 0 0.1042))))
@@ -70,6 +74,7 @@
   ((box :size (0.07 0.07 0.07))))
 
 (object cereal :mass 0.2 :color (0.5 0.5 0.5)
+ :inside (opening :radius 0.024 :wall 0.002)
  :shapes
   ((box :size (0.1474 0.058 0.2236) :at (-0.0012 -0.001 0.0099))))
 
@@ -80,11 +85,12 @@
    (cylinder :radius 0.021 :length 0.0427 :at (0.0005 -0.0001 0.0721))))
 
 (object breakfast-cereal :mass 0.2 :color (0.5 0.5 0.21)
+ :inside (opening :radius 0.024 :wall 0.002)
  :shapes
   ((box :size (0.1474 0.058 0.2236) :at (-0.0012 -0.001 0.0099))))
 
 ; Upright, with a short shoulder and neck; its bottom is 0.1008 below its origin.
-(object bottle :mass 0.2 :color (0.5 0.5 0.5)
+(object bottle :mass 0.2 :color (0.5 0.5 0.5) :inside (opening :radius 0.011 :wall 0.002)
  :shapes
   ((cylinder :radius 0.0357 :length 0.151 :at (0.0005 -0.0007 -0.0253))
    (cylinder :radius 0.031 :length 0.011 :at (0.0005 -0.0007 0.0557))
@@ -210,6 +216,19 @@
  :shapes
   ((box :size (0.024 0.13 0.03) :at (0 -0.015 0))
    (cylinder :radius 0.015 :length 0.13 :at (0 0.115 0) :rpy (1.5707963267948966 0 0))))
+
+; Lying, its long axis along y, the round bowl of the ladle at +y, its open side up.
+(object ladle :mass 0.15 :color (0.35 0.36 0.37)
+ :shapes
+  ((box :size (0.022 0.16 0.016) :at (0 -0.03 0.01))
+   (cylinder :radius 0.026 :length 0.004 :at (0 0.082 -0.018))
+   (ring :count 8 :radius 0.0285 :stave (0.003 0.0236 0.032) :at (0 0.082 0))))
+
+; A cylinder with a domed lid, in whose middle are holes. Two tenths of a gram, 0.17 ml, fall at a time.
+(object salt-shaker :mass 0.15 :color (0.7 0.71 0.72) :inside (holes :radius 0.014 :wall 0.002 :portion 0.17)
+ :shapes
+  ((cylinder :radius 0.023 :length 0.095 :at (0 0 -0.0075))
+   (cylinder :radius 0.018 :length 0.015 :at (0 0 0.0475))))
 
 ; Lying, its long axis along y and its edge at +x; the weight is in the handle.
 (object big-knife :mass 0.2 :color (0.06 0.06 0.065)

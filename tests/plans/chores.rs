@@ -136,8 +136,8 @@ fn what_cannot_be_filled_is_refused_with_the_reason() {
     );
     for (form, wanted) in [
         (
-            "(set-content 'bottle-1 :water 10)",
-            "BOTTLE-1 is closed: nothing can be filled into it.",
+            "(progn (btr-utils:spawn-object 'cap-1 :cap :pose '((1.4 1.0 0.95) (0 0 0 1))) (set-content 'cap-1 :water 10))",
+            "CAP-1 is closed: nothing can be filled into it.",
         ),
         (
             "(set-content 'cup-1 :water 1000)",

@@ -345,3 +345,24 @@ fn how_long_it_takes_to_set_the_table() {
     assert_ne!(outcome, Outcome::Aborted);
     eprintln!("{:.2} s", start.elapsed().as_secs_f64());
 }
+
+const BREAKFAST: &str = include_str!("../../plans/demos/breakfast.plan");
+
+/// Poured, sliced, cleared and wiped: each step is judged by the demo itself, and the world once more here.
+#[test]
+#[ignore = "takes a minute"]
+fn breakfast_is_made_and_cleared_away() {
+    let mut cook = Cook::unwatched();
+    let said = cook.done(BREAKFAST);
+    assert!(said.contains("7 of 7 steps have worked."), "{said}");
+    assert!(!said.contains("failed: "), "{said}");
+    let poured = cook.done(
+        "(list (< (abs (- 950 (second (content-of 'demo::breakfast-cereal-1)))) 25)
+               (< (abs (- 500 (second (content-of 'demo::milk-1)))) 20)
+               (< (+ (spilled-from 'demo::milk-1) (spilled-from 'demo::breakfast-cereal-1)) 2))",
+    );
+    assert_eq!(poured, "(T T T)\n");
+    assert_eq!(cook.done(OPEN), "NIL\n");
+    assert!(is_home(&mut cook));
+    cook.assert_no_overlap();
+}

@@ -37,6 +37,7 @@ mod rays;
 mod real_robot;
 mod refusals;
 mod renamed_robot;
+mod salting;
 mod searching;
 mod session_copies;
 mod spawning;

@@ -134,3 +134,62 @@ fn what_is_too_heavy_for_one_arm_is_taken_with_both_and_what_is_too_heavy_for_bo
         assert_eq!(both.contains('T'), mass == "2.5", "{said}");
     }
 }
+
+/// A heavy pot full of soup on the table, its handles beside it as seen from there, in both hands.
+const POT: &str = "
+  (btr-utils:spawn-object 'pot-1 :pot :mass 3.3 :pose '((-1.5 -0.95 0.9) (0 0 0.7071 0.7071)))
+  (set-content 'pot-1 :soup 4000)
+  (defparameter *table* (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))
+  (defparameter *island* (a location (on (an object (urdf-name kitchen-island-surface) (part-of kitchen)))))
+  (with-simulated-robot
+    (let ((?table *table*))
+      (defparameter *pot*
+        (perform (an action (type searching) (object (an object (type pot))) (location ?table)))))
+    (let ((?pot *pot*))
+      (perform (an action (type fetching) (object ?pot)))))";
+
+#[test]
+fn a_pot_of_soup_is_carried_by_its_handles_and_nothing_is_spilled() {
+    let mut cook = Cook::unwatched();
+    cook.done(POT);
+    let world = cook.session.simulation().world();
+    let pot = world.object_pose("POT-1").unwrap();
+    for side in Side::BOTH {
+        assert_eq!(robotics::motion::held_objects(world, side), ["POT-1"]);
+    }
+    let height = pot.translation.z;
+    assert!(height > 0.9, "{height}");
+    cook.done(
+        "(with-simulated-robot
+           (let ((?island *island*) (?pot *pot*))
+             (perform (an action (type delivering) (object ?pot) (target ?island)))))",
+    );
+    let said =
+        cook.done("(list (on-surface-p 'pot-1 'kitchen-island-surface) (spilled-from 'pot-1))");
+    assert!(said.contains("(T 0.0d0)"), "{said}");
+}
+
+#[test]
+fn hands_that_pull_at_a_pot_from_both_sides_feel_it() {
+    let mut cook = Cook::unwatched();
+    cook.done(POT);
+    let at_rest = number(&mut cook, "(first (btr::%force-between-hands))");
+    assert!(at_rest < 2.0, "{at_rest} N");
+    // One hand goes a millimetre away from the other one.
+    cook.done(
+        "(with-simulated-robot
+           (let* ((left (pp-plans::hand-pose :left))
+                  (way (cl-tf:v- (cl-tf:origin left) (cl-tf:origin (pp-plans::hand-pose :right))))
+                  (?left (cl-tf:make-pose-stamped \"map\" 0.0
+                                                  (cl-tf:v+ (cl-tf:origin left)
+                                                            (cl-tf:v* way (/ 0.001 (cl-transforms:v-norm way))))
+                                                  (cl-tf:orientation left))))
+             (perform (a motion (type moving-tcp) (collision-mode allow-hand)
+                        (left-target (a location (pose ?left)))))
+             (cpl:sleep 1)))",
+    );
+    let pulled = number(&mut cook, "(first (btr::%force-between-hands))");
+    assert!(pulled > at_rest + 2.0, "{pulled} N, {at_rest} N");
+    let greatest = number(&mut cook, "(second (btr::%force-between-hands))");
+    assert!(greatest >= pulled, "{greatest} N");
+}

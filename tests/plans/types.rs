@@ -106,7 +106,7 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Number, "FORCE") => "5",
         (Kind::Number, "OVERLAP") => "0.2",
         (Kind::Number, "SLICE-THICKNESS") => "0.03",
-        (Kind::Number, "CUTS" | "ROUNDS") => "2",
+        (Kind::Number, "CUTS" | "ROUNDS" | "SHAKES") => "2",
         (Kind::Keywords, "GRIPPER" | "ARM" | "ARMS" | "DIRECTION") => "left",
         (Kind::Keywords, "GRASP" | "GRASPS" | "LEFT-GRASP" | "RIGHT-GRASP") => "left-side",
         (Kind::Keyword, "CONTEXT") => "table-setting-counter",
@@ -319,7 +319,7 @@ fn waiting_takes_simulated_time_and_keeps_nobody_from_moving() {
 #[test]
 fn what_is_not_built_is_not_in_the_table() {
     let mut table = Table::new();
-    for name in ["salting", "ironing"] {
+    for name in ["peeling", "ironing"] {
         let action = format!("(an action (type {name}) (object (an object (type bottle))))");
         let said = table.perform(&action);
         let wanted = format!("There is no action of type {}", name.to_uppercase());

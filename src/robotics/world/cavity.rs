@@ -6,6 +6,7 @@
 
 use parry3d_f64::query::Ray;
 
+use super::inside::Inside;
 use super::solid::{Solid, bounds_of, to_parry};
 use parry3d_f64::math::Vector;
 use spatial::{Pose, trig};
@@ -36,6 +37,10 @@ pub struct Cavity {
     thickness: f64,
     /// Radii (m) of the slices, the uppermost first.
     radii: Vec<f64>,
+    /// How much (ml) falls out of its holes each time it is shaken; `None` for a mouth that is open.
+    pub portion: Option<f64>,
+    /// How far (m) the farthest part of the vessel is beyond its mouth, level.
+    pub shoulder: f64,
 }
 
 impl Cavity {
@@ -72,6 +77,54 @@ impl Cavity {
             narrowest: narrowest.unwrap_or(mouth),
             thickness,
             radii,
+            portion: None,
+            shoulder: 0.0,
+        })
+    }
+
+    /// The room inside solids that are closed, behind an opening in the middle of their top. `None` if the walls leave
+    /// none.
+    pub fn behind(solids: &[Solid], inside: &Inside) -> Option<Self> {
+        let bounds = bounds_of(solids)?;
+        let (low, high) = (bounds.mins.z, bounds.maxs.z);
+        let thickness = (high - low) / SLICES as f64;
+        let tops: Vec<Solid> = solids
+            .iter()
+            .filter(|solid| {
+                let one = bounds_of(std::slice::from_ref(*solid));
+                one.is_some_and(|one| one.maxs.z > high - thickness)
+            })
+            .cloned()
+            .collect();
+        let middle = bounds_of(&tops)?.center();
+        let axis = [middle.x, middle.y];
+        let mut radii = Vec::new();
+        let mut farthest = 0.0_f64;
+        for slice in 0..SLICES {
+            let height = high - (slice as f64 + 0.5) * thickness;
+            if height < low + inside.wall {
+                break;
+            }
+            let ends = far_sides(solids, axis, height)?;
+            farthest = ends.iter().copied().fold(farthest, f64::max);
+            let mean = ends.iter().map(|r| r * r).sum::<f64>() / RAYS as f64;
+            let within = (mean.sqrt() - inside.wall).max(0.0);
+            radii.push(match height > high - inside.wall {
+                true => within.min(inside.radius),
+                false => within,
+            });
+        }
+        let mouth = radii.first()?.min(inside.radius);
+        (mouth > 0.0).then_some(Self {
+            axis,
+            rim: high,
+            foot: low,
+            mouth,
+            narrowest: mouth,
+            thickness,
+            radii,
+            portion: inside.portion,
+            shoulder: farthest - mouth,
         })
     }
 
@@ -165,6 +218,30 @@ fn walls(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS]> {
     Some(distances)
 }
 
+/// The distances (m) at which solids around a vertical axis end at a height; `None` if the axis is in none.
+fn far_sides(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS]> {
+    if !is_solid(solids, axis, height) {
+        return None;
+    }
+    let mut distances = [0.0; RAYS];
+    for (ray, distance) in distances.iter_mut().enumerate() {
+        let (sine, cosine) =
+            trig::sin_cos(std::f64::consts::TAU * (ray as f64 + 0.5) / RAYS as f64);
+        // From far outside, so that parts which overlap count as one.
+        let from = Vector::new(
+            axis[0] + FARTHEST * cosine,
+            axis[1] + FARTHEST * sine,
+            height,
+        );
+        let ray = Ray::new(from, Vector::new(-cosine, -sine, 0.0));
+        let hits = solids
+            .iter()
+            .filter_map(|solid| solid.shape.cast_ray(&solid.pose, &ray, FARTHEST, true));
+        *distance = FARTHEST - hits.fold(FARTHEST, f64::min);
+    }
+    Some(distances)
+}
+
 /// The middle (m) of walls about an axis at the origin.
 fn middle(walls: &[f64; RAYS]) -> [f64; 2] {
     let mut sum = [0.0; 2];
@@ -211,8 +288,33 @@ mod tests {
     }
 
     #[test]
+    fn cartons_and_bottles_hold_what_is_behind_their_opening() {
+        let models = crate::world::Models::pr2_in_kitchen().expect("it is built in");
+        for (name, least, most) in [
+            ("milk", 1100.0, 1300.0),
+            ("bottle", 450.0, 620.0),
+            ("breakfast-cereal", 1500.0, 2000.0),
+            ("salt-shaker", 100.0, 180.0),
+        ] {
+            let kind = models.objects.get(name).expect("the type is known");
+            let inside = kind.inside.expect("it has one");
+            let cavity = Cavity::behind(&Solid::all(&kind.shapes), &inside).expect("it has room");
+            let holds = cavity.capacity();
+            assert!((least..most).contains(&holds), "{name} holds {holds} ml");
+            // Lying, it keeps some; upside down, nothing.
+            let lying = cavity.volume_at(std::f64::consts::FRAC_PI_2);
+            assert!(
+                lying > 0.05 * holds && lying < 0.6 * holds,
+                "{name} {lying}"
+            );
+            let turned = cavity.volume_at(std::f64::consts::PI);
+            assert!(turned < 0.05 * holds, "{name} {turned}");
+        }
+    }
+
+    #[test]
     fn closed_and_flat_things_hold_nothing() {
-        for name in ["bottle", "milk", "cereal", "spoon", "bread", "cube"] {
+        for name in ["spoon", "bread", "cube", "mondamin", "sponge"] {
             assert_eq!(built_in(name), None, "{name}");
         }
     }

@@ -48,9 +48,13 @@ pub fn tilt_of(at: &Pose) -> f64 {
 impl Object {
     /// The room inside it; `None` if it is no open vessel.
     pub fn cavity(&self) -> Option<&Cavity> {
-        let cavity = self
-            .cavity
-            .get_or_init(|| Cavity::of(&self.solids).map(Arc::new));
+        let cavity = self.cavity.get_or_init(|| {
+            let found = match &self.inside {
+                Some(inside) => Cavity::behind(&self.solids, inside),
+                None => Cavity::of(&self.solids),
+            };
+            found.map(Arc::new)
+        });
         cavity.as_deref()
     }
 
@@ -88,6 +92,10 @@ impl World {
             let Some(cavity) = object.cavity() else {
                 continue;
             };
+            if cavity.portion.is_some() {
+                // It leaves holes only when it is shaken: `super::shaking`.
+                continue;
+            }
             let at = self.physics.pose(object.body);
             let level = cavity.volume_at(tilt_of(&at));
             let excess = object.content.volume - level;
@@ -95,29 +103,42 @@ impl World {
                 continue;
             }
             let (lip, out) = cavity.lip(&at);
-            let what = object.content.what.clone();
-            let caught = self.catcher(place, &lip, &out);
-            if let Some((_, source)) = self.state.objects.get_index_mut(place) {
-                source.content.volume = level;
-            }
-            let spilled = match caught {
-                None => excess,
-                Some((into, room)) => {
-                    let fits = excess.min(room);
-                    if let Some((_, target)) = self.state.objects.get_index_mut(into) {
-                        target.content.volume += fits;
-                        if target.content.what.is_empty() || target.content.volume <= fits {
-                            target.content.what = what;
-                        } else if target.content.what != what {
-                            "mixture".clone_into(&mut target.content.what);
-                        }
+            self.let_fall(place, excess, &lip, &out);
+        }
+    }
+
+    /// So much (ml) leaves the vessel with a number at a point, with the speed of a stream in a level direction, or
+    /// straight down if that is none, and falls into the vessel below or beside it.
+    pub(super) fn let_fall(
+        &mut self,
+        place: usize,
+        amount: f64,
+        from: &nalgebra::Point3<f64>,
+        out: &nalgebra::Vector3<f64>,
+    ) {
+        let caught = self.catcher(place, from, out);
+        let Some((_, source)) = self.state.objects.get_index_mut(place) else {
+            return;
+        };
+        source.content.volume -= amount;
+        let what = source.content.what.clone();
+        let spilled = match caught {
+            None => amount,
+            Some((into, room)) => {
+                let fits = amount.min(room);
+                if let Some((_, target)) = self.state.objects.get_index_mut(into) {
+                    target.content.volume += fits;
+                    if target.content.what.is_empty() || target.content.volume <= fits {
+                        target.content.what = what;
+                    } else if target.content.what != what {
+                        "mixture".clone_into(&mut target.content.what);
                     }
-                    excess - fits
                 }
-            };
-            if let Some((_, source)) = self.state.objects.get_index_mut(place) {
-                source.content.spilled += spilled;
+                amount - fits
             }
+        };
+        if let Some((_, source)) = self.state.objects.get_index_mut(place) {
+            source.content.spilled += spilled;
         }
     }
 
@@ -138,7 +159,7 @@ impl World {
             if far > 1.0 || tilt_of(&at) > CATCHES {
                 continue;
             }
-            let Some(cavity) = object.cavity() else {
+            let Some(cavity) = object.cavity().filter(|cavity| cavity.portion.is_none()) else {
                 continue;
             };
             let mouth = cavity.mouth_at(&at);

@@ -318,6 +318,7 @@ impl World {
                 color: whole.color,
                 is_round: false,
                 balance: [0.0; 3],
+                inside: None,
                 edition: PIECES + self.state.next_number,
             };
             self.insert(name, &piece, &(at * back.inverse()))?;

@@ -41,6 +41,8 @@ pub struct Hold {
     free: u32,
     /// Whether it is open at the top and upright.
     upright: bool,
+    /// The greatest force (N) so far between this hand and another one that holds the object, too.
+    between: f64,
 }
 
 impl Hold {
@@ -71,6 +73,9 @@ impl Hold {
         hasher.integer(u64::from(self.free));
         if self.upright {
             hasher.integer(1);
+        }
+        if self.between > 0.0 {
+            hasher.number(self.between);
         }
     }
 }
@@ -111,6 +116,7 @@ impl World {
                 slipping: 0,
                 free: 0,
                 upright,
+                between: 0.0,
             });
             self.physics
                 .collide(object.body, Robot::WithoutHand(side.index()));
@@ -184,6 +190,7 @@ impl World {
                     slipping: 0,
                     free: 0,
                     upright: false,
+                    between: 0.0,
                 }),
             });
         }
@@ -312,6 +319,7 @@ impl World {
                 continue;
             };
             slips.extend(self.slip_of(object, weld, &mut hold));
+            hold.between = hold.between.max(self.between_hands(object).unwrap_or(0.0));
             seconds.push((object.name.clone(), hold));
         }
         for (name, hold) in seconds {
@@ -336,6 +344,36 @@ impl World {
             self.state.slips.retain(|old| old.side != slip.side);
             self.state.slips.push(slip);
         }
+    }
+
+    /// The force (N) with which hands hold an object up.
+    pub(crate) fn lift_of(&self, object: &Object) -> f64 {
+        let pushes = object
+            .attachments()
+            .map(|one| self.physics.weld_push(one.weld).z);
+        pushes.sum()
+    }
+
+    /// The force (N) with which two hands that hold an object press it between them, or pull at it, along the line from
+    /// one hand to the other: of the two opposite forces the smaller one, since the rest moves the object.
+    fn between_hands(&self, object: &Object) -> Option<f64> {
+        let (one, two) = (object.attachment?, object.second?);
+        let palms = [one, two].map(|held| self.link_pose(held.link).translation.vector);
+        let line = (palms[1] - palms[0]).try_normalize(1e-9)?;
+        let [first, second] = [one, two].map(|held| self.physics.weld_push(held.weld).dot(&line));
+        Some(match first * second < 0.0 {
+            true => first.abs().min(second.abs()),
+            false => 0.0,
+        })
+    }
+
+    /// The force (N) between two hands that hold one object: now, and the greatest so far; `None` if no two hands
+    /// hold one.
+    pub fn force_between_hands(&self) -> Option<[f64; 2]> {
+        let mut objects = self.state.objects.values();
+        let object = objects.find(|object| object.is_held_by_two())?;
+        let greatest = object.second?.hold?.between;
+        Some([self.between_hands(object)?, greatest])
     }
 
     /// Counts for how long a hand has been pulled at harder than its friction transmits; what slips out of it then.

@@ -96,6 +96,7 @@ mod tests {
                 "blue-metal-plate",
                 "bowl",
                 "cup",
+                "ladle",
                 "mug",
                 "open-box",
                 "plate",

@@ -16,7 +16,7 @@ const OFF_AXIS: f64 = 0.003;
 /// Radii (m) of what fingers can take and turn.
 const RADII: [f64; 2] = [0.004, 0.025];
 /// Angle (rad) from the lower end of its joint at which a knob counts as on.
-const ON: f64 = 0.35;
+pub const KNOB_ON: f64 = 0.35;
 
 /// A knob.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl World {
         let angle = kitchen.position(self.kitchen_positions(), knob.joint);
         let limits = kitchen.joint(knob.joint).limits;
         let turned = limits.map_or_else(|| trig::wrap(angle).abs(), |l| angle - l.lower);
-        (angle, turned >= ON)
+        (angle, turned >= KNOB_ON)
     }
 }
 

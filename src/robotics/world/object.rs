@@ -2,11 +2,13 @@
 
 use std::sync::{Arc, OnceLock};
 
+use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 
 use super::cavity::Cavity;
 use super::content::Content;
 use super::holding::Hold;
+use super::inside::Inside;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
 use super::solid::Solid;
@@ -40,6 +42,8 @@ pub struct Object {
     /// The point (m, its frame) at which its weight acts.
     pub(crate) balance: [f64; 3],
     pub(crate) edition: u32,
+    /// The room inside it, if its solids do not show that.
+    pub(super) inside: Option<Inside>,
     /// Whether it holds others as it stands.
     pub(crate) is_hollow: bool,
     pub bounds: Aabb,
@@ -49,6 +53,8 @@ pub struct Object {
     /// The attachment to a second hand, if two hold the object together.
     pub(crate) second: Option<Attachment>,
     pub(super) content: Content,
+    /// How it was last shaken, while it is turned down: its turn (rad/s) at its fastest since it was turned back.
+    pub(super) swing: Vector3<f64>,
     /// The room inside it, once somebody has asked.
     pub(super) cavity: OnceLock<Option<Arc<Cavity>>>,
 }
@@ -96,13 +102,18 @@ impl Object {
         self.is_hollow
     }
 
+    /// Whether what is in it could leave it if it were tilted: it is hollow, or it has an opening or holes and is not empty.
+    pub(crate) fn may_lose_content(&self) -> bool {
+        self.is_hollow || self.inside.is_some() && self.content.volume > 0.0
+    }
+
     /// Which definition of its type it was made by; 0 for one that is built in.
     pub fn edition(&self) -> u32 {
         self.edition
     }
 
     /// The point (m) at which its weight acts, in the frame in which the object is at a pose.
-    pub(crate) fn balance_at(&self, pose: &Pose) -> nalgebra::Vector3<f64> {
+    pub(crate) fn balance_at(&self, pose: &Pose) -> Vector3<f64> {
         // Exactly the place of the pose for what balances there.
         match self.balance {
             [0.0, 0.0, 0.0] => pose.translation.vector,

@@ -2,6 +2,7 @@
 //! meshes, and in which grasps may stand, too.
 
 use super::grasp_library::{GRASP_RECORDS, GraspLibrary};
+use super::inside::inside_of;
 use super::object_library::{FRICTION, ObjectLibrary, ObjectType, friction_of};
 use super::object_shapes::ObjectShapes;
 use super::solid::Solid;
@@ -50,7 +51,7 @@ const RECORDS: &[(&str, &[&str])] = &[
     (
         "object",
         &[
-            "mass", "friction", "color", "shapes", "looks", "kind", "grasps",
+            "mass", "friction", "color", "shapes", "looks", "kind", "grasps", "inside",
         ],
     ),
 ];
@@ -139,6 +140,7 @@ impl ObjectDefinitions {
             color: record.optional("color").map_or(Ok(COLOR), |n| n.color())?,
             looks: Some(looks),
             balance,
+            inside: inside_of(record)?,
             edition: 0,
         };
         self.grasps.forget(&name);
@@ -188,6 +190,7 @@ pub fn plain_type(name: &str, shape: Shape, mass: f64, color: [f32; 4]) -> Objec
         color,
         looks: None,
         balance: [0.0; 3],
+        inside: None,
         edition: 0,
     }
 }

@@ -6,6 +6,7 @@
 
 use indexmap::IndexMap;
 
+use super::inside::{Inside, inside_of};
 use super::object_shapes::ObjectShapes;
 use super::solid::{Solid, bounds_of};
 use crate::mesh::MeshLibrary;
@@ -40,6 +41,8 @@ pub struct ObjectType {
     pub looks: Option<Vec<PlacedShape>>,
     /// The point (m, its frame) at which its weight acts.
     pub balance: [f64; 3],
+    /// The room inside it, if its solids do not show that.
+    pub inside: Option<Inside>,
     /// Which definition of the session it comes from; 0 for those that are built in.
     pub edition: u32,
 }
@@ -68,7 +71,7 @@ pub struct ObjectLibrary {
 const RECORDS: &[(&str, &[&str])] = &[("available", &[]), ("kinds", &[]), ("object", OBJECT_KEYS)];
 
 /// The keys of a type.
-pub(super) const OBJECT_KEYS: &[&str] = &["mass", "friction", "color", "shapes"];
+pub(super) const OBJECT_KEYS: &[&str] = &["mass", "friction", "color", "shapes", "inside"];
 
 impl ObjectLibrary {
     /// Reads a library; `file_name` is used only in errors.
@@ -186,6 +189,7 @@ impl ObjectLibrary {
             color: record.required("color")?.color()?,
             looks: None,
             balance: [0.0; 3],
+            inside: inside_of(record)?,
             edition: 0,
         };
         match self.objects.insert(object.name.clone(), object) {

@@ -455,6 +455,19 @@ impl Physics {
         })
     }
 
+    /// The force (N) with which the weld has pushed what it carries during the last step, in the world's axes.
+    pub(crate) fn weld_push(&self, weld: WeldHandle) -> Vector3<f64> {
+        let Some(joint) = self.sets.impulse_joints.get(weld.0) else {
+            return Vector3::zeros();
+        };
+        let Some(carrier) = self.sets.bodies.get(joint.body1()) else {
+            return Vector3::zeros();
+        };
+        let [x, y, z, ..] = joint.impulses;
+        let axes = from_parry(&(*carrier.position() * joint.data.local_frame1)).rotation;
+        axes * Vector3::new(x, y, z) * (-(SOLVER_ITERATIONS as f64) / STEP_SECONDS)
+    }
+
     /// Advances by [`STEP_SECONDS`].
     pub(crate) fn step(&mut self) {
         let s = &mut self.sets;

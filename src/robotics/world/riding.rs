@@ -98,6 +98,19 @@ impl World {
         object.mass() + riding.map(Object::mass).sum::<f64>()
     }
 
+    /// Where (m) the weight acts of an object that two hands hold, with all that stands on it.
+    pub(crate) fn balance_of_load(&self, object: &Object) -> Vector3<f64> {
+        let balance = |object: &Object| object.balance_at(&self.physics.pose(object.body));
+        let riders = self.riders_of_two_hands();
+        let own = riders.iter().filter(|rider| rider.load == object.key());
+        let riding = own.filter_map(|rider| self.state.objects.get(&rider.name));
+        let (mass, moment) = riding.fold(
+            (object.mass(), balance(object) * object.mass()),
+            |(mass, moment), one| (mass + one.mass(), moment + balance(one) * one.mass()),
+        );
+        moment / mass
+    }
+
     /// Keeps what rides in its place, where friction would. Call after a step of the engine.
     pub(super) fn keep_riders(&mut self) {
         let riders = self.riders_of_two_hands();

@@ -211,6 +211,7 @@ impl World {
         self.keep_riders();
         self.watch_holds();
         self.pour();
+        self.shake();
         self.note_touches();
         self.state.steps += 1;
     }
@@ -391,6 +392,9 @@ impl World {
             // Hashes of worlds without contents stay as they were.
             if object.content != Content::default() {
                 object.content.hash_into(&mut hasher);
+                for part in object.swing.iter().filter(|part| **part != 0.0) {
+                    hasher.number(*part);
+                }
             }
             if let Some(attachment) = &object.attachment {
                 hasher.integer(u64::from(index(attachment.link)));

@@ -195,6 +195,8 @@ impl World {
                 attachment: None,
                 second: None,
                 content: super::content::Content::default(),
+                swing: nalgebra::Vector3::zeros(),
+                inside: kind.inside,
                 cavity: std::sync::OnceLock::new(),
             },
         );

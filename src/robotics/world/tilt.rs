@@ -29,9 +29,9 @@ pub struct Tilt {
 }
 
 impl Object {
-    /// Whether it is open at the top and upright at a pose: what is in it stays there.
+    /// Whether it is open at the top, or filled and opened, and upright at a pose: what is in it stays there.
     pub(crate) fn is_upright_at(&self, pose: &Pose) -> bool {
-        self.is_hollow() && tilt_at(pose) <= UPRIGHT
+        self.may_lose_content() && tilt_at(pose) <= UPRIGHT
     }
 }
 

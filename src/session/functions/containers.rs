@@ -18,7 +18,7 @@ use robotics::location::{Container, containers};
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
 use robotics::robot::JointKind;
-use robotics::world::Knob;
+use robotics::world::{KNOB_ON, Knob};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -51,7 +51,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "KNOB-STATE",
         "knob",
-        "Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle and the limits of that (rad), the name of its joint, and its own.",
+        "Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle and the limits of that (rad), the name of its joint, its own, and by how much (rad) it has to be turned to be on.",
         &[
             "(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven))) => :OFF",
         ],
@@ -192,6 +192,7 @@ fn knob_state(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     values.push(Value::from(kitchen.joint(knob.joint).name.as_str()));
     let name = kitchen.link(knob.link).name.clone();
     values.push(furniture_keyword(image, &name));
+    values.push(Value::Double(KNOB_ON));
     done(Value::values(values))
 }
 

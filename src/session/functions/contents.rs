@@ -19,7 +19,7 @@ pub(super) static TABLE: &[Builtin] = &[
     control(
         "SET-CONTENT",
         "name what amount",
-        "Fills an open vessel with so much (ml) of something, in place of what was in it. What is above its rim when it is tilted leaves it, into a vessel below or beside it.",
+        "Fills a vessel with so much (ml) of something, in place of what was in it; to fill a bottle or a carton is to open it. What is above its rim when it is tilted leaves it, into a vessel below or beside it.",
         &[
             "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (set-content 'cup-1 :water 200) (content-of 'cup-1)) => (:WATER 200.0d0)",
         ],
@@ -59,9 +59,9 @@ pub(super) static SHAPE_TABLE: &[Builtin] = &[
     control(
         "%CAVITY",
         "name",
-        "Where the mouth of a vessel is in its own frame, and how wide: x, y, z of its middle, its radius, and the z of its foot (m), as a list; NIL if it is not open at its top.",
+        "Where the mouth of a vessel is in its own frame, and how wide: x, y, z of its middle, its radius, the z of its foot, how far it is wider than its mouth (m), and how much (ml) falls out of its holes each time it is shaken, or NIL, as a list; NIL if it is not open at its top.",
         &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%cavity 'bottle-1)) => NIL",
+            "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'fork-1 :fork :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr::%cavity 'fork-1)) => NIL",
         ],
         host!(hollow_of),
     ),
@@ -70,7 +70,7 @@ pub(super) static SHAPE_TABLE: &[Builtin] = &[
         "name tilt",
         "How much (ml) a vessel holds when it is tilted by an angle (rad); 0 if it is not open.",
         &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%level 'bottle-1 0)) => 0.0d0",
+            "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'fork-1 :fork :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr::%level 'fork-1 0)) => 0.0d0",
         ],
         host!(level),
     ),
@@ -138,7 +138,9 @@ fn hollow_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
     let cavity = object(simulation, image, &args[0])?.cavity();
     done(cavity.map_or(Value::NIL, |cavity| {
         let [x, y] = cavity.axis;
-        Value::list([x, y, cavity.rim, cavity.mouth, cavity.foot].map(Value::Double))
+        let numbers = [x, y, cavity.rim, cavity.mouth, cavity.foot, cavity.shoulder];
+        let portion = cavity.portion.map_or(Value::NIL, Value::Double);
+        Value::list(numbers.map(Value::Double).into_iter().chain([portion]))
     }))
 }
 

@@ -40,6 +40,13 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(strain_of_hands),
     ),
     control(
+        "%FORCE-BETWEEN-HANDS",
+        "",
+        "The force (N) with which the hands that hold one object together press it between them, or pull at it, along the line from one to the other: now, and the greatest since both have held it, as a list; NIL if no two hands hold one.",
+        &["(progn (pp-tut:init-projection) (btr::%force-between-hands)) => NIL"],
+        host!(force_between),
+    ),
+    control(
         "%MASS",
         "name",
         "The mass (kg) of an object.",
@@ -129,6 +136,11 @@ fn opened(mut world: World, opening: Option<f64>) -> World {
 
 fn strain_of_hands(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
     done(strain(&simulation.world).map_or(Value::NIL, Value::Double))
+}
+
+fn force_between(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let forces = simulation.world.force_between_hands();
+    done(forces.map_or(Value::NIL, |forces| Value::list(forces.map(Value::Double))))
 }
 
 fn mass(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -24,6 +24,7 @@ pub(crate) fn obstacle(size: [f64; 3]) -> ObjectType {
         is_round: false,
         looks: None,
         balance: [0.0; 3],
+        inside: None,
         edition: 0,
     }
 }

@@ -35,16 +35,27 @@ pub(super) fn overload(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Optio
     None
 }
 
-/// The part (N) of the weight that two hands share which the one bears whose grip exerts a force (N). The hands also
-/// press and pull against each other, so the forces only tell the shares.
-fn share_of(world: &World, object: &Object, force: f64, weight: f64) -> f64 {
-    let grips = object.attachments().map(|one| {
-        let grip = world.grip_error(object.name(), one.link).ok().flatten();
-        grip.map_or(0.0, |grip| grip.force)
-    });
-    let all: f64 = grips.sum();
-    let share = if all > 0.0 { force / all } else { 0.5 };
-    force.min(weight * share)
+/// The part (N) of a weight (N) that two hands share which one of them bears, by its palm: that of the lever, as far as the
+/// hands have lifted it. Grips are springs, and those of the simulation are stiff: a tenth of a millimetre between the
+/// hands shifts ten newtons from one to the other, which arms that give way do not.
+fn share_of(world: &World, object: &Object, palm: LinkId, weight: f64) -> f64 {
+    let place = |link| world.link_pose(link).translation.vector;
+    let other = object.attachments().find(|one| one.link != palm);
+    let Some(other) = other.map(|one| place(one.link)) else {
+        return weight;
+    };
+    let between = place(palm) - other;
+    let level = between.xy().norm_squared();
+    let share = match level > 1e-6 {
+        true => {
+            (world.balance_of_load(object) - other)
+                .xy()
+                .dot(&between.xy())
+                / level
+        }
+        false => 0.5,
+    };
+    world.lift_of(object).clamp(0.0, weight) * share.clamp(0.0, 1.0)
 }
 
 /// What the object's weight exceeds, as far as the hand carries it.
@@ -61,7 +72,7 @@ fn exceeded(world: &World, side: Side, object: &Object) -> Option<PayloadLimit> 
     };
     let weight = mass * GRAVITY;
     let carried = match by_two {
-        true => share_of(world, object, weld.force, weight),
+        true => share_of(world, object, arm.gripper.palm, weight),
         false => weld.force.min(weight),
     };
     if let Some(payload) = arm.payload
