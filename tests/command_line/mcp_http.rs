@@ -1,6 +1,6 @@
 //! The door for assistants over HTTP on this machine.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -113,8 +113,11 @@ impl Server {
 
 fn read(mut stream: TcpStream) -> Answer {
     let mut bytes = Vec::new();
-    // The server may have closed before it has read all.
-    let _ = stream.read_to_end(&mut bytes);
+    if let Err(error) = stream.read_to_end(&mut bytes) {
+        // The server may have closed before it has read all, but it closes.
+        let kept = [ErrorKind::WouldBlock, ErrorKind::TimedOut].contains(&error.kind());
+        assert!(!kept, "the connection has not been closed after the answer");
+    }
     let text = String::from_utf8_lossy(&bytes).into_owned();
     let (head, body) = text.split_once("\r\n\r\n").unwrap_or_default();
     let status = head

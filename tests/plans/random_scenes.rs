@@ -352,7 +352,7 @@ fn reaches_agree(scenes: u64) {
                     ];
                     assert!(
                         !way.iter()
-                            .all(|(tool, touched)| reach(tool, *touched, 0.01, 12)),
+                            .all(|(tool, touched)| reach(tool, *touched, 0.005, 12)),
                         "scene {seed}: the grid grasps {thing} ({kind}) {arm} {grasp}"
                     );
                     missed += 1;

@@ -28,8 +28,9 @@ impl Job {
         }
     }
 
-    /// Answers it. Who has gone meanwhile gets no answer.
-    pub(super) fn answer(&self, reply: Reply) {
+    /// Answers it, which ends it: as long as there is a job, its connection stays open. Who has gone meanwhile gets no
+    /// answer.
+    pub(super) fn answer(self, reply: Reply) {
         let _ = self.reply.send(reply);
     }
 }

@@ -8,7 +8,7 @@ use crate::motion::failure::base_place::BasePlace;
 use crate::motion::planning::base_checker::BaseChecker;
 use crate::motion::planning::configuration::at_place;
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
-use crate::motion::planning::pose_goal::{PoseGoalTask, REASON_STEP};
+use crate::motion::planning::pose_goal::{PoseGoalTask, TORSO_STEP};
 use crate::robot::Side;
 use crate::world::{AllowedPairs, CollisionHit, World};
 use spatial::Pose;
@@ -44,7 +44,7 @@ pub fn can_reach(
         goals: vec![(side, *tool)],
         contacts,
     };
-    task.heights(REASON_STEP).into_iter().any(|height| {
+    task.heights(TORSO_STEP).into_iter().any(|height| {
         let group = task.group(height);
         let configurations = task.configurations(height, &group);
         if configurations.is_empty() {

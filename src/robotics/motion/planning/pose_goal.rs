@@ -32,7 +32,7 @@ use spatial::{Pose, trig};
 /// Distance of neighbouring configurations over the redundant angle (rad).
 pub(crate) const CONFIGURATION_STEP: f64 = 0.15;
 /// Step (m) between torso heights that are tried.
-const TORSO_STEP: f64 = 0.01;
+pub(crate) const TORSO_STEP: f64 = 0.01;
 /// Step (m) between torso heights at which a cause of failure is looked for.
 pub(crate) const REASON_STEP: f64 = 0.03;
 /// How many configurations are ranked by clearance.
