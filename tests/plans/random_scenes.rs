@@ -135,13 +135,12 @@ fn named(body: &BodyName) -> String {
     }
 }
 
-/// The ordinary run looks at so many scenes: it takes seconds.
-const FEW: u64 = 12;
-/// The full run looks at so many.
+/// The full run looks at so many scenes.
 const MANY: u64 = 200;
 
-/// What supports a thing presses it up with its weight, and nothing else does; what loses its only support falls.
-fn supports_agree(scenes: u64) {
+/// What supports a thing presses it up with its weight, and nothing else does; what loses its only support falls. There
+/// must be more than so many things at rest, and of those that fall.
+fn supports_agree(scenes: u64, [least_resting, least_fallen]: [u32; 2]) {
     let mut scene = Scene::new();
     let (mut resting, mut unpressed, mut fallen) = (0, 0, 0);
     for seed in 0..scenes {
@@ -200,15 +199,13 @@ fn supports_agree(scenes: u64) {
     println!(
         "{resting} things at rest, {unpressed} of them not pressed; {fallen} fell without what carried them"
     );
-    let scenes = scenes as i32;
-    assert!(
-        resting > 3 * scenes && 4 * unpressed < scenes && 8 * fallen > scenes,
-        "{resting} {unpressed} {fallen}"
-    );
+    assert!(resting > least_resting && fallen > least_fallen);
+    assert!(unpressed < 20, "{unpressed} things are pressed by nothing");
 }
 
-/// What is visible is what rays through the camera's pixels hit.
-fn sights_agree(scenes: u64) {
+/// What is visible is what rays through the camera's pixels hit. There must be more than so much that is seen, and that is
+/// not.
+fn sights_agree(scenes: u64, least: [u32; 2]) {
     let mut scene = Scene::new();
     let (mut seen, mut unseen, mut near) = (0, 0, 0);
     for seed in 0..scenes {
@@ -249,11 +246,8 @@ fn sights_agree(scenes: u64) {
         }
     }
     println!("{seen} seen, {unseen} not, {near} near the threshold");
-    let scenes = scenes as i32;
-    assert!(
-        seen > scenes && unseen > scenes && near < scenes,
-        "{seen} {unseen} {near}"
-    );
+    assert!(seen > least[0] && unseen > least[1]);
+    assert!(near < seen + unseen, "{near} decide nothing");
 }
 
 /// Whether, on a grid of heights of the torso and of the arm's free angle, a posture brings the tool to a pose (in
@@ -301,8 +295,9 @@ fn grid_reaches(
     false
 }
 
-/// What is reachable is reached by postures of a grid, and what these reach with room to spare is reachable.
-fn reaches_agree(scenes: u64) {
+/// What is reachable is reached by postures of a grid, and what these reach with room to spare is reachable. There must be
+/// more than so many grasps of either kind.
+fn reaches_agree(scenes: u64, least: [u32; 2]) {
     let mut scene = Scene::new();
     let (mut reached, mut missed) = (0, 0);
     for seed in 0..scenes {
@@ -361,32 +356,28 @@ fn reaches_agree(scenes: u64) {
         }
     }
     println!("{reached} grasps reached, {missed} not");
-    let scenes = scenes as i32;
-    assert!(
-        4 * reached > scenes && missed > scenes,
-        "{reached} {missed}"
-    );
+    assert!(reached > least[0] && missed > least[1]);
 }
 
 #[test]
 fn what_supports_carries_the_weight_and_nothing_else_does() {
-    supports_agree(FEW);
+    supports_agree(16, [64, 4]);
 }
 
 #[test]
 fn what_is_visible_is_hit_by_rays_through_the_camera_s_pixels() {
-    sights_agree(FEW);
+    sights_agree(16, [16, 16]);
 }
 
 #[test]
 fn what_is_reachable_is_reached_by_a_grid_of_inverse_kinematics() {
-    reaches_agree(FEW);
+    reaches_agree(12, [5, 100]);
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn questions_agree_in_200_scenes() {
-    supports_agree(MANY);
-    sights_agree(MANY);
-    reaches_agree(MANY);
+    supports_agree(MANY, [800, 100]);
+    sights_agree(MANY, [400, 200]);
+    reaches_agree(MANY, [200, 1000]);
 }

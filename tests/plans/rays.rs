@@ -12,7 +12,8 @@ pub(super) struct Body<'a> {
     code: PartKey,
     shape: &'a Shape,
     pose: Pose,
-    /// Of the ball around its origin (m).
+    /// Middle (map frame) and radius (m) of the ball around its origin.
+    middle: [f64; 3],
     radius: f64,
     /// Outward normals and distances (m) of the planes of a hull.
     planes: Vec<(Vector3<f64>, f64)>,
@@ -45,6 +46,7 @@ impl<'a> Body<'a> {
             code,
             shape,
             pose,
+            middle: pose.translation.vector.into(),
             radius: shape.bounding_radius(),
             planes,
         }
@@ -208,9 +210,12 @@ impl Eye {
     }
 }
 
-/// Whether a ray comes into the ball around a body.
+/// Whether a ray comes into the ball around a body. Most of the time goes here, so it is written out.
 fn near_ray(body: &Body<'_>, from: &Point3<f64>, along: &Vector3<f64>) -> bool {
-    let to = body.pose.translation.vector - from.coords;
-    let aside = to - along * (to.dot(along) / along.norm_squared());
-    aside.norm_squared() <= body.radius * body.radius
+    let to = [0, 1, 2].map(|i| body.middle[i] - from[i]);
+    let way = [along[0], along[1], along[2]];
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let ahead = dot(&to, &way);
+    // By Pythagoras, both sides times the square of the direction's length.
+    dot(&to, &to) * dot(&way, &way) - ahead * ahead <= body.radius * body.radius * dot(&way, &way)
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::description::{
     Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
 };
-use super::interface_file::interface;
+use super::interface_file::{INTERFACE_KEYS, interface};
 use super::jaw_gap::{JawGap, JawGapError};
 use super::{
     Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
@@ -81,17 +81,7 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("wheels", &[]),
     ("idle-joints", &[]),
     ("alias", &[]),
-    (
-        "interface",
-        &[
-            "name",
-            "names",
-            "time-out",
-            "tolerance",
-            "turn-tolerance",
-            "max-age",
-        ],
-    ),
+    ("interface", INTERFACE_KEYS),
 ];
 
 /// Greatest force (N) of fingers whose description does not give it: little, so that nothing is

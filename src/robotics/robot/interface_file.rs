@@ -64,6 +64,16 @@ pub(super) fn interface<'a, 'r: 'a>(
     Ok(interface)
 }
 
+/// The keys that a record of an interface may have, whatever it is of.
+pub(super) const INTERFACE_KEYS: &[&str] = &[
+    "name",
+    "names",
+    "time-out",
+    "tolerance",
+    "turn-tolerance",
+    "max-age",
+];
+
 /// The keys that the interface of something may have.
 fn keys(of: &str) -> &'static [&'static str] {
     match of {
@@ -106,20 +116,11 @@ mod tests {
     use super::*;
     use crate::sexp::DataFile;
 
-    const KEYS: &[&str] = &[
-        "name",
-        "names",
-        "time-out",
-        "tolerance",
-        "turn-tolerance",
-        "max-age",
-    ];
-
     fn read(text: &str) -> Result<RobotInterface, String> {
         let file = DataFile::read(text, "robot.sexp").unwrap();
         let records = file
             .nodes()
-            .map(|node| node.record("record", &[("interface", KEYS)]));
+            .map(|node| node.record("record", &[("interface", INTERFACE_KEYS)]));
         let records = records.collect::<Result<Vec<_>, _>>().unwrap();
         interface(records.iter()).map_err(|error| error.to_string())
     }

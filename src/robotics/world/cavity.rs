@@ -193,6 +193,20 @@ fn segment(radius: f64, edge: f64) -> f64 {
     (radius * radius * half - edge * (radius * radius - edge * edge).sqrt()).max(0.0)
 }
 
+/// Sine and cosine of the direction of a level ray.
+fn direction(ray: usize) -> (f64, f64) {
+    trig::sin_cos(std::f64::consts::TAU * (ray as f64 + 0.5) / RAYS as f64)
+}
+
+/// The distance (m) of the first solid in a direction of length 1; infinite if none is near.
+fn first_hit(solids: &[Solid], from: Vector, along: Vector) -> f64 {
+    let ray = Ray::new(from, along);
+    let hits = solids
+        .iter()
+        .filter_map(|solid| solid.shape.cast_ray(&solid.pose, &ray, FARTHEST, true));
+    hits.fold(f64::INFINITY, f64::min)
+}
+
 /// The distances (m) of the walls from a vertical axis at a height; `None` if the axis is inside a solid,
 /// or not surrounded.
 fn walls(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS]> {
@@ -201,16 +215,9 @@ fn walls(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS]> {
     }
     let mut distances = [0.0; RAYS];
     for (ray, distance) in distances.iter_mut().enumerate() {
-        let (sine, cosine) =
-            trig::sin_cos(std::f64::consts::TAU * (ray as f64 + 0.5) / RAYS as f64);
-        let ray = Ray::new(
-            Vector::new(axis[0], axis[1], height),
-            Vector::new(cosine, sine, 0.0),
-        );
-        let hits = solids
-            .iter()
-            .filter_map(|solid| solid.shape.cast_ray(&solid.pose, &ray, FARTHEST, true));
-        *distance = hits.fold(f64::INFINITY, f64::min);
+        let (sine, cosine) = direction(ray);
+        let from = Vector::new(axis[0], axis[1], height);
+        *distance = first_hit(solids, from, Vector::new(cosine, sine, 0.0));
         if !distance.is_finite() {
             return None;
         }
@@ -225,19 +232,15 @@ fn far_sides(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS
     }
     let mut distances = [0.0; RAYS];
     for (ray, distance) in distances.iter_mut().enumerate() {
-        let (sine, cosine) =
-            trig::sin_cos(std::f64::consts::TAU * (ray as f64 + 0.5) / RAYS as f64);
+        let (sine, cosine) = direction(ray);
         // From far outside, so that parts which overlap count as one.
         let from = Vector::new(
             axis[0] + FARTHEST * cosine,
             axis[1] + FARTHEST * sine,
             height,
         );
-        let ray = Ray::new(from, Vector::new(-cosine, -sine, 0.0));
-        let hits = solids
-            .iter()
-            .filter_map(|solid| solid.shape.cast_ray(&solid.pose, &ray, FARTHEST, true));
-        *distance = FARTHEST - hits.fold(FARTHEST, f64::min);
+        let met = first_hit(solids, from, Vector::new(-cosine, -sine, 0.0));
+        *distance = FARTHEST - met.min(FARTHEST);
     }
     Some(distances)
 }
@@ -246,8 +249,7 @@ fn far_sides(solids: &[Solid], axis: [f64; 2], height: f64) -> Option<[f64; RAYS
 fn middle(walls: &[f64; RAYS]) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for (ray, distance) in walls.iter().enumerate() {
-        let (sine, cosine) =
-            trig::sin_cos(std::f64::consts::TAU * (ray as f64 + 0.5) / RAYS as f64);
+        let (sine, cosine) = direction(ray);
         sum[0] += cosine * distance;
         sum[1] += sine * distance;
     }

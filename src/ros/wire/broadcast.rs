@@ -5,9 +5,9 @@
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
+use super::background::Background;
 use super::camera_broadcast::{CameraBroadcast, CameraFollow};
 use super::node::{Node, NodeError, TopicQos, TopicWriter};
 use crate::message;
@@ -75,8 +75,7 @@ pub struct Broadcast {
     model: Arc<SceneModel>,
     newest: Newest,
     _camera: CameraBroadcast,
-    stop: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
+    _sending: Background,
 }
 
 /// The follower that leaves the states of a session to be sent.
@@ -105,7 +104,6 @@ impl Broadcast {
             .send(&message::still_frames(now(), &model))?;
         let remark = Remark(Arc::new(Mutex::new(remark)));
         let (camera, camera_follow) = CameraBroadcast::start(node, models, remark.clone())?;
-        let (stop, stopped) = channel();
         let sender = Sending {
             model: Arc::clone(&model),
             newest: newest.clone(),
@@ -115,18 +113,11 @@ impl Broadcast {
             remarked: Vec::new(),
             looked: Instant::now(),
         };
-        let thread = thread::Builder::new().name("ros2".to_owned());
-        let thread = thread.spawn(move || sender.run(&stopped));
-        let thread = thread.map_err(|error| NodeError::Start {
-            reach: node.reach(),
-            cause: error.to_string(),
-        })?;
         let broadcast = Self {
             model: Arc::clone(&model),
             newest: newest.clone(),
             _camera: camera,
-            stop: Some(stop),
-            thread: Some(thread),
+            _sending: Background::start(node, "ros2", |stopped| sender.run(stopped))?,
         };
         let follow = Follow {
             model,
@@ -145,16 +136,6 @@ impl Broadcast {
     /// What the session is like.
     pub fn newest(&self) -> &Newest {
         &self.newest
-    }
-}
-
-impl Drop for Broadcast {
-    fn drop(&mut self) {
-        drop(self.stop.take());
-        if let Some(thread) = self.thread.take() {
-            // What it could not send is lost in any case.
-            drop(thread.join());
-        }
     }
 }
 

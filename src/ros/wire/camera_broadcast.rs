@@ -4,11 +4,11 @@
 //! session no more than the list of bodies, and nothing in it depends on who looks.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use super::background::Background;
 use super::broadcast::{Remark, now};
 use super::node::{Node, NodeError, TopicQos, TopicWriter};
 use crate::message;
@@ -37,8 +37,7 @@ struct Newest {
 
 /// The pictures of a session that are sent. Ends when it is dropped.
 pub(super) struct CameraBroadcast {
-    stop: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
+    _sending: Background,
 }
 
 /// Leaves what the camera has before it.
@@ -69,16 +68,8 @@ impl CameraBroadcast {
             remark,
             remarked: Vec::new(),
         };
-        let (stop, stopped) = channel();
-        let thread = thread::Builder::new().name("camera".to_owned());
-        let thread = thread.spawn(move || sending.run(&stopped));
-        let thread = thread.map_err(|error| NodeError::Start {
-            reach: node.reach(),
-            cause: error.to_string(),
-        })?;
         let broadcast = Self {
-            stop: Some(stop),
-            thread: Some(thread),
+            _sending: Background::start(node, "camera", |stopped| sending.run(stopped))?,
         };
         let follow = CameraFollow {
             looks: Looks::of(models),
@@ -86,16 +77,6 @@ impl CameraBroadcast {
             left: None,
         };
         Ok((broadcast, follow))
-    }
-}
-
-impl Drop for CameraBroadcast {
-    fn drop(&mut self) {
-        drop(self.stop.take());
-        if let Some(thread) = self.thread.take() {
-            // What it could not send is lost in any case.
-            drop(thread.join());
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod action_client;
 mod action_server;
+mod background;
 mod broadcast;
 mod camera_broadcast;
 mod matches;

@@ -1,6 +1,5 @@
-//! What questions about the world are made of, and the trials in which they change it for themselves.
+//! What questions about the world are made of.
 
-use crate::host::SimulationHost;
 use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
@@ -163,39 +162,11 @@ pub(super) static TABLE: &[Builtin] = &[
         edit!(spawn_shape),
     ),
     control(
-        "%BEGIN-TRIAL",
-        "",
-        "From now on the world is one that is only tried out. Returns the number of the trial.",
-        &[],
-        host!(begin_trial),
-    ),
-    control(
-        "%END-TRIAL",
-        "number",
-        "The world is again as it was before the trial with that number began.",
-        &[],
-        host!(end_trial),
-    ),
-    control(
-        "%TRIAL-P",
-        "",
-        "Is the world only tried out?",
-        &["(btr::%trial-p) => NIL"],
-        host!(is_trial),
-    ),
-    control(
         "%MOVING-P",
         "",
         "Does the robot move?",
         &["(btr::%moving-p) => NIL"],
         host!(is_moving),
-    ),
-    control(
-        "%LET-PASS",
-        "seconds",
-        "Lets time pass in a world that is only tried out.",
-        &[],
-        host!(let_pass),
     ),
 ];
 
@@ -408,7 +379,7 @@ fn settled(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result
 }
 
 /// A time that may be let pass (s).
-fn seconds(value: &Value) -> Result<f64> {
+pub(super) fn seconds(value: &Value) -> Result<f64> {
     let seconds = number::to_f64(value).filter(|s| (0.0..=LONGEST).contains(s));
     seconds.ok_or_else(|| {
         Raise::simple("A time from 0 to 3600 s was expected: how long the world is let alone.")
@@ -562,44 +533,6 @@ fn spawn_shape(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
     done(args[0].clone())
 }
 
-fn begin_trial(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    done(Value::from(
-        host.person.snapshots.begin_trial(&host.simulation),
-    ))
-}
-
-fn end_trial(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
-    let number = match args[0] {
-        Value::Int(n) => usize::try_from(n).unwrap_or(usize::MAX),
-        _ => return Err(Raise::type_error(&args[0], known::INTEGER)),
-    };
-    host.person
-        .snapshots
-        .end_trial(&mut host.simulation, number);
-    done(Value::NIL)
-}
-
-fn is_trial(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    done(Value::bool(host.person.snapshots.is_trial()))
-}
-
 fn is_moving(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
     done(Value::bool(!simulation.jobs.is_idle()))
-}
-
-fn let_pass(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    if !host.person.snapshots.is_trial() {
-        return Err(Raise::simple(
-            "Time passes in the world itself only for plans: (sleep SECONDS).",
-        ));
-    }
-    let steps = (seconds(&args[0])? * 240.0).round();
-    // The time is limited.
-    for _ in 0..steps as u32 {
-        if image.take_interrupt() {
-            return Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
-        }
-        host.simulation.world.step();
-    }
-    done(Value::NIL)
 }

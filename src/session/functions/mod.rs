@@ -37,6 +37,7 @@ mod sweeps;
 mod tables;
 mod timeline;
 mod touches;
+mod trials;
 mod tutorial;
 mod two_hands;
 mod watching;
