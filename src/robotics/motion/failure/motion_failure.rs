@@ -255,7 +255,7 @@ pub enum MotionFailure {
     /// No path for the arms was found on which what a hand holds stays upright.
     #[error(
         "no path for the arms was found in {samples} attempts on which {} stays upright in the {} hand: \
-         straight there it would tilt by {:.0} degrees, and it is open at the top",
+         straight there it would tilt by {:.0} degrees, and what is in it or on it would leave it",
         .tilt.object, .tilt.side, .tilt.angle.to_degrees()
     )]
     NoLevelPath {
@@ -266,7 +266,7 @@ pub enum MotionFailure {
     },
     /// There is no posture for carrying in which what a hand holds is upright.
     #[error(
-        "held like that by the {side} hand, {object}, which is open at the top, cannot be carried upright"
+        "held like that by the {side} hand, {object} cannot be carried upright: what is in it or on it would leave it"
     )]
     NotCarriedUpright {
         /// The hand.
