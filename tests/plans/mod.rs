@@ -6,6 +6,7 @@ mod clutter;
 mod cluttered_tables;
 mod containers;
 mod cook;
+mod definitions;
 mod deliveries;
 mod demos;
 mod designators;

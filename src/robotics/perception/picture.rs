@@ -82,6 +82,12 @@ impl Picture {
         beyond(0, camera.width) <= radius && beyond(1, camera.height) <= radius
     }
 
+    /// The body at every pixel of a window that lies within this one's, row by row from the top.
+    pub(super) fn keys_in(&self, window: Window) -> impl Iterator<Item = Option<PartKey>> {
+        let key = |pixel| self.keys.get(self.window.place(pixel)?).copied().flatten();
+        window.places().map(key)
+    }
+
     /// Number of pixels that show the body.
     pub fn count(&self, key: PartKey) -> usize {
         self.keys.iter().filter(|k| **k == Some(key)).count()
@@ -167,20 +173,17 @@ impl Picture {
             lowest.max(first[axis])..after.min(end[axis])
         };
         let farthest = 1.0 / self.camera.far;
+        let turn = area.signum();
         let columns = range(0);
         for row in range(1) {
             let y = row as f64 + 0.5;
             for column in columns.clone() {
                 let x = column as f64 + 0.5;
-                let weights = [
-                    cross(b, c, x, y) / area,
-                    cross(c, a, x, y) / area,
-                    cross(a, b, x, y) / area,
-                ];
-                if weights.iter().any(|w| *w < 0.0) {
+                let (at_a, at_b, at_c) = (cross(b, c, x, y), cross(c, a, x, y), cross(a, b, x, y));
+                if at_a * turn < 0.0 || at_b * turn < 0.0 || at_c * turn < 0.0 {
                     continue;
                 }
-                let inverse = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
+                let inverse = at_a / area * a[2] + at_b / area * b[2] + at_c / area * c[2];
                 // Rows and columns were clipped to the window above.
                 let pixel = (row - first[1]) * (end[0] - first[0]) + column - first[0];
                 if inverse > self.inverse_depth[pixel] && inverse >= farthest {
@@ -312,6 +315,29 @@ mod tests {
             let mut part = Picture::of_window(camera, window);
             part.draw(key, &pose, &mesh);
             assert_eq!(part.count(key), whole.count(key));
+            let common = Window::whole(&camera).common_with(&window);
+            assert!(whole.keys_in(common).eq(part.keys.iter().copied()));
+        }
+    }
+
+    #[test]
+    fn windows_have_the_pixels_in_common_that_both_have() {
+        let windows = [
+            ([0, 0], [60, 200]),
+            ([100, 60], [240, 61]),
+            ([50, 30], [130, 100]),
+            ([7, 7], [7, 9]),
+        ];
+        let windows = windows.map(|(first, end)| Window { first, end });
+        for (one, other) in windows
+            .iter()
+            .flat_map(|w| windows.iter().map(move |v| (w, v)))
+        {
+            let both = one.places().filter(|pixel| other.place(*pixel).is_some());
+            assert!(
+                one.common_with(other).places().eq(both),
+                "{one:?} {other:?}"
+            );
         }
     }
 

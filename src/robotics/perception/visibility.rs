@@ -212,29 +212,42 @@ impl<'w> Sight<'w> {
         let origin = Point3::from(pose.translation.vector);
         let turned = camera.turned_to(&origin);
         let in_middle = alone(turned, window_of(object, &pose, &turned));
-        Ok(Visibility {
+        let mut visibility = Visibility {
             object: name.to_owned(),
-            visible_pixels: self.picture.count(key),
+            visible_pixels: 0,
             full_pixels: in_middle.count(key),
-            occluders: self.occluders(key, &alone(camera, self.picture.window())),
+            occluders: Vec::new(),
             needed_share: self.needed_share,
             outside: self.outside(object, &pose),
-        })
+        };
+        let may_show = object.shapes().iter().any(|placed| {
+            let radius = placed.shape.bounding_radius();
+            self.picture.may_show(&(pose * placed.pose), radius)
+        });
+        if may_show {
+            let window = window_of(object, &pose, &camera);
+            let window = self.picture.window().common_with(&window);
+            let shown = self.picture.keys_in(window);
+            visibility.visible_pixels = shown.filter(|there| *there == Some(key)).count();
+            visibility.occluders = self.occluders(key, &alone(camera, window));
+        }
+        Ok(visibility)
     }
 
     /// The bodies at the pixels that would show the object if it were alone.
     fn occluders(&self, key: PartKey, alone: &Picture) -> Vec<(BodyName, usize)> {
         let mut counts: Vec<(PartKey, usize)> = Vec::new();
-        for (there, wanted) in self.picture.keys().iter().zip(alone.keys()) {
+        let there = self.picture.keys_in(alone.window());
+        for (there, wanted) in there.zip(alone.keys()) {
             let (Some(there), Some(_)) = (there, wanted) else {
                 continue;
             };
-            if *there == key {
+            if there == key {
                 continue;
             }
-            match counts.iter_mut().find(|(k, _)| k == there) {
+            match counts.iter_mut().find(|(k, _)| *k == there) {
                 Some((_, count)) => *count += 1,
-                None => counts.push((*there, 1)),
+                None => counts.push((there, 1)),
             }
         }
         counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));

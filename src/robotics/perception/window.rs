@@ -52,6 +52,21 @@ impl Window {
         Self { first, end }
     }
 
+    /// The pixels that both have; none, somewhere in this one, if there are no such pixels.
+    pub(super) fn common_with(&self, other: &Self) -> Self {
+        let within = |axis: usize, at: usize| at.clamp(self.first[axis], self.end[axis]);
+        Self {
+            first: [0, 1].map(|axis| within(axis, other.first[axis])),
+            end: [0, 1].map(|axis| within(axis, other.end[axis])),
+        }
+    }
+
+    /// Its pixels, row by row, as columns and rows.
+    pub(super) fn places(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let [columns, rows] = [0, 1].map(|i| self.first[i]..self.end[i]);
+        rows.flat_map(move |row| columns.clone().map(move |column| [column, row]))
+    }
+
     pub(super) fn width(&self) -> usize {
         self.end[0] - self.first[0]
     }

@@ -556,8 +556,8 @@ pub(super) fn in_order(a: PartKey, b: PartKey) -> (PartKey, PartKey) {
 }
 
 /// Visits the solids that are closer to another one than the margin (m) and than `most` (m), which
-/// the visitor may lower, until the visitor stops. With `is_quick` and no margin, the distances
-/// are meaningless.
+/// the visitor may lower, until the visitor stops. With `is_quick` the distances are meaningless:
+/// how deep solids overlap costs much more than that they do.
 fn visit_near<'a>(
     solids: impl Iterator<Item = (&'a Solid, &'a PlacedSolid)>,
     (other, at): (&Solid, &PlacedSolid),
@@ -574,8 +574,13 @@ fn visit_near<'a>(
         {
             continue;
         }
-        let near = match is_quick && margin == 0.0 {
+        let overlap = match is_quick && margin >= 0.0 {
             true => overlap(&placed.pose, solid, &at.pose, other),
+            false => None,
+        };
+        let is_answered = overlap.is_some() || is_quick && margin == 0.0;
+        let near = match is_answered {
+            true => overlap,
             false => separation(&placed.pose, solid, &at.pose, other, margin),
         };
         if let Some(separation) = near {

@@ -98,6 +98,16 @@ impl TouchingPairs {
         near.or_else(|| self.first_deep(checker, robot))
     }
 
+    /// Whether [`Self::first_hit`] finds nothing.
+    pub(crate) fn is_free(
+        &self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) -> bool {
+        checker.is_free(robot, &self.relaxed, margin) && self.first_deep(checker, robot).is_none()
+    }
+
     /// A pair that was close at the start and overlaps more than allowed in the configuration.
     pub(crate) fn first_deep(
         &self,

@@ -144,6 +144,23 @@ impl<'w> ConfigurationChecker<'w> {
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
+    /// Whether the joint positions are free: as [`Self::blocked`], without saying what is touched.
+    pub(crate) fn is_free(&mut self, positions: &[f64]) -> bool {
+        self.set(positions);
+        self.touching
+            .is_free(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// Whether one of the links is too close to what is no part of the robot in that
+    /// configuration.
+    pub(crate) fn touches_surroundings(&mut self, positions: &[f64], links: &[BodyName]) -> bool {
+        self.set(positions);
+        let relaxed = self.touching.relaxed();
+        let hits = self.checker.all_hits(&self.robot, relaxed, PLAN_MARGIN);
+        hits.iter()
+            .any(|hit| links.contains(&hit.moving) && !matches!(hit.other, BodyName::Robot(_)))
+    }
+
     /// The pairs that overlap by more than `depth` (m) in that configuration, whatever the motion
     /// declares, the deepest first.
     pub(crate) fn overlaps(&mut self, positions: &[f64], depth: f64) -> Vec<CollisionHit> {
