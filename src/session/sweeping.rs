@@ -313,6 +313,7 @@ impl Session {
             let is_mistake = stage == Stage::Varying && ending != Ending::Defect && !is_late;
             record.outcome = match is_mistake {
                 true => Ending::Mistake,
+                false if is_late => Ending::Timeout,
                 false => Ending::Defect,
             };
             record.class = None;

@@ -23,7 +23,7 @@ pub enum Ending {
     Limit,
     /// The plan computed without end while no simulated time passed.
     Endless,
-    /// It took more real time than it may.
+    /// It took more real time than it may: what it would have come to depends on the machine.
     Timeout,
     /// What the world was to contain found no place. This says nothing about the plan.
     Invalid,
@@ -43,7 +43,7 @@ impl Ending {
 
     /// Whether planwright could not do its work, so that nothing is known about the plan.
     pub fn is_defect(self) -> bool {
-        matches!(self, Self::Defect | Self::Crashed)
+        matches!(self, Self::Defect | Self::Crashed | Self::Timeout)
     }
 
     fn name(self) -> &'static str {

@@ -402,6 +402,7 @@ mod tests {
         records[1].outcome = Ending::Defect;
         records[1].cause = Some("memory".to_owned());
         records[2].outcome = Ending::Crashed;
+        records[3].outcome = Ending::Timeout;
         records[4].outcome = Ending::Invalid;
         let title = Title {
             name: "demo".to_owned(),
@@ -409,12 +410,13 @@ mod tests {
             goal: None,
         };
         let summary = Summary::new(&title, &records);
-        assert_eq!((summary.tried, summary.defects()), (3, 2));
+        assert_eq!((summary.tried, summary.defects()), (2, 3));
         let text = summary.to_string();
         assert!(
-            text.starts_with("demo   seed 0   6 worlds (1 invalid, 2 defects)\nsuccess  100.0 %")
+            text.starts_with("demo   seed 0   6 worlds (1 invalid, 3 defects)\nsuccess  100.0 %")
         );
         assert!(text.contains("1 world not counted: crashed  --replay 2\n"));
         assert!(text.contains("1 world not counted: defect memory  --replay 1\n"));
+        assert!(text.contains("1 world not counted: timeout  --replay 3\n"));
     }
 }

@@ -25,7 +25,12 @@ fn a_world_without_end_is_given_up_after_its_time() {
     let late = records.matches("\"outcome\":\"timeout\"").count();
     assert!(late > 0 && late < 3, "{records}");
     assert_eq!(records.matches("\"outcome\":\"success\"").count(), 3 - late);
-    assert!(text(&run(&[]).stdout).contains("timeout"));
+    // It says nothing about the plan: on a faster machine it could have ended.
+    let shown = run(&[]);
+    assert_eq!(shown.status.code(), Some(4));
+    let shown = text(&shown.stdout);
+    assert!(shown.contains("success  100.0 %"), "{shown}");
+    assert!(shown.contains("not counted: timeout  --replay "), "{shown}");
     for wrong in ["0", "-1", "nan", "1e300"] {
         let option = format!("--time-limit={wrong}");
         let output = planwright(&["sweep", endless, &option]);
