@@ -1,4 +1,4 @@
-"""Reads SQLite files that planwright has written."""
+"""Reads with other tools what planwright has written for them."""
 
 import json
 import os
@@ -7,6 +7,9 @@ import sqlite3
 import subprocess
 import sys
 from pathlib import Path
+
+import duckdb
+import pandas
 
 program, folder = sys.argv[1], Path(sys.argv[2])
 
@@ -101,11 +104,22 @@ full = "ulimit -f 40; exec \"$@\""
 done = subprocess.run(["bash", "-c", f"trap '' XFSZ; {full}", "-", program, "ask", told, "--sqlite", folder / "full.db"])
 assert done.returncode == 2 and not list(folder.glob("full.db*")), done
 
-try:
-    import pandas
-except ImportError:
-    print("pandas is not installed")
-else:
-    assert len(pandas.read_sql("SELECT * FROM task", facts)) == lines["task"]
-    print("pandas reads it")
-print("SQLite reads it")
+# pandas reads the file, and DuckDB what pandas has read, and the folder itself.
+assert len(pandas.read_sql("SELECT * FROM task", facts)) == lines["task"]
+goal, show = (
+    "(and (fact run :run ?run :outcome :failure) (fact failure :run ?run :task ?task :class ?class)"
+    " (fact task :run ?run :task ?task :kind :performed :type ?type))",
+    "?run ?task ?class ?type",
+)
+expected = sorted(answers(told, goal, show))
+query = """
+    SELECT run, task, failure.class, type FROM {run} run JOIN {failure} failure USING (run) JOIN {task} task USING (run, task)
+    WHERE outcome = 'failure' AND kind = 'performed' ORDER BY 1, 2, 3, 4"""
+run, failure, task = (pandas.read_sql(f"SELECT * FROM {table}", facts) for table in ("run", "failure", "task"))
+found = duckdb.sql(query.format(run="run", failure="failure", task="task")).fetchall()
+assert found == expected and found, (found[:3], expected[:3])
+failure, task = (f"read_json('{told}/{name}.jsonl')" for name in ("failure", "task"))
+run = f"(SELECT world AS run, outcome FROM read_json('{told}/records.jsonl'))"
+found = duckdb.sql(query.format(run=run, failure=failure, task=task)).fetchall()
+assert found == expected, (found[:3], expected[:3])
+print("SQLite, pandas and DuckDB read it")
