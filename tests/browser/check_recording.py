@@ -9,6 +9,7 @@ import math
 import os
 import sys
 from collections import Counter
+from xml.etree import ElementTree
 
 import foxglove.messages
 from google.protobuf import descriptor_pb2
@@ -30,6 +31,12 @@ SCHEMAS = {
     "/tasks": "planwright.Task",
     "/shown": "planwright.Shown",
 }
+# Descriptions in URDF, as text, and their least numbers of links and shapes.
+DESCRIPTIONS = {
+    "/robot_description": ("robot", 40, 60),
+    "/kitchen/robot_description": ("kitchen", 30, 60),
+    "/objects/robot_description": ("objects", 1, 1),
+}
 LARGEST = 3_000_000
 
 
@@ -47,6 +54,17 @@ def types(data):
     return found
 
 
+def check_description(name, links, shapes, data, frames):
+    """A message with a description: a string of ROS 2 whose links are frames, or the map."""
+    assert data[:4] == b"\0\1\0\0" and int.from_bytes(data[4:8], "little") == len(data) - 8 and data[-1] == 0
+    robot = ElementTree.fromstring(data[8:-1].decode())
+    names = [link.get("name") for link in robot.iter("link")]
+    assert robot.get("name") == name and names[0] == "map", names
+    assert len(names) > links and set(names[1:]) <= set(frames), set(names) - set(frames)
+    assert len(robot.findall(".//visual/geometry/*")) >= shapes
+    assert {joint.find("parent").get("link") for joint in robot.iter("joint")} == {"map"}
+
+
 def main(path):
     size = os.path.getsize(path)
     assert size <= LARGEST, f"{size} bytes"
@@ -55,7 +73,7 @@ def main(path):
     parameters, forces = {}, set()
     with open(path, "rb") as file:
         reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
-        for schema, channel, message, value in reader.iter_decoded_messages(log_time_order=False):
+        for schema, channel, message, value in reader.iter_decoded_messages(list(SCHEMAS), log_time_order=False):
             topic = channel.topic
             if not counts[topic]:
                 assert schema.encoding == "protobuf" and channel.message_encoding == "protobuf"
@@ -101,8 +119,14 @@ def main(path):
                 levels[value.level] += 1
             elif topic == "/camera/image":
                 assert value.data.startswith(b"\x89PNG\r\n")
+        assert set(counts) == set(SCHEMAS), sorted(counts)
+        for schema, channel, message in reader.iter_messages(list(DESCRIPTIONS)):
+            assert (schema.name, schema.encoding, channel.message_encoding) == ("std_msgs/msg/String", "ros2msg", "cdr")
+            check_description(*DESCRIPTIONS[channel.topic], message.data, frames)
+            counts[channel.topic] += 1
+            sizes[channel.topic] += len(message.data)
         summary = reader.get_summary()
-    assert set(counts) == set(SCHEMAS), sorted(counts)
+    assert set(counts) == set(SCHEMAS) | set(DESCRIPTIONS), sorted(counts)
     assert summary.statistics.message_count == sum(counts.values())
     assert summary.statistics.chunk_count == len(summary.chunk_indexes) > 3
     missing = [frame for frame in entities if frame not in frames]
@@ -128,7 +152,7 @@ def main(path):
     seconds = last_time * 1e-9
     print(f"{path}: {size} bytes, {sum(counts.values())} messages in {seconds:.1f} simulated seconds, {len(entities)} bodies")
     for topic, count in sorted(counts.items()):
-        print(f"  {topic:26} {SCHEMAS[topic]:28} {count:5} {sizes[topic]:9} bytes")
+        print(f"  {topic:27} {SCHEMAS.get(topic, 'std_msgs/msg/String'):28} {count:5} {sizes[topic]:9} bytes")
 
 
 main(sys.argv[1])

@@ -12,7 +12,7 @@ use crate::picture::LocationMap;
 use crate::picture::scene::Scene;
 use robotics::robot::{JointId, JointKind, KinematicTree, LinkId};
 use robotics::world::{BodyName, CollisionHit, Object, World};
-use spatial::Pose;
+use spatial::{PlacedShape, Pose};
 
 /// Minimum force (N) at which a contact is shown.
 const MIN_FORCE: f64 = 0.5;
@@ -289,6 +289,7 @@ impl FrameBuilder {
             parent: None,
             still: None,
             mesh,
+            shapes: shapes_of(object),
         });
         self.objects.insert(key, node);
         node
@@ -313,6 +314,7 @@ impl FrameBuilder {
             parent: None,
             still: None,
             mesh: VisualMesh::of(&scene).into(),
+            shapes: Arc::default(),
         });
         self.maps.push((Arc::clone(map), node));
         Some(node)
@@ -334,6 +336,7 @@ impl FrameBuilder {
             parent: carried.parent,
             still: carried.still,
             mesh: VisualMesh::of(scene).into(),
+            shapes: tree.link(link).visuals.as_slice().into(),
         })
     }
 
@@ -362,6 +365,16 @@ impl FrameBuilder {
 /// frames.
 fn rounded(value: f64) -> f32 {
     ((value * 10.0).round() / 10.0) as f32
+}
+
+/// The shapes that are shown of an object, in their colours or its own.
+fn shapes_of(object: &Object) -> Arc<[PlacedShape]> {
+    let shapes = object.looks().unwrap_or(object.shapes()).iter();
+    let colored = shapes.map(|placed| PlacedShape {
+        color: placed.color.or(Some(object.color())),
+        ..placed.clone()
+    });
+    colored.collect()
 }
 
 /// How a link hangs together with others.

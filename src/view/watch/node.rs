@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use super::frame::Placed;
 use crate::picture::scene::{Finish, Scene};
+use spatial::PlacedShape;
 
 /// The type of the node that shows the map of a location: no thing in the world.
 pub(crate) const MAP_OF_LOCATION: &str = "map of a location";
@@ -54,6 +55,8 @@ pub struct Node {
     pub still: Option<Placed>,
     /// Its mesh in its own frame; empty for a bare frame. Nodes that look the same share it.
     pub mesh: Arc<VisualMesh>,
+    /// The shapes that it consists of, with their colours; none if these are not known.
+    pub shapes: Arc<[PlacedShape]>,
 }
 
 /// A corner of a mesh.

@@ -66,26 +66,36 @@ impl<W: Write> McapFile<W> {
         Ok(file)
     }
 
-    /// Adds a Protobuf schema; returns its number.
-    pub(super) fn add_schema(&mut self, name: &str, descriptors: &[u8]) -> io::Result<u16> {
+    /// Adds a schema in an encoding of schemas; returns its number.
+    pub(super) fn add_schema(
+        &mut self,
+        name: &str,
+        encoding: &str,
+        definition: &[u8],
+    ) -> io::Result<u16> {
         self.schema_count += 1;
         let mut content = self.schema_count.to_le_bytes().to_vec();
         add_text(&mut content, name);
-        add_text(&mut content, "protobuf");
-        add_bytes(&mut content, descriptors);
+        add_text(&mut content, encoding);
+        add_bytes(&mut content, definition);
         let schema = record(op::SCHEMA, &content);
         self.schemas.extend(&schema);
         self.put(&schema)?;
         Ok(self.schema_count)
     }
 
-    /// Adds a channel of Protobuf messages; returns its number.
-    pub(super) fn add_channel(&mut self, schema: u16, topic: &str) -> io::Result<u16> {
+    /// Adds a channel of messages in an encoding; returns its number.
+    pub(super) fn add_channel(
+        &mut self,
+        schema: u16,
+        topic: &str,
+        encoding: &str,
+    ) -> io::Result<u16> {
         self.channel_count += 1;
         let mut content = self.channel_count.to_le_bytes().to_vec();
         content.extend(schema.to_le_bytes());
         add_text(&mut content, topic);
-        add_text(&mut content, "protobuf");
+        add_text(&mut content, encoding);
         add_bytes(&mut content, &[]);
         let channel = record(op::CHANNEL, &content);
         self.channels.extend(&channel);

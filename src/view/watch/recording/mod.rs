@@ -1,7 +1,8 @@
 //! Recordings of sessions as MCAP files, which other robotics tools can open, too.
 //!
 //! Messages are Protobuf in the schemas published by Foxglove, so that its viewer can show them;
-//! tasks and held objects, for which there are none, have schemas of our own. Poses and joints are
+//! tasks and held objects, for which there are none, have schemas of our own. Robot, kitchen and objects are
+//! there as descriptions in URDF, too. Poses and joints are
 //! written when they change, and all of them every few seconds. Times are simulated: the same
 //! session gives the same bytes. [`Recorder`] writes, [`read_recording`] reads, also the JSON of
 //! earlier versions.
@@ -9,6 +10,7 @@
 mod channel;
 mod contacts;
 mod decompress;
+mod description;
 mod episode;
 mod follower;
 mod markers;

@@ -341,6 +341,7 @@ impl Reader<'_> {
             parent: None,
             still: None,
             mesh: Arc::default(),
+            shapes: Arc::default(),
         });
         self.frame_ids.insert(frame_id.to_owned(), id);
         id

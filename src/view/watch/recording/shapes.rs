@@ -1,5 +1,7 @@
 //! Nodes as entities of a scene message, and back.
 
+use std::sync::Arc;
+
 use indexmap::IndexMap;
 use nalgebra::Vector3 as Direction;
 
@@ -111,6 +113,7 @@ pub(super) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Opti
         parent: None,
         still,
         mesh: mesh.into(),
+        shapes: Arc::default(),
     })
 }
 
@@ -224,7 +227,7 @@ pub(crate) fn path_name(text: &str) -> Option<&'static str> {
 }
 
 /// A linear colour in sRGB.
-fn color([r, g, b, a]: [f32; 4]) -> Color {
+pub(super) fn color([r, g, b, a]: [f32; 4]) -> Color {
     let [r, g, b] = [r, g, b].map(|light| {
         let value = match light.clamp(0.0, 1.0) {
             l if l <= 0.003_130_8 => 12.92 * l,

@@ -1,5 +1,6 @@
 //! Writes messages to a file.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use serde::Serialize;
 use super::RecordingError;
 use super::channel::Channel;
 use super::contacts::contacts;
+use super::description;
 use super::markers::Markers;
 use super::mcap_file::McapFile;
 use super::message::{
@@ -27,6 +29,8 @@ use spatial::Pose;
 
 /// The level of what a program has printed: INFO, since some viewers take 0 for nothing. It has no name.
 const PRINTED: u8 = 2;
+/// The encoding of all messages but descriptions.
+const PROTOBUF: &str = "protobuf";
 /// The library named in the file's header.
 const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 
@@ -38,6 +42,10 @@ const ALL_AGAIN: f64 = 2.0;
 pub(crate) struct RecordingWriter<W: Write> {
     file: McapFile<W>,
     ids: Vec<(Channel, u16)>,
+    /// The channels of descriptions.
+    descriptions: Vec<(Kind, u16)>,
+    /// The objects that have been described, and in how many messages.
+    described: (BTreeSet<u32>, u32),
     markers: Markers,
     /// Poses that were written last, in the frames of what carries the nodes.
     poses: IndexMap<u32, Placed>,
@@ -67,14 +75,26 @@ impl<W: Write> RecordingWriter<W> {
             let kind = channel.schema();
             let schema = match schemas.get(kind.name) {
                 Some(known) => *known,
-                None => file.add_schema(kind.name, &descriptors(kind))?,
+                None => file.add_schema(kind.name, PROTOBUF, &descriptors(kind))?,
             };
             schemas.insert(kind.name, schema);
-            ids.push((channel, file.add_channel(schema, channel.topic())?));
+            ids.push((
+                channel,
+                file.add_channel(schema, channel.topic(), PROTOBUF)?,
+            ));
+        }
+        let definition = description::DEFINITION.as_bytes();
+        let schema = file.add_schema(description::MESSAGE, "ros2msg", definition)?;
+        let mut descriptions = Vec::new();
+        for kind in Kind::ALL {
+            let channel = file.add_channel(schema, description::topic(kind), "cdr")?;
+            descriptions.push((kind, channel));
         }
         Ok(Self {
             file,
             ids,
+            descriptions,
+            described: Default::default(),
             markers: Markers::default(),
             poses: IndexMap::new(),
             moved: Vec::new(),
@@ -104,6 +124,11 @@ impl<W: Write> RecordingWriter<W> {
             let still = still.filter_map(|p| self.transform(time, p, MAP.to_owned()));
             let transforms = still.collect();
             self.write(Channel::Still, time, &FrameTransforms { transforms })?;
+            for (kind, name) in [(Kind::Robot, "robot"), (Kind::Furniture, "kitchen")] {
+                let nodes: Vec<Arc<Node>> = self.nodes.clone();
+                let nodes = nodes.iter().filter(|node| node.kind == kind);
+                self.describe(time, kind, name, nodes.map(AsRef::as_ref))?;
+            }
             let fixed = self.nodes.iter().filter(|n| n.kind != Kind::Object);
             let seen = fixed.filter(|n| !n.mesh.triangles.is_empty());
             let entities = seen.map(|node| entity(node, time)).collect();
@@ -229,8 +254,40 @@ impl<W: Write> RecordingWriter<W> {
             deletions: vec![all_deleted(frame.time)],
             entities: nodes.map(|node| entity(node, frame.time)).collect(),
         };
+        self.write(Channel::Objects, frame.time, &update)?;
+        let (described, messages) = &mut self.described;
+        let new: Vec<Arc<Node>> = (here.iter())
+            .filter(|id| described.insert(**id))
+            .filter_map(|id| self.nodes.get(*id as usize).cloned())
+            .collect();
         self.objects = here;
-        self.write(Channel::Objects, frame.time, &update)
+        *messages += u32::from(!new.is_empty());
+        let name = match *messages {
+            0 | 1 => "objects".to_owned(),
+            number => format!("objects {number}"),
+        };
+        self.describe(
+            frame.time,
+            Kind::Object,
+            &name,
+            new.iter().map(AsRef::as_ref),
+        )
+    }
+
+    /// Writes a description of nodes of a kind, if there is anything to describe.
+    fn describe<'n>(
+        &mut self,
+        time: f64,
+        kind: Kind,
+        name: &str,
+        nodes: impl Iterator<Item = &'n Node>,
+    ) -> Result<(), RecordingError> {
+        let channel = self.descriptions.iter().find(|(known, _)| *known == kind);
+        if let (Some((_, channel)), Some(text)) = (channel, description::description(name, nodes)) {
+            let data = description::message(&text);
+            self.file.add(*channel, Time::nanoseconds(time), &data)?;
+        }
+        Ok(())
     }
 
     fn write_shown(&mut self, frame: &Frame) -> Result<(), RecordingError> {
