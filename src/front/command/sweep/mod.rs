@@ -31,6 +31,7 @@ use file::sweep_file;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
 use kept::Kept;
+use kitchens::KitchenTable;
 use lisp::visible::visible;
 pub(crate) use options::SweepOptions;
 use progress::Progress;
@@ -433,7 +434,12 @@ fn report(
     if wanted.json {
         write!(out, "{}", lines(records))?;
     } else {
-        let text = format!("{summary}{}", Influence::of(records));
+        let kitchens = KitchenTable::of(records).map(|table| table.to_string());
+        let text = format!(
+            "{summary}{}{}",
+            Influence::of(records),
+            kitchens.unwrap_or_default()
+        );
         out.write_all(visible(&text).as_bytes())?;
         if (records.len() as u64) < count {
             writeln!(
