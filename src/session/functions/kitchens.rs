@@ -2,6 +2,8 @@
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit};
+use crate::simulation::Simulation;
+use crate::simulation::names::name_text;
 use cram::Reply;
 use kitchens::{Facts, Kitchen, Setting, Settings, is_parameter};
 use lisp::builtin::{Builtin, control, pure};
@@ -11,7 +13,7 @@ use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::robot::KinematicTree;
-use robotics::world::KitchenDescription;
+use robotics::world::{KitchenDescription, Models};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -135,7 +137,7 @@ fn settings_of(image: &Image, parameters: &[Value]) -> Result<Settings> {
     let mut settings = Settings::default();
     for pair in parameters.chunks(2) {
         let shown = |value: &Value| print::to_string(image, value, true);
-        let key = pair.first().and_then(Value::as_text);
+        let key = pair.first().and_then(|key| name_text(image, key));
         let (Some(key), [_, value]) = (key, pair) else {
             return Err(Raise::simple(format!(
                 "{} lacks its value: keys with values were expected, as in (new-kitchen 7 :table nil).",
@@ -152,7 +154,7 @@ fn settings_of(image: &Image, parameters: &[Value]) -> Result<Settings> {
             None if !value.is_true() => Setting::Flag(false),
             None if is_t => Setting::Flag(true),
             None => {
-                let name = value.as_text().unwrap_or_else(|| shown(value));
+                let name = name_text(image, value).unwrap_or_else(|| shown(value));
                 Setting::Name(name.to_lowercase())
             }
         };
@@ -180,14 +182,18 @@ fn check_change(host: &SimulationHost) -> Result<()> {
 
 /// Puts the robot into a kitchen.
 fn enter(host: &mut SimulationHost, seed: u64, kitchen: &Kitchen) -> Result<()> {
-    let simulation = &mut host.simulation;
+    let models = models_of(&host.simulation, seed, kitchen)?;
+    host.simulation.begin_with(&models);
+    Ok(())
+}
+
+/// The models of a session in another kitchen.
+pub(super) fn models_of(simulation: &Simulation, seed: u64, kitchen: &Kitchen) -> Result<Models> {
     let name = format!("generated:{seed}");
     let tree = KinematicTree::built_in(&kitchen.urdf, &name).map_err(Raise::reporting)?;
     let description = KitchenDescription::from_sexp(&kitchen.description, &name, &tree)
         .map_err(Raise::reporting)?;
-    let models = simulation.models.with_kitchen(tree, description);
-    simulation.begin_with(&models);
-    Ok(())
+    Ok(simulation.models.with_kitchen(tree, description))
 }
 
 /// What is remarkable about a kitchen, as keys with values.
@@ -218,7 +224,7 @@ fn facts_of(image: &mut Image, facts: &Facts) -> Value {
 }
 
 /// The seed that a value is.
-fn seed_of(given: &Value) -> Result<u64> {
+pub(super) fn seed_of(given: &Value) -> Result<u64> {
     let seed = match given {
         Value::Int(seed) => u64::try_from(*seed).ok(),
         Value::Big(seed) => u64::try_from(&**seed).ok(),

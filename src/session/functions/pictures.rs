@@ -55,7 +55,7 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 /// Writes the picture and queues it for display; the reply is the file's name.
-fn publish(
+pub(super) fn publish(
     files: &dyn Files,
     audience: &mut Audience,
     picture: picture::Image,
