@@ -6,7 +6,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::kitchens::{models_of, seed_of};
 use super::picture_request::PictureRequest;
-use super::pictures::publish;
+use super::pictures::publish_as;
 use crate::host::SimulationHost;
 use crate::host::call::host;
 use crate::simulation::starting_world;
@@ -40,6 +40,8 @@ const INK: [u8; 3] = [40, 40, 40];
 /// Colour between kitchens, and its width (pixels).
 const PAPER: [u8; 3] = [255; 3];
 const GAP: usize = 4;
+/// Colours of the file: few, since there may be many kitchens in it.
+const COLORS: usize = 48;
 
 /// Builtins of package `PLANWRIGHT`.
 pub(super) static TABLE: &[Builtin] = &[control(
@@ -92,12 +94,12 @@ fn kitchens_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]
         let at = [number % columns, number / columns];
         all.paste(&one, at[0] * (width + GAP), at[1] * (height + GAP));
     }
-    publish(
+    publish_as(
+        all.to_small_png(COLORS),
         &*image.files,
         &mut host.audience,
         all,
-        request.file.as_deref(),
-        FILE,
+        request.file.as_deref().unwrap_or(FILE),
     )
 }
 
@@ -115,7 +117,7 @@ fn picture_of(
     let at = Point3::new(room[0] / 2.0 - start[0], room[1] / 2.0 - start[1], MIDDLE);
     // Far enough for the room's diagonal.
     let diagonal = (room[0] * room[0] + room[1] * room[1]).sqrt();
-    let far = 0.62 * diagonal / (FIELD_OF_VIEW / 2.0).tan();
+    let far = 0.55 * diagonal / (FIELD_OF_VIEW / 2.0).tan();
     let view = View::Free {
         from: at + Vector3::from(DIRECTION).normalize() * far,
         at,

@@ -77,14 +77,7 @@ pub(super) fn shrink(
     let Some(first) = tried(worlds, number, threads, &[Vec::new()]).pop() else {
         return Ok(());
     };
-    if first.record.is_success()
-        || matches!(first.record.outcome, Ending::Invalid | Ending::Mistake)
-    {
-        return Err(CommandError::Sweep(format!(
-            "world {number} does not fail: its outcome is {}",
-            first.record.outcome
-        )));
-    }
+    check_failure(&first.record)?;
     let begun = Instant::now();
     let (world, runs, is_complete) = simplified(worlds, number, threads, first, begun);
     let kind = world.record.kind();
@@ -163,7 +156,7 @@ fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
     if !needed.is_empty() {
         writeln!(
             out,
-            "the failure changes, or the kitchen cannot be, with another {}",
+            "as drawn, since another value changes the failure, gives no kitchen, or changes nothing: {}",
             needed.join(" · ")
         )?;
     }
@@ -180,6 +173,18 @@ fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
         .map(|(name, value)| format!(",{name}={value}"))
         .collect();
     writeln!(out, "planwright --world generated:{seed}{options}")
+}
+
+/// An error unless the plan fails in a world.
+pub(super) fn check_failure(record: &Record) -> Result<(), CommandError> {
+    let outcome = record.outcome;
+    match record.is_success() || matches!(outcome, Ending::Invalid | Ending::Mistake) {
+        true => Err(CommandError::Sweep(format!(
+            "world {} does not fail: its outcome is {outcome}",
+            record.world
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// The worlds with draws set in each of the ways.
