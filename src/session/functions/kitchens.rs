@@ -109,7 +109,11 @@ fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
     check_change(host)?;
     let kitchen = match Kitchen::with(seed, &settings) {
         Ok(kitchen) => kitchen,
-        Err(impossible) => return done(Value::string(&impossible.to_string())),
+        // The seed would make each such world one of a kind.
+        Err(impossible) => {
+            let why = format!("no kitchen is like that: {}", impossible.rejection.words());
+            return done(Value::string(&why));
+        }
     };
     enter(host, seed, &kitchen)?;
     let simpler = kitchen.simpler.iter();

@@ -198,7 +198,7 @@ fn kitchens_with_wrong_parameters_are_mistakes_and_impossible_ones_invalid() {
         ("(kitchen 9 3)", "9 and 3 are no range of integers"),
         (
             "(kitchen :arrangement :galley :island t)",
-            "2 worlds invalid: home There is no kitchen of the seed",
+            "2 worlds invalid: home no kitchen is like that",
         ),
         ("(kitchen 0 9 :table nil)", "success  100.0 %"),
     ] {
