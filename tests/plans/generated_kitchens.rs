@@ -234,3 +234,40 @@ fn kitchens_with_settings_open_without_hitting_anything() {
         opens_everything(&session, settings);
     }
 }
+
+#[test]
+fn kitchens_are_drawn_side_by_side() {
+    let folder = std::env::temp_dir().join(format!("planwright-kitchens-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut cook = Cook::unwatched();
+    let before = cook.session.simulation().world().hash();
+    let mut draw = |name: &str, keys: &str| {
+        let file = folder.join(name);
+        let form = format!("(kitchens-picture {:?} {keys})", file.display().to_string());
+        cook.done(&form);
+        std::fs::read(file).unwrap()
+    };
+    let size = ":columns 2 :width 64 :height 48";
+    let three = draw("three.png", &format!(":seeds '(1 2 3) {size}"));
+    assert_eq!(draw("again.png", &format!(":seeds '(1 2 3) {size}")), three);
+    assert_ne!(
+        draw("others.png", &format!(":seeds '(1 2 4) {size}")),
+        three
+    );
+    // Width and height: two columns and two rows, with a gap between.
+    assert_eq!(three[16..24], [0, 0, 0, 132, 0, 0, 0, 100]);
+    std::fs::remove_dir_all(&folder).unwrap();
+    // The robot stays in its kitchen.
+    assert_eq!(cook.session.simulation().world().hash(), before);
+    for wrong in [
+        ":seeds nil",
+        ":seeds '(-1)",
+        ":seeds '(1) :columns 0",
+        ":seeds '(1) :width 9999",
+    ] {
+        let told = cook.done(&format!(
+            "(handler-case (kitchens-picture {wrong}) (error (why) (format nil \"~a\" why)))"
+        ));
+        assert!(told.contains("expected"), "{wrong}: {told}");
+    }
+}
