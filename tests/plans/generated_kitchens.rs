@@ -143,12 +143,11 @@ fn a_sweep_draws_kitchens() {
 /// Sweeps of the same kitchens: as they are, and with a state and things about.
 const STATES: &str = "(in-package :pp-tut)
     (defsweep plain ()
-      (vary (home (kitchen 0 400)) (from (surface)) (to (surface :except (list from)))
-            (cup (object cup :on from)))
+      (vary (home (kitchen 0 400)) (from (surface)) (cup (object cup :on from)))
       (run (list home)))
     (defsweep lived-in ()
       (vary (home (kitchen 0 400 :ajar 0.3 :chair 1 :clutter 1)) (from (surface))
-            (to (surface :except (list from))) (cup (object cup :on from)))
+            (cup (object cup :on from)))
       (run (list home))
       (expect (clean (no-penetration-p)))
       (measure (things (length (pw::%objects-of-world)))))";
@@ -268,6 +267,7 @@ fn kitchens_are_drawn_side_by_side() {
         let told = cook.done(&format!(
             "(handler-case (kitchens-picture {wrong}) (error (why) (format nil \"~a\" why)))"
         ));
-        assert!(told.contains("expected"), "{wrong}: {told}");
+        let is_told = told.contains("expected") || told.contains("is an integer from 0");
+        assert!(is_told, "{wrong}: {told}");
     }
 }
