@@ -107,7 +107,7 @@ fn a_failing_kitchen_shrinks_to_what_the_failure_needs() {
     }
     let needs = shown
         .lines()
-        .find(|line| line.starts_with("as drawn, "))
+        .find(|line| line.starts_with("no simpler, "))
         .expect("needs");
     assert!(needs.contains("island"), "{shown}");
     // The island stays, and all else of its kitchen is as simple as can be.

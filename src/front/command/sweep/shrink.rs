@@ -156,7 +156,7 @@ fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
     if !needed.is_empty() {
         writeln!(
             out,
-            "as drawn, since another value changes the failure, gives no kitchen, or changes nothing: {}",
+            "no simpler, since another value changes the failure, gives no kitchen, or changes nothing: {}",
             needed.join(" · ")
         )?;
     }
