@@ -6,6 +6,7 @@ use crate::draws::Numbers;
 use crate::modules::{Module, Unit};
 use crate::opening::Door;
 use crate::plan::{Plan, Row, Standing};
+use crate::settings::Setting;
 use crate::urdf::{Block, Joint, Urdf};
 
 /// Thickness (m) of boards, and gaps between fronts.
@@ -43,7 +44,7 @@ pub(crate) struct Inventory {
 }
 
 /// Writes a plan as a URDF.
-pub(crate) fn write(plan: &Plan, numbers: &Numbers) -> (String, Inventory) {
+pub(crate) fn write(plan: &Plan, numbers: &Numbers<'_>) -> (String, Inventory) {
     let [front, top] = COLORS[plan.style.color % COLORS.len()];
     let materials = [
         ("body", [0.03, 0.03, 0.03]),
@@ -86,7 +87,7 @@ pub(crate) fn write(plan: &Plan, numbers: &Numbers) -> (String, Inventory) {
 /// Makes the links of a plan.
 pub(super) struct Maker<'a> {
     pub(super) plan: &'a Plan,
-    pub(super) numbers: &'a Numbers,
+    pub(super) numbers: &'a Numbers<'a>,
     pub(super) urdf: Urdf,
     pub(super) inventory: Inventory,
 }
@@ -477,9 +478,11 @@ impl Maker<'_> {
             }
             Unit::Drawers(_) | Unit::Door { .. } | Unit::Dishwasher
                 if self.numbers.flag(&format!("{name}.there"), 0.6)
+                    && self.plan.has_wall_cabinets
                     && high - low > 0.35
                     && width <= 0.6 =>
             {
+                self.numbers.note("wall-cabinets", Setting::Flag(true));
                 let half = (width - BOARD) / 2.0;
                 let inner = width - 2.0 * BOARD;
                 let blocks: [Block; 6] = [

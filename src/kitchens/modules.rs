@@ -50,7 +50,7 @@ const STACKS: [(f64, &[f64]); 4] = [
 
 /// Fills a row with modules; parts of it at both ends are dead corners.
 pub(crate) fn fill(
-    numbers: &Numbers,
+    numbers: &Numbers<'_>,
     arrangement: Arrangement,
     index: usize,
     name: &str,
@@ -64,19 +64,17 @@ pub(crate) fn fill(
     use Arrangement::{Galley, Island, LWithIsland, OneWall, Peninsula, U};
     let hinge = |name: &str| numbers.flag(&format!("{name}.hinge"), 0.5);
     let fridge = (
-        [0.6, 0.65, 0.7][numbers.below("fridge.width", 3)],
+        numbers.one_of("fridge.width", &[0.6, 0.65, 0.7]),
         Unit::Fridge {
             is_left: hinge("fridge"),
         },
     );
-    let sink = (
-        if room > 2.4 && numbers.flag("sink.width", 0.5) {
-            0.8
-        } else {
-            0.6
-        },
-        Unit::Sink,
-    );
+    // A wide sink in a long row.
+    let sink_width = match room > 2.4 {
+        true => numbers.one_of("sink.width", &[0.8, 0.6]),
+        false => numbers.settings().number("sink.width").unwrap_or(0.6),
+    };
+    let sink = (sink_width, Unit::Sink);
     let hob = (0.6, Unit::Hob);
     let washer = (0.6, Unit::Dishwasher);
     let stack = |at: &str| {
@@ -171,5 +169,11 @@ pub(crate) fn fill(
         at = rounded(at + width);
         module
     });
-    Ok(placed.collect())
+    let mut placed: Vec<Module> = placed.collect();
+    for (number, module) in placed.iter_mut().enumerate() {
+        if numbers.settings().is_closed(name, number + 1) {
+            module.unit = Unit::Panel;
+        }
+    }
+    Ok(placed)
 }

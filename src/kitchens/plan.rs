@@ -1,8 +1,11 @@
 //! The floor plan of a kitchen: its room, its rows of modules, and what stands free.
 
+use std::cell::Cell;
+
 use crate::draws::{Numbers, rounded};
 use crate::floor::{Floor, Rectangle};
 use crate::modules::{Module, Unit, fill};
+use crate::settings::Setting;
 
 /// How the furniture is arranged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +37,44 @@ impl Arrangement {
         (0.18, Self::LWithIsland),
         (0.05, Self::Peninsula),
     ];
+
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::SHARES.into_iter().map(|(_, one)| one)
+    }
+
+    /// The one of that name, if there is one.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|one| one.name() == name)
+    }
+
+    /// The same without its island.
+    fn without_island(self) -> Self {
+        match self {
+            Self::Island => Self::OneWall,
+            Self::LWithIsland => Self::L,
+            other => other,
+        }
+    }
+
+    /// The same with an island, if there is one.
+    fn with_island(self) -> Option<Self> {
+        match self {
+            Self::OneWall | Self::Island => Some(Self::Island),
+            Self::L | Self::LWithIsland => Some(Self::LWithIsland),
+            _ => None,
+        }
+    }
+
+    /// Simpler ones, the simplest first.
+    pub(crate) fn simpler(self) -> &'static [Self] {
+        match self {
+            Self::OneWall => &[],
+            Self::Galley | Self::L | Self::Island | Self::Peninsula => &[Self::OneWall],
+            Self::U => &[Self::OneWall, Self::L],
+            Self::LWithIsland => &[Self::OneWall, Self::Island, Self::L],
+        }
+    }
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -122,6 +163,8 @@ pub(crate) struct Plan {
     pub(crate) rows: Vec<Row>,
     pub(crate) table: Option<Standing>,
     pub(crate) stools: Vec<Standing>,
+    /// Whether cabinets hang on walls.
+    pub(crate) has_wall_cabinets: bool,
     /// Where the robot starts.
     pub(crate) start: [f64; 2],
     /// The narrowest way between rows that face each other (m).
@@ -137,6 +180,22 @@ pub enum Rejection {
     CutOff,
     /// It lacks something that every kitchen has.
     Incomplete,
+    /// What is to be there has no room, or does not go with the arrangement.
+    NoPlace,
+}
+
+impl Rejection {
+    /// What is wrong, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Narrow => "there is not enough room",
+            Self::CutOff => "the robot would not get to a front, the doorway or the table",
+            Self::Incomplete => {
+                "it would lack a sink, a fridge that opens, or three drawers that open"
+            }
+            Self::NoPlace => "there is no place for the island or the table",
+        }
+    }
 }
 
 /// Room (m) that the robot needs to all sides on its way: 0.8 m altogether.
@@ -153,11 +212,27 @@ pub(crate) const ASIDE: f64 = 0.08;
 
 impl Plan {
     /// Draws a plan.
-    pub(crate) fn draw(numbers: &Numbers) -> Result<Self, Rejection> {
+    pub(crate) fn draw(numbers: &Numbers<'_>) -> Result<Self, Rejection> {
         use Arrangement::{Galley, Island, L, LWithIsland, OneWall, Peninsula, U};
-        let arrangement = numbers
-            .choice("arrangement", &Arrangement::SHARES)
+        let settings = numbers.settings();
+        let drawn = settings
+            .arrangement()
+            .or_else(|| numbers.choice("arrangement", &Arrangement::SHARES))
             .unwrap_or(OneWall);
+        let arrangement = match settings.flag("island") {
+            None => drawn,
+            Some(true) => drawn.with_island().ok_or(Rejection::NoPlace)?,
+            Some(false) => drawn.without_island(),
+        };
+        numbers.note("arrangement", Setting::Name(arrangement.name().to_owned()));
+        if matches!(arrangement, Island | LWithIsland) {
+            numbers.note("island", Setting::Flag(true));
+        }
+        // Without its island, a kitchen keeps its room.
+        let sized = match settings.flag("island") {
+            Some(false) => drawn,
+            _ => arrangement,
+        };
         let between = |name: &str, low, high| numbers.between(name, low, high);
         let style = Style {
             height: between("counter.height", 0.85, 0.95),
@@ -178,16 +253,19 @@ impl Plan {
             color: numbers.below("color", 5),
         };
         let depth = style.depth;
-        let aisle = between("aisle", 1.0, 1.6);
-        let width = match arrangement {
+        let aisle = match arrangement {
+            Galley | Island | LWithIsland => between("aisle", 1.0, 1.6),
+            _ => 0.0,
+        };
+        let width = match sized {
             OneWall => between("room.width", 3.0, 5.0),
             Galley => rounded(2.0 * depth + aisle),
             L | LWithIsland => between("room.width", 3.0, 5.2),
-            U => rounded(2.0 * depth + between("room.width", 1.4, 2.8)),
+            U => numbers.between_after("room.width", 2.0 * depth, 1.4, 2.8),
             Island => between("room.width", 3.4, 5.6),
-            Peninsula => rounded(depth + between("room.width", 2.4, 3.6)),
+            Peninsula => numbers.between_after("room.width", depth, 2.4, 3.6),
         };
-        let far = match arrangement {
+        let far = match sized {
             OneWall | Peninsula => between("room.depth", 2.6, 4.6),
             Galley => between("room.depth", 2.8, 4.6),
             L => between("room.depth", 2.8, 5.0),
@@ -200,7 +278,18 @@ impl Plan {
         let left = |from: f64, to: f64| ("left", [0.0, from], 0, to - from);
         let right = |from: f64, to: f64| ("right", [width, from], 2, from - to);
         let corner = depth + CORNER;
-        let side = |name: &str| between(name, 1.5, 2.6).min(far - 1.0);
+        // What is set is so, or not at all.
+        let is_cut = Cell::new(false);
+        let held = |name: &str, length: f64| {
+            let set = settings.number(name);
+            is_cut.set(is_cut.get() || set.is_some_and(|set| (set - length).abs() > 1e-9));
+            length
+        };
+        let length_of = |name: &str, least: f64, most: f64| {
+            let length = between(name, 1.5, 2.6).min(far - 1.0);
+            held(name, length.max(least).min(most))
+        };
+        let side = |name: &str| length_of(name, 0.0, f64::INFINITY);
         let mut places = match arrangement {
             OneWall | Island => vec![back(0.0, width)],
             Galley => vec![
@@ -208,12 +297,12 @@ impl Plan {
                 right(far, far - side("right.length")),
             ],
             L | LWithIsland => {
-                let length = side("left.length").max(corner + 0.9).min(far - 0.9);
+                let length = length_of("left.length", corner + 0.9, far - 0.9);
                 vec![back(0.0, width), left(far - length, far - depth)]
             }
             U => {
                 let lengths = ["left.length", "right.length"]
-                    .map(|name| side(name).max(corner + 0.9).min(far - 0.9));
+                    .map(|name| length_of(name, corner + 0.9, far - 0.9));
                 vec![
                     back(0.0, width),
                     left(far - lengths[0], far - depth),
@@ -221,13 +310,14 @@ impl Plan {
                 ]
             }
             Peninsula => {
-                let length = side("right.length").max(corner + 0.9).min(far - 1.0);
+                let length = length_of("right.length", corner + 0.9, far - 1.0);
                 let free = ("right", [width - 0.9, far - depth], 2, length - depth);
                 vec![back(0.0, width - 0.9), free]
             }
         };
         if matches!(arrangement, Island | LWithIsland) {
             let wide = between("island.width", 1.2, 2.2).min(width - 2.0);
+            let wide = held("island.width", wide);
             let left = if arrangement == LWithIsland {
                 depth
             } else {
@@ -237,6 +327,9 @@ impl Plan {
             // Its fronts look at the row along the wall.
             let at = rounded(far - depth - aisle - depth);
             places.push(("island", [start + wide, at], 1, wide));
+        }
+        if is_cut.get() {
+            return Err(Rejection::Narrow);
         }
         let mut rows = Vec::new();
         for (index, (name, origin, turns, length)) in places.iter().enumerate() {
@@ -277,6 +370,7 @@ impl Plan {
             rows,
             table: None,
             stools: Vec::new(),
+            has_wall_cabinets: settings.flag("wall-cabinets").unwrap_or(true),
             start: [0.0; 2],
             aisle: match arrangement {
                 Galley | Island | LWithIsland => aisle,
@@ -284,11 +378,32 @@ impl Plan {
                 _ => f64::INFINITY,
             },
         };
+        plan.check_rows()?;
         plan.close_what_does_not_open();
         plan.check_units()?;
         plan.set_table(numbers);
+        if settings.flag("table") == Some(true) && plan.table.is_none() {
+            return Err(Rejection::NoPlace);
+        }
         plan.check()?;
         Ok(plan)
+    }
+
+    /// Whether rows are in the room and do not overlap.
+    fn check_rows(&self) -> Result<(), Rejection> {
+        let depth = self.style.depth;
+        let rows = self.rows.iter();
+        let rows: Vec<Rectangle> = rows
+            .map(|row| row.rectangle([0.0, 0.0], [depth, row.length()]))
+            .collect();
+        let fits = rows.iter().enumerate().all(|(number, row)| {
+            let mut before = rows.iter().take(number);
+            row.is_inside(&self.room) && !before.any(|other| other.overlaps(row))
+        });
+        match fits {
+            true => Ok(()),
+            false => Err(Rejection::Narrow),
+        }
     }
 
     /// What the rows take of the floor, without handles.
@@ -392,16 +507,15 @@ impl Plan {
     }
 
     /// Puts a table where there is room for it, with stools.
-    fn set_table(&mut self, numbers: &Numbers) {
-        let wanted = numbers.flag("table", 0.6);
+    fn set_table(&mut self, numbers: &Numbers<'_>) {
+        if !numbers.flag("table", 0.6) {
+            return;
+        }
         let size = [
             numbers.between("table.length", 0.8, 1.6),
             numbers.between("table.width", 0.7, 0.9),
         ];
         let height = numbers.between("table.height", 0.70, 0.77);
-        if !wanted {
-            return;
-        }
         let door = (self.doorway[0] + self.doorway[1]) / 2.0;
         let [width, far] = self.room.high;
         let mut best: Option<(f64, Rectangle)> = None;
@@ -425,6 +539,10 @@ impl Plan {
             }
         }
         let Some((_, place)) = best else {
+            numbers.note("table", Setting::Flag(false));
+            for size in ["table.length", "table.width", "table.height"] {
+                numbers.forget(size);
+            }
             return;
         };
         self.table = Some(Standing { place, height });

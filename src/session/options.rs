@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use closest_name::closest_name;
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF, ROBOTS, robot_named};
-use kitchens::Kitchen;
+use kitchens::{Kitchen, Settings};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
@@ -109,19 +109,6 @@ pub fn is_built_in(name: &Path) -> bool {
     is_generated(name) || is_shipped_robot(name)
 }
 
-/// The kitchen of a seed.
-///
-/// # Errors
-///
-/// There is none.
-pub(crate) fn generated_kitchen(seed: u64) -> Result<Kitchen, SessionError> {
-    Kitchen::of_seed(seed).ok_or_else(|| {
-        SessionError::Models(format!(
-            "no kitchen could be made of the seed {seed}: take another one"
-        ))
-    })
-}
-
 impl SessionOptions {
     /// Has the session begin with the robot of that name that comes with planwright.
     ///
@@ -148,22 +135,33 @@ impl SessionOptions {
         Ok(())
     }
 
-    /// Has the session begin in the generated kitchen with a name such as `generated:7`.
+    /// Has the session begin in the generated kitchen with a name such as `generated:7`, or
+    /// `generated:7,table=nil,counter-height=0.9` for one with parameters that are set.
     ///
     /// # Errors
     ///
-    /// The name has no seed.
+    /// The name has no seed, a parameter is wrong, or there is no such kitchen.
     pub fn set_generated_world(&mut self, name: &str) -> Result<(), SessionError> {
-        let seed = name
-            .strip_prefix(GENERATED)
-            .and_then(|seed| seed.parse().ok());
+        let mut parts = name.strip_prefix(GENERATED).unwrap_or_default().split(',');
+        let seed = parts.next().and_then(|seed| seed.parse().ok());
         let seed: u64 = seed.ok_or_else(|| {
             SessionError::Models(format!(
                 "{name} names no generated kitchen: {GENERATED}SEED was expected, with a whole number from 0 to {}",
                 u64::MAX
             ))
         })?;
-        let kitchen = generated_kitchen(seed)?;
+        let mut settings = Settings::default();
+        for part in parts {
+            let Some((name, value)) = part.split_once('=') else {
+                return Err(SessionError::Models(format!(
+                    "{part:?} sets no parameter of a kitchen: NAME=VALUE was expected, as in {GENERATED}{seed},table=nil"
+                )));
+            };
+            let set = settings.set_text(name, value);
+            set.map_err(|error| SessionError::Models(error.to_string()))?;
+        }
+        let kitchen = Kitchen::with(seed, &settings)
+            .map_err(|impossible| SessionError::Models(impossible.to_string()))?;
         self.world = Some((name.to_owned(), kitchen.urdf));
         if self.world_description.is_none() {
             self.world_description = Some((name.to_owned(), kitchen.description));

@@ -2,10 +2,9 @@
 
 use std::time::Duration;
 
-use crate::sweeping::MAX_POLLS;
+use crate::sweeping::{MAX_POLLS, Simpler};
 use crate::{Session, defect};
-use sweep::pairs::Pairs;
-use sweep::{Drawn, Ending, Record};
+use sweep::{Ending, Record};
 
 /// Runs worlds of a sweep, each in a session of its own. The file is loaded once, and every world gets a
 /// copy of the session in which that was done. A file that leaves something of which there is no copy,
@@ -41,20 +40,20 @@ impl<M: Fn() -> Result<Session, String>> Worlds<M> {
     }
 
     /// Runs the plan in a world, in which draws are set as told, and returns what came of it, with
-    /// the simplest values of the draws. What a panic ends is a defect.
-    pub fn run(&mut self, world: u64, set: &[(String, String)]) -> (Record, Pairs<Drawn>) {
+    /// what could be simpler. What a panic ends is a defect.
+    pub fn run(&mut self, world: u64, set: &[(String, String)]) -> (Record, Simpler) {
         let run = || match self.next() {
             Ok(mut session) => {
                 let (name, seed, limit) = (&self.name, self.seed, self.time_limit);
                 let record = session.run_sweep_world(name, seed, world, set, MAX_POLLS, limit);
-                (record, session.simplest_draws())
+                (record, session.simpler_draws())
             }
-            Err(report) => (defective(world, report), Pairs::default()),
+            Err(report) => (defective(world, report), Simpler::default()),
         };
         defect::caught(run).unwrap_or_else(|defect| {
             // Who knows what it has left.
             self.loaded = Loaded::NotYet;
-            (defective(world, defect.to_string()), Pairs::default())
+            (defective(world, defect.to_string()), Simpler::default())
         })
     }
 

@@ -20,6 +20,16 @@ use sweep::{Drawn, Draws, Ending, Record};
 pub use crate::sweep_file::SweepFile;
 pub use crate::sweep_worlds::{Worlds, mistake};
 
+/// What could be simpler in a world.
+#[derive(Clone, Debug, Default)]
+pub struct Simpler {
+    /// The simplest values that the draws could have had.
+    pub simplest: Pairs<Drawn>,
+    /// Simpler values of parameters of the kitchen, by path, where there is a generated one; those that change
+    /// most come first.
+    pub kitchen: Vec<(String, Drawn)>,
+}
+
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
 /// computing. A plan that moves looks some thousands of times.
 pub const MAX_POLLS: u64 = 1_000_000;
@@ -57,6 +67,8 @@ struct State {
     drawn: Pairs<Drawn>,
     /// The simplest values that could have been drawn.
     simplest: Pairs<Drawn>,
+    /// Simpler values of parameters of the kitchen, by path.
+    simpler: Vec<(String, Drawn)>,
     /// Values that are set instead of drawn.
     set: Vec<(String, Value)>,
     known: Vec<Known>,
@@ -93,6 +105,7 @@ impl Sweeping {
         state.draws.clear();
         state.drawn = Pairs::default();
         state.simplest = Pairs::default();
+        state.simpler.clear();
         state.record = None;
         state.stage = Stage::SetUp;
     }
@@ -123,6 +136,21 @@ impl Sweeping {
     /// Notes the simplest value that could have been drawn.
     pub(super) fn note_simplest(&self, path: &str, drawn: Drawn) {
         self.0.borrow_mut().simplest.set(path, drawn);
+    }
+
+    /// Notes a simpler value that a parameter of the kitchen could have.
+    pub(super) fn note_simpler(&self, path: &str, drawn: Drawn) {
+        self.0.borrow_mut().simpler.push((path.to_owned(), drawn));
+    }
+
+    /// What is set for draws right below a path: names and values.
+    pub(super) fn overrides(&self, path: &str) -> Vec<(String, Value)> {
+        let state = self.0.borrow();
+        let below = state.set.iter().filter_map(|(known, value)| {
+            let name = known.strip_prefix(path)?.strip_prefix('.')?;
+            (!name.contains('.')).then(|| (name.to_owned(), value.clone()))
+        });
+        below.collect()
     }
 
     /// Draws are set no more.
@@ -214,13 +242,14 @@ impl Session {
         Handlers::of(&mut self.evaluator.image).give();
     }
 
-    /// The simplest values that the draws of the world at hand could have had.
-    pub fn simplest_draws(&mut self) -> Pairs<Drawn> {
-        Sweeping::of(&mut self.evaluator.image)
-            .0
-            .borrow()
-            .simplest
-            .clone()
+    /// What could be simpler in the world at hand.
+    pub fn simpler_draws(&mut self) -> Simpler {
+        let state = Sweeping::of(&mut self.evaluator.image);
+        let state = state.0.borrow();
+        Simpler {
+            simplest: state.simplest.clone(),
+            kitchen: state.simpler.clone(),
+        }
     }
 
     /// What was performed in the run of a world: the names of relations with their rows, as lines of JSON.

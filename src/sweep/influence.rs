@@ -18,7 +18,7 @@ const BINS: usize = 10;
 /// How often the outcomes are shuffled.
 const SHUFFLES: usize = 999;
 /// Corrected probability below which a draw has an effect.
-const SIGNIFICANT: f64 = 0.05;
+pub const SIGNIFICANT: f64 = 0.05;
 /// Minimum share of the worlds on either side of a bound.
 const MIN_SHARE: f64 = 0.05;
 /// Fewest failures, and fewest successes, about which anything can be said.
@@ -144,11 +144,43 @@ fn counts(bins: &[usize], fails: &[bool]) -> Vec<[usize; 2]> {
     counts
 }
 
+/// What a division of worlds into groups explains of their failures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explained {
+    /// The probability that this is chance, corrected for the number of divisions; `None` where there are too
+    /// few failures, or successes, to say.
+    pub p: Option<f64>,
+    /// The gain in deviance over one rate for all.
+    pub deviance: f64,
+}
+
+/// What each of several divisions explains: the group of each world, and whether it fails.
+pub fn explained(divisions: &[Vec<usize>], fails: &[bool]) -> Vec<Explained> {
+    let failed = fails.iter().filter(|fails| **fails).count();
+    let is_known = failed >= FEWEST && fails.len() - failed >= FEWEST;
+    let chances = match is_known {
+        true => holm(&shuffled_bins(divisions, fails)),
+        false => Vec::new(),
+    };
+    let divisions = divisions.iter().enumerate();
+    divisions
+        .map(|(at, groups)| Explained {
+            p: chances.get(at).copied(),
+            deviance: deviance(&counts(groups, fails)),
+        })
+        .collect()
+}
+
 /// The probability, for each feature, that shuffled outcomes give as large a deviance.
 fn shuffled(features: &[Feature], fails: &[bool]) -> Vec<f64> {
     let bins: Vec<Vec<usize>> = features.iter().map(|f| bins(&f.values)).collect();
+    shuffled_bins(&bins, fails)
+}
+
+/// The same for the bins of features.
+fn shuffled_bins(bins: &[Vec<usize>], fails: &[bool]) -> Vec<f64> {
     let found: Vec<f64> = bins.iter().map(|b| deviance(&counts(b, fails))).collect();
-    let mut as_large = vec![0_usize; features.len()];
+    let mut as_large = vec![0_usize; bins.len()];
     let mut numbers = Draws::new(0, 0, "influence");
     let mut shuffled = fails.to_vec();
     for _ in 0..SHUFFLES {

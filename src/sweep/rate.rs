@@ -4,11 +4,11 @@ use super::beta::beta_quantile;
 use super::normal::normal_quantile;
 
 /// An interval of rates.
-pub(crate) type Interval = [f64; 2];
+pub type Interval = [f64; 2];
 
 /// The interval in which the true rate lies with that confidence, if `hits` of `count` worlds are
 /// hits: Wilson's (1927), which also does for rates near 0 and 1.
-pub(crate) fn wilson(hits: usize, count: usize, confidence: f64) -> Interval {
+pub fn wilson(hits: usize, count: usize, confidence: f64) -> Interval {
     if count == 0 {
         return [0.0, 1.0];
     }

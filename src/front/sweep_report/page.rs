@@ -1,5 +1,6 @@
 //! A sweep as a page, and as a part of one.
 
+use kitchens::{Division, KitchenTable};
 use sweep::influence::Influence;
 use sweep::summary::{Kind, Summary, Title};
 use sweep::{Drawn, Record};
@@ -48,6 +49,9 @@ pub(crate) fn html(title: &Title, records: &[Record], file: &str) -> String {
         escaped(&Influence::of(records).to_string()),
     );
     text.push_str(&where_it_works(records));
+    if let Some(table) = KitchenTable::of(records) {
+        text.push_str(&kitchens(&table));
+    }
     let kinds = summary.kinds();
     if !kinds.is_empty() {
         text.push_str("<h2>Failures</h2>\n<p>A world is run again, and shown, with the command beside it.</p>\n");
@@ -80,6 +84,67 @@ fn where_it_works(records: &[Record]) -> String {
         ),
         None => String::new(),
     }
+}
+
+/// Which kitchens fail, by what divides them, and which failures are the same in several.
+fn kitchens(table: &KitchenTable) -> String {
+    let mut text = format!(
+        "<h2>Kitchens</h2>\n<p>{} of {} worlds fail, in {} of {} kitchens. What explains most comes first; the \
+         interval is that of 95 %.</p>\n",
+        table.failed, table.tried, table.failing_kitchens, table.kitchens
+    );
+    if table.failed == 0 {
+        return text;
+    }
+    if !table.divisions.is_empty() {
+        text.push_str(
+            "<div class=\"wide\" tabindex=\"0\"><table><tr><th></th><th>fail</th><th>of</th><th>%</th>\
+             <th>interval</th></tr>\n",
+        );
+        table
+            .divisions
+            .iter()
+            .for_each(|division| text.push_str(&division_of_kitchens(division)));
+        text.push_str("</table></div>\n");
+    }
+    text.push_str(
+        "<div class=\"wide\" tabindex=\"0\"><table><tr><th>failure</th><th>worlds</th><th>kitchens</th>\
+         <th class=\"words\">layouts</th></tr>\n",
+    );
+    for finding in &table.findings {
+        let layouts = finding.layouts.iter();
+        let layouts: Vec<String> = layouts
+            .map(|(layout, count)| format!("{} {count}", escaped(layout)))
+            .collect();
+        text.push_str(&format!(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"words\">{}</td></tr>\n",
+            escaped(&finding.words()),
+            finding.worlds.len(),
+            finding.kitchens,
+            layouts.join(", ")
+        ));
+    }
+    text + "</table></div>\n"
+}
+
+/// The rows of a division of kitchens.
+fn division_of_kitchens(division: &Division) -> String {
+    let name = escaped(&division.name);
+    let mut rows = format!(
+        "<tr><th>{name}</th><td class=\"words\" colspan=\"4\">{}</td></tr>\n",
+        division.verdict()
+    );
+    for row in &division.rows {
+        let [low, high] = row.interval().map(|bound| 100.0 * bound);
+        rows.push_str(&format!(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1}</td><td>{low:.1} – {high:.1}</td></tr>\n",
+            escaped(&row.class),
+            row.failed,
+            row.tried,
+            100.0 * row.rate()
+        ));
+    }
+    rows
 }
 
 /// The worlds that failed in the same way, in columns of what was drawn.

@@ -2,58 +2,206 @@
 
 use crate::host::SimulationHost;
 use crate::host::call::{done, edit};
-use crate::options::generated_kitchen;
+use crate::simulation::Simulation;
+use crate::simulation::names::name_text;
 use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use kitchens::{Facts, Kitchen, Setting, Settings, is_parameter};
+use lisp::builtin::{Builtin, control, pure};
 use lisp::image::Image;
+use lisp::print;
 use lisp::value::Value;
+use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::robot::KinematicTree;
-use robotics::world::KitchenDescription;
+use robotics::world::{KitchenDescription, Models};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
 pub(super) static TABLE: &[Builtin] = &[control(
     "NEW-KITCHEN",
-    "&optional seed",
-    "Puts the robot into the generated kitchen of a seed, without objects; without a seed, into the kitchen in which the session began. Returns what is remarkable about it: how its furniture is arranged, the size of the room, the narrowest way between rows that face each other and the height of the counter (m), the number of drawers.",
+    "&optional seed &rest parameters",
+    "Puts the robot into the generated kitchen of a seed, without objects; without a seed, into the kitchen in which the session began. Parameters are keys with values, such as :arrangement :galley, :table nil, :counter-height 0.9, or :back-3 nil for a module that is to be closed; all others stay as the seed draws them. Returns what is remarkable about it: how its furniture is arranged, the size of the room, the narrowest way between rows that face each other and the height of the counter (m), the number of drawers; and :redrawn if the seed's own draws do not go with the parameters, so that all others were drawn anew.",
     &[
         "(getf (new-kitchen 7) :arrangement) => :L",
+        "(getf (new-kitchen 7 :counter-height 0.9) :counter-height) => 0.9",
         "(new-kitchen) => NIL",
     ],
     edit!(new_kitchen),
 )];
+
+/// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
+pub(super) static DRAWN: &[Builtin] = &[
+    control(
+        "%NEW-KITCHEN",
+        "seed parameters",
+        "As NEW-KITCHEN; returns a list of what that returns, of the parameters with their simplest values where they have others, as lists (NAME VALUE), and of the extent of the room (least x, least y, greatest x, greatest y; m, map). If there is no such kitchen, a string that says why.",
+        &[],
+        edit!(drawn_kitchen),
+    ),
+    control(
+        "%OPEN-IF-FREE",
+        "joint position",
+        "Puts a joint of the kitchen at a position (m or rad) at once, unless what it moves would hit anything there. Has it?",
+        &[],
+        edit!(open_if_free),
+    ),
+    pure(
+        "%KITCHEN-PARAMETER-P",
+        "name",
+        "Has a generated kitchen a parameter of that name, a string?",
+        &[
+            "(pw::%kitchen-parameter-p \"table\") => T",
+            "(pw::%kitchen-parameter-p \"drawers\") => NIL",
+        ],
+        has_parameter,
+    ),
+];
+
+fn open_if_free(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = args[0].as_text().unwrap_or_default();
+    let position = number::to_f64(&args[1]).unwrap_or(f64::NAN);
+    let world = &mut host.simulation.world;
+    let joint = world.models().kitchen.joint_named(&name);
+    let is_free = joint.is_some_and(|joint| {
+        let part = world.part(joint);
+        world.moved(&part, position).hit().is_none()
+    });
+    if is_free {
+        let put = world.teleport_kitchen_joint(&name, position);
+        put.map_err(Raise::reporting)?;
+    }
+    done(is_free)
+}
+
+fn has_parameter(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let name = args.first().and_then(Value::as_text).unwrap_or_default();
+    Ok(is_parameter(&name).into())
+}
 
 fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let seed = match args.first().filter(|seed| seed.is_true()) {
         None => None,
         Some(given) => Some(seed_of(given)?),
     };
+    let settings = settings_of(image, args.get(1..).unwrap_or_default())?;
+    check_change(host)?;
+    let Some(seed) = seed else {
+        if !settings.is_empty() {
+            return Err(Raise::simple(
+                "Only a generated kitchen has parameters: (new-kitchen SEED :table nil), for example.",
+            ));
+        }
+        let simulation = &mut host.simulation;
+        simulation.go_home();
+        simulation.restart();
+        return done(Value::NIL);
+    };
+    let kitchen = Kitchen::with(seed, &settings).map_err(Raise::reporting)?;
+    enter(host, seed, &kitchen)?;
+    done(facts_of(image, &kitchen.facts))
+}
+
+fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let seed = seed_of(&args[0])?;
+    let parameters: Vec<Value> = args[1].iter_list().collect();
+    let settings = settings_of(image, &parameters)?;
+    check_change(host)?;
+    let kitchen = match Kitchen::with(seed, &settings) {
+        Ok(kitchen) => kitchen,
+        // The seed would make each such world one of a kind.
+        Err(impossible) => {
+            let why = format!("no kitchen is like that: {}", impossible.rejection.words());
+            return done(Value::string(&why));
+        }
+    };
+    enter(host, seed, &kitchen)?;
+    let simpler = kitchen.simpler.iter();
+    let simpler = simpler.map(|(name, setting)| {
+        let value = match setting {
+            Setting::Flag(flag) => (*flag).into(),
+            Setting::Number(number) => Value::Double(*number),
+            Setting::Name(name) => Value::string(name),
+        };
+        Value::list([Value::string(name), value])
+    });
+    let simpler = Value::list(simpler.collect::<Vec<_>>());
+    let Facts { room, start, .. } = kitchen.facts;
+    let extent = [-start[0], -start[1], room[0] - start[0], room[1] - start[1]];
+    let extent = Value::list(extent.map(Value::Double));
+    done(Value::list([
+        facts_of(image, &kitchen.facts),
+        simpler,
+        extent,
+    ]))
+}
+
+/// The parameters that keys with values set.
+fn settings_of(image: &Image, parameters: &[Value]) -> Result<Settings> {
+    let mut settings = Settings::default();
+    for pair in parameters.chunks(2) {
+        let shown = |value: &Value| print::to_string(image, value, true);
+        let key = pair.first().and_then(|key| name_text(image, key));
+        let (Some(key), [_, value]) = (key, pair) else {
+            return Err(Raise::simple(format!(
+                "{} lacks its value: keys with values were expected, as in (new-kitchen 7 :table nil).",
+                pair.first().map(shown).unwrap_or_default()
+            )));
+        };
+        let is_t = matches!(value, Value::Symbol(sym, ..) if image.name(*sym) == "T");
+        let setting = match number::to_f64(value) {
+            // As it was written: 0.3, not the nearest number of less precision.
+            Some(number) => Setting::Number(match value {
+                Value::Single(single) => single.to_string().parse().unwrap_or(number),
+                _ => number,
+            }),
+            None if !value.is_true() => Setting::Flag(false),
+            None if is_t => Setting::Flag(true),
+            None => {
+                let name = name_text(image, value).unwrap_or_else(|| shown(value));
+                Setting::Name(name.to_lowercase())
+            }
+        };
+        settings
+            .set(&key.to_lowercase(), setting)
+            .map_err(Raise::reporting)?;
+    }
+    Ok(settings)
+}
+
+/// An error if the kitchen cannot be changed now.
+fn check_change(host: &SimulationHost) -> Result<()> {
     if host.audience.shows_kitchen() {
         return Err(Raise::simple(
             "The live view and recordings show one kitchen: end them, or start planwright with --world generated:SEED.",
         ));
     }
-    let simulation = &mut host.simulation;
-    if !simulation.jobs.is_idle() {
+    if !host.simulation.jobs.is_idle() {
         return Err(Raise::simple(
             "The robot moves: stop it before it gets another kitchen.",
         ));
     }
-    let Some(seed) = seed else {
-        simulation.go_home();
-        simulation.restart();
-        return done(Value::NIL);
-    };
-    let kitchen = generated_kitchen(seed).map_err(Raise::reporting)?;
+    Ok(())
+}
+
+/// Puts the robot into a kitchen.
+fn enter(host: &mut SimulationHost, seed: u64, kitchen: &Kitchen) -> Result<()> {
+    let models = models_of(&host.simulation, seed, kitchen)?;
+    host.simulation.begin_with(&models);
+    Ok(())
+}
+
+/// The models of a session in another kitchen.
+pub(super) fn models_of(simulation: &Simulation, seed: u64, kitchen: &Kitchen) -> Result<Models> {
     let name = format!("generated:{seed}");
     let tree = KinematicTree::built_in(&kitchen.urdf, &name).map_err(Raise::reporting)?;
     let description = KitchenDescription::from_sexp(&kitchen.description, &name, &tree)
         .map_err(Raise::reporting)?;
-    let models = simulation.models.with_kitchen(tree, description);
-    simulation.begin_with(&models);
-    let facts = kitchen.facts;
+    Ok(simulation.models.with_kitchen(tree, description))
+}
+
+/// What is remarkable about a kitchen, as keys with values.
+fn facts_of(image: &mut Image, facts: &Facts) -> Value {
     // As the reader makes it of a decimal fraction.
     let length = |length: f64| Value::Single(((length * 1e3).round() / 1e3) as f32);
     let arrangement = facts.arrangement.name().to_uppercase();
@@ -69,15 +217,18 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
         ("DRAWERS", Value::from(facts.drawers as i64)),
         ("TABLE", facts.has_table.into()),
     ];
+    let redrawn = ("REDRAWN", Value::from(true));
+    let redrawn = facts.is_redrawn.then_some(redrawn);
     let entries: Vec<Value> = entries
         .into_iter()
+        .chain(redrawn)
         .flat_map(|(key, value)| [image.keyword(key).into(), value])
         .collect();
-    done(Value::list(entries))
+    Value::list(entries)
 }
 
 /// The seed that a value is.
-fn seed_of(given: &Value) -> Result<u64> {
+pub(super) fn seed_of(given: &Value) -> Result<u64> {
     let seed = match given {
         Value::Int(seed) => u64::try_from(*seed).ok(),
         Value::Big(seed) => u64::try_from(&**seed).ok(),

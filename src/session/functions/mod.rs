@@ -8,6 +8,7 @@ mod contents;
 mod cutting;
 mod explaining;
 mod grasps;
+mod kitchen_pictures;
 mod kitchens;
 mod leaving;
 mod lessons;

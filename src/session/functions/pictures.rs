@@ -62,8 +62,19 @@ fn publish(
     file: Option<&str>,
     usual: &str,
 ) -> Result<Reply> {
-    let file = file.unwrap_or(usual);
-    let written = picture.to_png().and_then(|png| files.write(file, &png));
+    let png = picture.to_png();
+    publish_as(png, files, audience, picture, file.unwrap_or(usual))
+}
+
+/// The same for a picture that has been encoded.
+pub(super) fn publish_as(
+    png: std::io::Result<Vec<u8>>,
+    files: &dyn Files,
+    audience: &mut Audience,
+    picture: picture::Image,
+    file: &str,
+) -> Result<Reply> {
+    let written = png.and_then(|png| files.write(file, &png));
     written.map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),

@@ -143,6 +143,20 @@ pub(super) static TABLE: &[Builtin] = &[
         note,
     ),
     pure(
+        "%SWEEP-SIMPLER",
+        "path value",
+        "Notes a simpler value that a parameter of the kitchen could have.",
+        &[],
+        simpler,
+    ),
+    pure(
+        "%SWEEP-OVERRIDES",
+        "path",
+        "What is set for draws right below a path: a list of (NAME VALUE).",
+        &["(pw::%sweep-overrides \"home\") => NIL"],
+        overrides,
+    ),
+    pure(
         "%NORMAL-DEVIATE",
         "unit &optional low high",
         "The standard normal deviate at that share of the distribution, or of its part between two deviates.",
@@ -364,6 +378,22 @@ fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
         Sweeping::of(image).note_simplest(&path, simplest);
     }
     Ok(Value::NIL)
+}
+
+fn simpler(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    let drawn = drawn(image, &args[1]);
+    Sweeping::of(image).note_simpler(&path, drawn);
+    Ok(Value::NIL)
+}
+
+fn overrides(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    let all = Sweeping::of(image).overrides(&path);
+    let all = all
+        .into_iter()
+        .map(|(name, value)| Value::list([Value::string(&name), value]));
+    Ok(Value::list(all.collect::<Vec<_>>()))
 }
 
 /// A value as it is recorded.

@@ -43,6 +43,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-BULLET-REASONING", functions::cutting::TABLE),
     ("PLANWRIGHT", functions::object_types::TABLE),
     ("PLANWRIGHT", functions::kitchens::TABLE),
+    ("PLANWRIGHT", functions::kitchen_pictures::TABLE),
+    ("PLAN-SYSTEM", functions::kitchens::DRAWN),
     ("PLANWRIGHT", functions::robots::TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::noise::TABLE),

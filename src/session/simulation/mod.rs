@@ -302,7 +302,8 @@ impl Simulation {
     }
 }
 
-fn starting_world(models: &Arc<Models>) -> World {
+/// The world in which a session with these models begins.
+pub(super) fn starting_world(models: &Arc<Models>) -> World {
     let robot = RobotConfiguration {
         base: Pose::identity(),
         joints: models.description.start_positions(&models.robot),

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use super::palette::Palette;
+
 /// Red, green and blue in 8-bit sRGB.
 pub(crate) type Rgb = [u8; 3];
 
@@ -112,5 +114,25 @@ impl Image {
             .write_image_data(&self.bytes)
             .and_then(|()| writer.finish())
             .map_err(io::Error::from)
+    }
+
+    /// The picture encoded as a small PNG file of at most so many colours, 256 at most.
+    pub fn to_small_png(&self, colors: usize) -> io::Result<Vec<u8>> {
+        let size = |length: usize| u32::try_from(length).map_err(io::Error::other);
+        let palette = Palette::of(std::iter::once(self), colors);
+        let mut small = Vec::new();
+        let mut encoder = png::Encoder::new(&mut small, size(self.width)?, size(self.height)?);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        encoder.set_palette(palette.colors().concat());
+        encoder.set_compression(png::Compression::High);
+        encoder.set_filter(png::Filter::NoFilter);
+        let mut writer = encoder.write_header().map_err(io::Error::from)?;
+        writer
+            .write_image_data(&palette.places(self))
+            .and_then(|()| writer.finish())
+            .map_err(io::Error::from)?;
+        Ok(small)
     }
 }

@@ -1,6 +1,7 @@
 //! Sweeps on the command line.
 
 mod folders;
+mod kitchens;
 mod limits;
 
 use std::path::PathBuf;

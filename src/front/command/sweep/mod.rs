@@ -31,6 +31,7 @@ use file::sweep_file;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
 use kept::Kept;
+use kitchens::KitchenTable;
 use lisp::visible::visible;
 pub(crate) use options::SweepOptions;
 use progress::Progress;
@@ -56,6 +57,10 @@ pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, C
     if let Some(folder) = &wanted.report {
         let job = Job::open(folder)?;
         tell_damage(&job)?;
+        if let Some(world) = wanted.shrink {
+            shrink_of_job(&options, &job, world, threads)?;
+            return Ok(Status::Good);
+        }
         return report_job(&job, wanted, None);
     }
     if let Some(folder) = &wanted.resume {
@@ -316,6 +321,29 @@ fn into_folder(
     report_job(&job, wanted, Some(&worlds))
 }
 
+/// Finds the simplest world that fails as one of a sweep in a folder.
+fn shrink_of_job(
+    options: &Options,
+    job: &Job,
+    world: u64,
+    threads: usize,
+) -> Result<(), CommandError> {
+    if world >= job.plan.worlds {
+        return Err(CommandError::Sweep(format!(
+            "the sweep in {} has worlds 0 to {}, not {world}",
+            job.folder.display(),
+            job.plan.worlds.saturating_sub(1)
+        )));
+    }
+    let records = job.records();
+    // Whether a world works is known without running it again.
+    if let Some(record) = records.iter().find(|record| record.world == world) {
+        shrink::check_failure(record)?;
+    }
+    let worlds = worker::open(options, job)?;
+    shrink::shrink(&worlds, &job.plan.name, job.plan.seed, world, threads)
+}
+
 /// Does a shard of the sweep that is in the folder.
 fn work(
     options: &Options,
@@ -433,7 +461,12 @@ fn report(
     if wanted.json {
         write!(out, "{}", lines(records))?;
     } else {
-        let text = format!("{summary}{}", Influence::of(records));
+        let kitchens = KitchenTable::of(records).map(|table| table.to_string());
+        let text = format!(
+            "{summary}{}{}",
+            Influence::of(records),
+            kitchens.unwrap_or_default()
+        );
         out.write_all(visible(&text).as_bytes())?;
         if (records.len() as u64) < count {
             writeln!(

@@ -13,6 +13,7 @@ use crate::command::options::seconds;
 #[derive(Args, Debug)]
 #[command(group(ArgGroup::new("compared").args(["compare", "compare_robot"]).multiple(true)))]
 #[command(group(ArgGroup::new("folder").args(["into", "resume"]).multiple(true)))]
+#[command(group(ArgGroup::new("shrinkable").args(["file", "report"]).multiple(true)))]
 pub(crate) struct SweepOptions {
     /// File with plans and a sweep
     #[arg(value_name = "FILE", required_unless_present_any = ["into", "status", "resume", "report"])]
@@ -43,8 +44,9 @@ pub(crate) struct SweepOptions {
     /// With --replay: run the plan there instead, and show what it prints
     #[arg(long, requires = "replay")]
     pub(crate) run: bool,
-    /// Find the simplest world in which the plan fails as in world I
-    #[arg(long, value_name = "I", requires = "file", conflicts_with_all = ["replay", "into"])]
+    /// Find the simplest world, in the simplest kitchen, in which the plan fails as in world I; with
+    /// --report FOLDER, as in world I of the sweep there
+    #[arg(long, value_name = "I", requires = "shrinkable", conflicts_with_all = ["replay", "into"])]
     pub(crate) shrink: Option<u64>,
     /// Run the sweep of another file in the same worlds: which plan is better?
     #[arg(long, value_name = "OTHER", requires = "file", conflicts_with_all = ["into", "until_width"])]

@@ -1,23 +1,65 @@
-//! The simplest world with the same failure: faults off, things out, draws at their simplest values,
-//! numbers with few digits.
+//! The simplest world with the same failure: faults off, a simpler kitchen, things out, draws at their
+//! simplest values, numbers with few digits.
 
 use std::io::{self, Write};
+use std::time::{Duration, Instant};
 
 use super::pool;
 use super::worlds::Worlds;
 use crate::command::failure::CommandError;
-use sweep::pairs::Pairs;
+use kitchens::{kind_of_failure, kitchen_path};
+use session::sweeping::Simpler;
 use sweep::{Drawn, Ending, Record};
 
 /// Maximum number of worlds that are tried.
 const MAX_RUNS: usize = 300;
+/// Real time after which no more worlds are tried.
+const MAX_TIME: Duration = Duration::from_secs(1800);
 
 /// A world that fails, with the draws that have been set in it.
 struct World {
     set: Vec<(String, String)>,
     record: Record,
-    /// The simplest values of its draws.
-    simplest: Pairs<Drawn>,
+    /// What could be simpler in it.
+    simpler: Simpler,
+}
+
+impl World {
+    /// The path of the kitchen that it has drawn.
+    fn kitchen(&self) -> Option<&str> {
+        kitchen_path(&self.record)
+    }
+
+    /// Whether another world fails as it does: in other kitchens, furniture has other names.
+    fn fails_like(&self, other: &World) -> bool {
+        let kind = |world: &World| match world.kitchen() {
+            Some(_) => kind_of_failure(&world.record),
+            None => world.record.kind(),
+        };
+        self.record.outcome == other.record.outcome && kind(self) == kind(other)
+    }
+
+    /// What it draws from lists, but for its kitchen: names of surfaces and types, for example.
+    fn names(&self) -> Vec<(&str, &str)> {
+        let kitchen = self.kitchen();
+        let names = self.record.draws.iter().filter_map(|(path, drawn)| {
+            let is_of_kitchen =
+                kitchen.is_some_and(|kitchen| path == kitchen || below(path, kitchen).is_some());
+            match drawn {
+                Drawn::Text(text) if !is_of_kitchen => Some((path, text.as_str())),
+                _ => None,
+            }
+        });
+        names.collect()
+    }
+
+    /// Whether the kitchen that is set could not be made of what was drawn.
+    fn is_redrawn(&self) -> bool {
+        self.kitchen().is_some_and(|path| {
+            let redrawn = self.record.draws.get(&format!("{path}.redrawn"));
+            redrawn == Some(&Drawn::Flag(true))
+        })
+    }
 }
 
 /// A change: the draw and the value that it gets, as the language writes it.
@@ -35,15 +77,9 @@ pub(super) fn shrink(
     let Some(first) = tried(worlds, number, threads, &[Vec::new()]).pop() else {
         return Ok(());
     };
-    if first.record.is_success()
-        || matches!(first.record.outcome, Ending::Invalid | Ending::Mistake)
-    {
-        return Err(CommandError::Sweep(format!(
-            "world {number} does not fail: its outcome is {}",
-            first.record.outcome
-        )));
-    }
-    let (world, runs) = simplified(worlds, number, threads, first);
+    check_failure(&first.record)?;
+    let begun = Instant::now();
+    let (world, runs, is_complete) = simplified(worlds, number, threads, first, begun);
     let kind = world.record.kind();
     let kind: Vec<&str> = kind
         .iter()
@@ -73,7 +109,82 @@ pub(super) fn shrink(
         "(sweep-world '{name} {number} :seed {seed}\n             :with '({}))",
         set.join("\n                     ")
     )?;
+    tell_kitchen(&mut out, &world)?;
+    if !is_complete {
+        writeln!(
+            out,
+            "not everything has been tried: {MAX_RUNS} runs, and {} minutes, are enough",
+            MAX_TIME.as_secs() / 60
+        )?;
+    }
     Ok(())
+}
+
+/// Tells how the kitchen has become simpler, what the failure needs, and how to start it.
+fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
+    let Some(path) = world.kitchen() else {
+        return Ok(());
+    };
+    let Some(seed) = world.record.draws.get(path) else {
+        return Ok(());
+    };
+    let of_kitchen = |full: &str| {
+        let name = full.strip_prefix(path)?.strip_prefix('.')?;
+        kitchens::is_parameter(name).then(|| name.to_owned())
+    };
+    let set = world.set.iter().filter_map(|(full, value)| {
+        let value = value.trim_matches('"').trim_end_matches("d0");
+        Some((of_kitchen(full)?, value.to_owned()))
+    });
+    let set: Vec<(String, String)> = set.collect();
+    let words = |pairs: &[(String, String)], between: &str, after: &str| {
+        let words = pairs
+            .iter()
+            .map(|(name, value)| format!("{name}{between}{value}"));
+        words.collect::<Vec<_>>().join(after)
+    };
+    match set.is_empty() {
+        true => writeln!(out, "kitchen {seed}, in which nothing could be simpler")?,
+        false => writeln!(out, "kitchen {seed}, simpler: {}", words(&set, " ", " · "))?,
+    }
+    let mut needed: Vec<String> = Vec::new();
+    for (full, _) in &world.simpler.kitchen {
+        if let Some(name) = of_kitchen(full).filter(|name| !needed.contains(name)) {
+            needed.push(name);
+        }
+    }
+    if !needed.is_empty() {
+        writeln!(
+            out,
+            "no simpler, since another value changes the failure, gives no kitchen, or changes nothing: {}",
+            needed.join(" · ")
+        )?;
+    }
+    let keys: String = set
+        .iter()
+        .map(|(name, value)| match name.as_str() {
+            "arrangement" => format!(" :{name} :{value}"),
+            _ => format!(" :{name} {value}"),
+        })
+        .collect();
+    writeln!(out, "(new-kitchen {seed}{keys})")?;
+    let options: String = set
+        .iter()
+        .map(|(name, value)| format!(",{name}={value}"))
+        .collect();
+    writeln!(out, "planwright --world generated:{seed}{options}")
+}
+
+/// An error unless the plan fails in a world.
+pub(super) fn check_failure(record: &Record) -> Result<(), CommandError> {
+    let outcome = record.outcome;
+    match record.is_success() || matches!(outcome, Ending::Invalid | Ending::Mistake) {
+        true => Err(CommandError::Sweep(format!(
+            "world {} does not fail: its outcome is {outcome}",
+            record.world
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// The worlds with draws set in each of the ways.
@@ -81,39 +192,43 @@ fn tried(worlds: &Worlds, number: u64, threads: usize, ways: &[Vec<Change>]) -> 
     let runner = || {
         let mut sessions = worlds.in_sessions();
         move |set: &Vec<Change>| {
-            let (record, simplest) = sessions.run(number, set);
+            let (record, simpler) = sessions.run(number, set);
             World {
                 set: set.clone(),
                 record,
-                simplest,
+                simpler,
             }
         }
     };
     pool::in_order(threads, ways, runner, |_| true)
 }
 
-/// Applies changes as long as the world fails in the same way; returns it with the number of runs.
-fn simplified(worlds: &Worlds, number: u64, threads: usize, first: World) -> (World, usize) {
-    let kind = first.record.kind();
-    let outcome = first.record.outcome;
+/// Applies changes as long as the world fails in the same way; returns it with the number of runs, and whether
+/// all changes have been tried.
+fn simplified(
+    worlds: &Worlds,
+    number: u64,
+    threads: usize,
+    first: World,
+    begun: Instant,
+) -> (World, usize, bool) {
     let mut world = first;
     let mut runs = 1;
+    let is_late = |runs: usize| runs >= MAX_RUNS || begun.elapsed() > MAX_TIME;
     loop {
         let before = world.set.clone();
-        for changes in [faults_off, things_out, simplest, rounded] {
+        for changes in [faults_off, simpler_kitchen, things_out, simplest, rounded] {
             let changes = changes(&world);
             let mut left = changes.as_slice();
-            while !left.is_empty() && runs < MAX_RUNS {
+            while !left.is_empty() && !is_late(runs) {
                 let batch = left.get(..threads.min(left.len())).unwrap_or(left);
-                let ways: Vec<Vec<Change>> = batch
-                    .iter()
-                    .map(|change| with(&world.set, change))
-                    .collect();
+                let ways: Vec<Vec<Change>> =
+                    batch.iter().map(|changes| with(&world, changes)).collect();
                 // A value that a draw cannot have changes nothing.
                 let same = |tried: &World| {
-                    tried.record.outcome == outcome
-                        && tried.record.kind() == kind
+                    tried.fails_like(&world)
                         && tried.record.draws != world.record.draws
+                        && is_no_other_kitchen(&world, tried)
                 };
                 let results = tried(worlds, number, threads, &ways);
                 // The first in order wins, so that the number of threads does not matter.
@@ -134,17 +249,67 @@ fn simplified(worlds: &Worlds, number: u64, threads: usize, first: World) -> (Wo
                 }
             }
         }
-        if world.set == before || runs >= MAX_RUNS {
-            return (world, runs);
+        if world.set == before {
+            return (world, runs, true);
+        }
+        if is_late(runs) {
+            return (world, runs, false);
         }
     }
 }
 
-fn with(set: &[Change], (path, value): &Change) -> Vec<Change> {
-    let others = set.iter().filter(|(known, _)| known != path);
+/// What is set in a world after a change. A change of the kitchen leaves the names that were drawn: there may be
+/// fewer surfaces to draw one from.
+fn with(world: &World, (path, value): &Change) -> Vec<Change> {
+    let others = world.set.iter().filter(|(known, _)| known != path);
     let mut set: Vec<Change> = others.cloned().collect();
+    let is_of_kitchen = world
+        .kitchen()
+        .is_some_and(|kitchen| below(path, kitchen).is_some());
+    if is_of_kitchen {
+        for (path, name) in world.names() {
+            if !set.iter().any(|(known, _)| known == path) {
+                set.push((path.to_owned(), format!("{name:?}")));
+            }
+        }
+    }
     set.push((path.clone(), value.clone()));
     set
+}
+
+/// What of a path is below another one.
+fn below<'p>(path: &'p str, above: &str) -> Option<&'p str> {
+    path.strip_prefix(above)?.strip_prefix('.')
+}
+
+/// Whether a world with another kitchen differs from the one before in nothing but what was changed: it is made
+/// of the same draws, and the plan is about the same surfaces and types.
+fn is_no_other_kitchen(before: &World, tried: &World) -> bool {
+    let Some(path) = before.kitchen() else {
+        return true;
+    };
+    let kitchen = |world: &World| {
+        let drawn = world.record.draws.iter();
+        let drawn = drawn.filter(|(full, _)| below(full, path).is_some());
+        drawn
+            .map(|(full, drawn)| (full.to_owned(), drawn.clone()))
+            .collect::<Vec<_>>()
+    };
+    if kitchen(before) == kitchen(tried) {
+        return true;
+    }
+    // What changes nothing is no simplification.
+    !tried.is_redrawn()
+        && before.names() == tried.names()
+        && before.record.hash != tried.record.hash
+}
+
+/// Changes that make the kitchen simpler, of parameters that are not simple yet.
+fn simpler_kitchen(world: &World) -> Vec<Change> {
+    let simpler = world.simpler.kitchen.iter();
+    simpler
+        .map(|(path, drawn)| (path.clone(), written(drawn)))
+        .collect()
 }
 
 /// Changes that switch off the faults that have struck.
@@ -167,7 +332,9 @@ fn things_out(world: &World) -> Vec<Change> {
             Drawn::Text(kind) if is_member && kind != "NONE" => {
                 changes.push((path.to_owned(), "\"none\"".to_owned()));
             }
-            Drawn::Flag(true) => changes.push((path.to_owned(), "nil".to_owned())),
+            Drawn::Flag(true) if !path.ends_with(".redrawn") => {
+                changes.push((path.to_owned(), "nil".to_owned()));
+            }
             _ => {}
         }
     }
@@ -177,7 +344,7 @@ fn things_out(world: &World) -> Vec<Change> {
 /// Changes that give draws their simplest values.
 fn simplest(world: &World) -> Vec<Change> {
     let mut changes = Vec::new();
-    for (path, simplest) in world.simplest.iter() {
+    for (path, simplest) in world.simpler.simplest.iter() {
         let now = world.record.draws.get(path);
         if now.is_some_and(|now| now != simplest && now.to_string() != "NONE") {
             changes.push((path.to_owned(), written(simplest)));

@@ -70,7 +70,7 @@ pub(super) fn shard(
     Ok(Status::Good)
 }
 
-fn open(options: &Options, job: &Job) -> Result<Worlds, CommandError> {
+pub(super) fn open(options: &Options, job: &Job) -> Result<Worlds, CommandError> {
     let options = Options {
         seed: job.plan.seed,
         ..options.clone()
