@@ -110,7 +110,7 @@ impl ArmKinematics {
     }
 
     /// Whether it is certain, and soon found, that there is no solution.
-    pub(super) fn surely_misses(&self, wrist: &Pose) -> bool {
+    pub(crate) fn surely_misses(&self, wrist: &Pose) -> bool {
         match &self.solver {
             Solver::ClosedForm(solver) => !solver.reaches(wrist),
             Solver::Numeric(_) => false,

@@ -6,6 +6,8 @@
 //! open fingers, takes it all the way and withdraws, and the robot touches nothing on it. The
 //! motions follow the same points, so that what is found here is what they do.
 
+use std::cell::Cell;
+
 use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::aligned_bases::AlignedBases;
@@ -44,6 +46,8 @@ const COARSE: ((f64, f64), f64) = ((0.03, 0.06), 1.8);
 const KNOB_CLEARANCE: f64 = 0.005;
 /// In how many steps the fingers are turned all around a knob.
 const KNOB_TURNS: u32 = 24;
+/// At about how many points of a way the arm is asked whether it may get there.
+const PROBES: usize = 12;
 /// Distance (m) of points of the approach.
 const APPROACH_STEP: f64 = 0.02;
 
@@ -98,6 +102,8 @@ pub struct HandleChooser<'w> {
     hands: Vec<(Side, TorsoSearch<'w>, Shoulder)>,
     heights: Vec<f64>,
     effort: Effort,
+    /// Number of points along which an arm has been followed.
+    points: Cell<u32>,
 }
 
 impl<'w> HandleChooser<'w> {
@@ -140,7 +146,14 @@ impl<'w> HandleChooser<'w> {
             hands: hands.collect(),
             heights,
             effort,
+            points: Cell::new(0),
         }
+    }
+
+    /// Number of points along which an arm has been followed, for all base poses: most of the time goes
+    /// there.
+    pub(crate) fn points(&self) -> u32 {
+        self.points.get()
     }
 
     /// What is in the way of the part itself, wherever the robot stands, and at which position of
@@ -207,11 +220,15 @@ impl<'w> HandleChooser<'w> {
                 let stations = self.stations(grasp);
                 for height in &self.heights {
                     let arm = self.world.models().description.arm(*side);
-                    let reaches = |tool: &Pose| {
+                    let wrist = |tool: &Pose| {
                         let tool = arm.wrist_for_tool(&(base.inverse() * tool));
-                        arm.kinematics.reaches(&torso.in_arm_base(&tool, *height))
+                        torso.in_arm_base(&tool, *height)
                     };
-                    if !stations.iter().all(reaches) {
+                    let may_reach = |tool: &Pose| !arm.kinematics.surely_misses(&wrist(tool));
+                    if !stations
+                        .iter()
+                        .all(|tool| arm.kinematics.reaches(&wrist(tool)))
+                    {
                         nothing.add(Some(*side), HandleObstacle::OutOfReach);
                         continue;
                     }
@@ -221,7 +238,13 @@ impl<'w> HandleChooser<'w> {
                         nothing.add(Some(*side), HandleObstacle::NotTried);
                         return Err(nothing);
                     }
-                    match self.postures(*side, torso, grasp, &robot, &mut checks) {
+                    // What is out of reach is so in every posture.
+                    let pivots = self.pivots_within_reach(grasp, may_reach);
+                    if pivots.is_empty() {
+                        nothing.add(Some(*side), HandleObstacle::OutOfReach);
+                        continue;
+                    }
+                    match self.postures(*side, torso, grasp, &pivots, &robot, &mut checks) {
                         Ok(choice) => match self.standing_in_the_way(&robot) {
                             None => return Ok(choice),
                             // With the torso at that height, the arms as they are touch something.
@@ -277,12 +300,27 @@ impl<'w> HandleChooser<'w> {
         }
     }
 
-    /// Tries postures of the arm before the bar.
+    /// The angles about the bar with which the hand may be within reach all the way and after it: the arm is
+    /// asked at some points, the last ones first, since most ways lead out of reach.
+    fn pivots_within_reach(&self, grasp: &Grasp, may_reach: impl Fn(&Pose) -> bool) -> Vec<f64> {
+        let mut pivots = self.pivots();
+        pivots.retain(|pivot| {
+            let tools = self.way.tools(&grasp.grip, [0.0, *pivot]);
+            let apart = (tools.len() / PROBES).max(1);
+            let withdrawn = tools.last().map(|tool| tool * away());
+            let mut asked = withdrawn.iter().chain(tools.iter().rev().step_by(apart));
+            asked.all(&may_reach)
+        });
+        pivots
+    }
+
+    /// Tries postures of the arm before the bar, with the angles about it that may do.
     fn postures(
         &self,
         side: Side,
         torso: &TorsoSearch<'_>,
         grasp: &Grasp,
+        pivots: &[f64],
         robot: &RobotConfiguration,
         checks: &mut usize,
     ) -> Result<HandleChoice, HandleObstacle> {
@@ -308,7 +346,7 @@ impl<'w> HandleChooser<'w> {
             }
             *checks += 1;
             let posture = all[i * all.len() / count];
-            match self.whole_way(side, grasp, &robot, &posture) {
+            match self.whole_way(side, grasp, pivots, &robot, &posture) {
                 Ok(()) => {
                     return Ok(HandleChoice {
                         side,
@@ -331,6 +369,7 @@ impl<'w> HandleChooser<'w> {
         &self,
         side: Side,
         grasp: &Grasp,
+        pivots: &[f64],
         robot: &RobotConfiguration,
         posture: &ArmPositions,
     ) -> Result<(), HandleObstacle> {
@@ -342,6 +381,7 @@ impl<'w> HandleChooser<'w> {
         };
         let follow = |tools: &[Pose], start: &ArmPositions, jump: f64| {
             let points = follow_tools(models, robot, side, tools, start, jump);
+            self.points.set(self.points() + points.len() as u32);
             (points.len() == tools.len())
                 .then_some(points)
                 .ok_or(HandleObstacle::OutOfReach)
@@ -365,8 +405,8 @@ impl<'w> HandleChooser<'w> {
         is_free(&at_bar, first)?;
         let start = at_bar.last().unwrap_or(posture);
         let mut met = HandleObstacle::OutOfReach;
-        for pivot in self.pivots() {
-            let tools = self.way.tools(&grasp.grip, [0.0, pivot]);
+        for pivot in pivots {
+            let tools = self.way.tools(&grasp.grip, [0.0, *pivot]);
             let Ok(points) = follow(&tools, start, self.jump) else {
                 continue;
             };

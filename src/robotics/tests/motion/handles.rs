@@ -13,7 +13,7 @@ use crate::motion::{
 };
 use crate::motion::{Motion, MoveTcp, PoseGoal};
 use crate::robot::{JointId, LinkId, Side};
-use spatial::pose::from_xyz_rpy;
+use spatial::pose::{from_xy_yaw, from_xyz_rpy};
 
 /// The upper drawer of the sink counter: its joint and handle.
 const UPPER: [&str; 2] = [
@@ -260,7 +260,7 @@ fn a_robot_in_the_way_of_its_own_drawer_is_told() {
         grasps: Vec::new(),
     };
     // 0.48 m out, the front reaches the base of a robot that stands so near.
-    let near = spatial::pose::from_xy_yaw(0.45, 0.89, 0.0);
+    let near = from_xy_yaw(0.45, 0.89, 0.0);
     let question = question(0.48);
     let chooser = HandleChooser::new(&kitchen.world, &question, Effort::QUICK);
     let nothing = chooser.with_base_at(&near).unwrap_err().to_string();
@@ -288,4 +288,44 @@ fn a_restored_hold_goes_on_with_the_same_bits() {
     kitchen.world.restore(&pulled);
     kitchen.pull(side, 0.3).unwrap();
     assert_eq!(kitchen.world.hash(), hash);
+}
+
+/// From most places around a door, its way leads out of the arm's reach; the arm is asked about a few points of
+/// it, and followed along it only where it may get to all of them: along 651 points for each place in vain.
+#[test]
+fn an_arm_is_hardly_followed_along_ways_that_lead_out_of_reach() {
+    let kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.1);
+    let (joint, handle) = kitchen.joint_and_handle(FRIDGE);
+    let question = HandleQuestion {
+        part: kitchen.world.part(joint),
+        handle,
+        position: 1.57,
+        arms: vec![Side::Right, Side::Left],
+        grasps: Vec::new(),
+    };
+    let chooser = HandleChooser::new(&kitchen.world, &question, Effort::QUICK);
+    let bar = kitchen.world.furniture_pose(handle).translation;
+    let (mut refused, mut found) = (0, 0);
+    for (i, j, turn) in (-4..=4)
+        .flat_map(|i| (-4..=4).map(move |j| (i, j)))
+        .flat_map(|(i, j)| {
+            let headings = (-1..=1).map(f64::from);
+            headings.map(move |turn| (f64::from(i), f64::from(j), turn * 0.5))
+        })
+    {
+        let (x, y) = (bar.x - 0.7 + i * 0.1, bar.y + j * 0.1);
+        let base = from_xy_yaw(x, y, turn);
+        if chooser.is_near(&base) {
+            match chooser.with_base_at(&base) {
+                Ok(_) => found += 1,
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    let points = chooser.points();
+    assert!(refused > 100, "{refused} refused, {found} found");
+    assert!(
+        points < 800 * refused,
+        "{points} points for {refused} places in vain, {found} found"
+    );
 }
