@@ -16,6 +16,7 @@ use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
+use spatial::trig;
 use view::picture::view::FIELD_OF_VIEW;
 use view::picture::{self, Line, Looks, View, render};
 
@@ -117,7 +118,8 @@ fn picture_of(
     let at = Point3::new(room[0] / 2.0 - start[0], room[1] / 2.0 - start[1], MIDDLE);
     // Far enough for the room's diagonal.
     let diagonal = (room[0] * room[0] + room[1] * room[1]).sqrt();
-    let far = 0.55 * diagonal / (FIELD_OF_VIEW / 2.0).tan();
+    let (sin, cos) = trig::sin_cos(FIELD_OF_VIEW / 2.0);
+    let far = 0.55 * diagonal * cos / sin;
     let view = View::Free {
         from: at + Vector3::from(DIRECTION).normalize() * far,
         at,
