@@ -5,8 +5,10 @@
 //! anything and that a robot which needs a way of 0.8 m gets from the doorway to every front. What is drawn
 //! in vain is drawn anew. The same seed gives the same kitchen on every machine.
 
+mod arrangement;
 mod description;
 mod draws;
+mod finding;
 mod floor;
 mod furniture;
 mod modules;
@@ -21,13 +23,15 @@ mod urdf;
 
 use std::fmt;
 
+pub use arrangement::Arrangement;
 use draws::Numbers;
+pub use finding::{Finding, kind_of_failure};
 use modules::Unit;
 pub use part::kind_of_part;
 use plan::Plan;
-pub use plan::{Arrangement, Rejection};
+pub use plan::Rejection;
 pub use settings::{Setting, SettingError, Settings, is_parameter};
-pub use table::{Division, Finding, KitchenTable, Row, kind_of_failure, kitchen_path};
+pub use table::{Division, KitchenTable, Row, kitchen_path};
 
 /// Maximum number of attempts for a seed.
 const MAX_ATTEMPTS: u64 = 200;
@@ -142,6 +146,25 @@ impl Kitchen {
             }
         }
         Err(impossible(&rejections))
+    }
+
+    /// Those of some settings without which the kitchen of a seed would be another one: the length of a table that
+    /// is not there changes nothing.
+    pub fn needed(seed: u64, settings: &Settings) -> Settings {
+        let mut needed = settings.clone();
+        let Ok(kitchen) = Self::with(seed, settings) else {
+            return needed;
+        };
+        for (name, _) in settings.iter() {
+            let fewer = needed.without(name);
+            let is_same = |other: Self| {
+                other.urdf == kitchen.urdf && other.description == kitchen.description
+            };
+            if Self::with(seed, &fewer).is_ok_and(is_same) {
+                needed = fewer;
+            }
+        }
+        needed
     }
 
     fn of_plan(plan: &Plan, numbers: &Numbers<'_>, rejections: &[Rejection]) -> Self {

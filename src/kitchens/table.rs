@@ -1,14 +1,15 @@
-//! A table of kitchens: what of them explains the failures of a sweep that draws them, and which failures are
-//! the same in several.
+//! A table of kitchens: what of them explains the failures of a sweep that draws them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::{self, Display};
 
 use sweep::influence::{Explained, SIGNIFICANT, explained};
+use sweep::plural::plural;
 use sweep::rate::{Interval, wilson};
 use sweep::summary::CONFIDENCE;
 use sweep::{Drawn, Record};
 
+use crate::finding::{Finding, findings};
 use crate::part::kind_of_part;
 
 /// Bounds (m) of the classes of aisles, of heights of counters and of other surfaces, and of distances.
@@ -21,8 +22,6 @@ const THINGS: [f64; 2] = [1.0, 5.0];
 const OPEN: [f64; 2] = [1.0, 3.0];
 /// Maximum number of findings that are told.
 const MAX_FINDINGS: usize = 12;
-/// Maximum number of worlds that are named with a finding.
-const MAX_EXAMPLES: usize = 3;
 
 /// The worlds of a class, and how many of them fail.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,19 +73,6 @@ impl Division {
     }
 }
 
-/// A failure that is the same in some worlds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// Its class, its cause, and the kinds of what touched.
-    pub kind: [String; 3],
-    /// The worlds, in order.
-    pub worlds: Vec<u64>,
-    /// The number of different kitchens.
-    pub kitchens: usize,
-    /// How many of the worlds have each layout.
-    pub layouts: BTreeMap<String, usize>,
-}
-
 /// What the kitchens of a sweep have to do with its failures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KitchenTable {
@@ -94,19 +80,19 @@ pub struct KitchenTable {
     pub divisions: Vec<Division>,
     /// What fails, those first that occur most.
     pub findings: Vec<Finding>,
-    /// Worlds in which the plan was tried, and how many of them fail.
+    /// The number of worlds in which the plan was tried.
     pub tried: usize,
     /// How many of them fail.
     pub failed: usize,
-    /// Different kitchens, and how many of them have a world that fails.
+    /// The number of different kitchens.
     pub kitchens: usize,
     /// How many of them have a world that fails.
     pub failing_kitchens: usize,
 }
 
 /// A world in which the plan was tried, in a drawn kitchen.
-struct World<'r> {
-    record: &'r Record,
+pub(crate) struct World<'r> {
+    pub(crate) record: &'r Record,
     /// The path of the kitchen.
     path: &'r str,
 }
@@ -127,12 +113,13 @@ impl<'r> World<'r> {
     }
 
     /// Which kitchen it is.
-    fn kitchen(&self) -> String {
+    pub(crate) fn kitchen(&self) -> String {
         let seed = self.record.draws.get(self.path);
         seed.map(Drawn::to_string).unwrap_or_default()
     }
 
-    fn layout(&self) -> String {
+    /// How its furniture is arranged.
+    pub(crate) fn layout(&self) -> String {
         let layout = self.fact("arrangement").map(Drawn::to_string);
         layout.unwrap_or_default().to_lowercase()
     }
@@ -187,17 +174,6 @@ pub fn kitchen_path(record: &Record) -> Option<&str> {
         let has = |fact: &str| record.draws.get(&format!("{path}.{fact}")).is_some();
         has("arrangement") && has("counter-height")
     })
-}
-
-/// Why a world ended as it did; bodies are told by the kind of furniture that they are.
-pub fn kind_of_failure(record: &Record) -> [String; 3] {
-    let [class, cause, _] = record.kind();
-    let bodies: Vec<String> = record
-        .bodies
-        .iter()
-        .map(|body| kind_of_part(body))
-        .collect();
-    [class, cause, bodies.join("/")]
 }
 
 fn class_of_length([low, high]: [f64; 2], length: f64) -> String {
@@ -298,73 +274,6 @@ fn divisions(worlds: &[World<'_>], fails: &[bool]) -> Vec<Division> {
         p(a).total_cmp(&p(b)).then(by_deviance)
     });
     divisions
-}
-
-fn findings<'a>(failing: impl Iterator<Item = &'a World<'a>>) -> Vec<Finding> {
-    let mut by_kind: BTreeMap<[String; 3], Vec<&World<'_>>> = BTreeMap::new();
-    for world in failing {
-        let kind = kind_of_failure(world.record);
-        by_kind.entry(kind).or_default().push(world);
-    }
-    let mut findings: Vec<Finding> = by_kind
-        .into_iter()
-        .map(|(kind, worlds)| {
-            let kitchens: BTreeSet<String> = worlds.iter().map(|world| world.kitchen()).collect();
-            let mut layouts: BTreeMap<String, usize> = BTreeMap::new();
-            for world in &worlds {
-                *layouts.entry(world.layout()).or_default() += 1;
-            }
-            Finding {
-                kind,
-                worlds: worlds.iter().map(|world| world.record.world).collect(),
-                kitchens: kitchens.len(),
-                layouts,
-            }
-        })
-        .collect();
-    findings.sort_by_key(|finding| std::cmp::Reverse((finding.kitchens, finding.worlds.len())));
-    findings
-}
-
-/// A number and a noun, in the plural unless it is one.
-fn plural(count: usize, noun: &str) -> String {
-    match count {
-        1 => format!("1 {noun}"),
-        _ => format!("{count} {noun}s"),
-    }
-}
-
-impl Finding {
-    /// What it is, in one line.
-    pub fn words(&self) -> String {
-        let parts: Vec<&str> = self.kind.iter().map(String::as_str).collect();
-        let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        parts.join("  ")
-    }
-
-    /// In how many worlds and kitchens of which layouts it is.
-    pub fn where_it_is(&self) -> String {
-        let layouts = self.layouts.iter();
-        let layouts: Vec<String> = layouts
-            .map(|(layout, count)| format!("{layout} {count}"))
-            .collect();
-        format!(
-            "{} in {}: {}",
-            plural(self.worlds.len(), "world"),
-            plural(self.kitchens, "kitchen"),
-            layouts.join(", ")
-        )
-    }
-
-    /// Some of the worlds.
-    fn examples(&self) -> String {
-        let worlds = self.worlds.iter().take(MAX_EXAMPLES);
-        let mut worlds: Vec<String> = worlds.map(u64::to_string).collect();
-        if self.worlds.len() > MAX_EXAMPLES {
-            worlds.push("…".to_owned());
-        }
-        worlds.join(" ")
-    }
 }
 
 impl Display for KitchenTable {

@@ -15,7 +15,7 @@ pub mod mark;
 mod normal;
 pub mod paired;
 pub mod pairs;
-mod plural;
+pub mod plural;
 pub mod rate;
 pub mod record;
 pub mod relations;

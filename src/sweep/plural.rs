@@ -1,7 +1,7 @@
 //! Counting things in words.
 
 /// A number and a noun, in the plural unless it is one.
-pub(crate) fn plural(count: usize, noun: &str) -> String {
+pub fn plural(count: usize, noun: &str) -> String {
     match count {
         1 => format!("1 {noun}"),
         _ => format!("{count} {noun}s"),
