@@ -1,7 +1,8 @@
 //! The modules of a row: what they are, and how a row is filled with them.
 
+use crate::arrangement::Arrangement;
 use crate::draws::{Numbers, rounded};
-use crate::plan::{Arrangement, Rejection};
+use crate::plan::Rejection;
 
 /// What a module is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::fmt;
 
 use closest_name::closest_name;
 
-use crate::plan::Arrangement;
+use crate::arrangement::Arrangement;
 
 /// The value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -227,6 +227,14 @@ impl Settings {
             },
         };
         self.set(name, setting)
+    }
+
+    /// The same without one of them.
+    #[must_use]
+    pub(crate) fn without(&self, name: &str) -> Self {
+        let mut fewer = self.clone();
+        fewer.0.remove(name);
+        fewer
     }
 
     /// Whether none is set.

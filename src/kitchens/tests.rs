@@ -224,3 +224,23 @@ fn what_cannot_be_set_is_told_with_what_can() {
     );
     assert!(narrow.is_err());
 }
+
+#[test]
+fn settings_that_change_nothing_are_not_needed() {
+    for seed in 0..20 {
+        let kitchen = Kitchen::of_seed(seed).unwrap();
+        let height = kitchen.facts.counter_height.to_string();
+        let all = [
+            ("table", "nil"),
+            ("table-length", "1.2"),
+            ("counter-height", &height),
+            ("front-thickness", "0.03"),
+        ];
+        let needed = Kitchen::needed(seed, &set(&all));
+        let wanted = match kitchen.facts.has_table {
+            true => vec![("front-thickness", "0.03"), ("table", "nil")],
+            false => vec![("front-thickness", "0.03")],
+        };
+        assert_eq!(needed, set(&wanted), "{seed}");
+    }
+}

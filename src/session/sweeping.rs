@@ -28,6 +28,9 @@ pub struct Simpler {
     /// Simpler values of parameters of the kitchen, by path, where there is a generated one; those that change
     /// most come first.
     pub kitchen: Vec<(String, Drawn)>,
+    /// Parameters of the kitchen that are set, by the sweep or for this world, with their values as `--world` has
+    /// them.
+    pub settings: Vec<(String, String)>,
 }
 
 /// How often a world may look for interrupts until it counts as endless: about a minute of pure
@@ -69,6 +72,8 @@ struct State {
     simplest: Pairs<Drawn>,
     /// Simpler values of parameters of the kitchen, by path.
     simpler: Vec<(String, Drawn)>,
+    /// Parameters of the kitchen that are set, with their values as texts.
+    settings: Vec<(String, String)>,
     /// Values that are set instead of drawn.
     set: Vec<(String, Value)>,
     known: Vec<Known>,
@@ -106,6 +111,7 @@ impl Sweeping {
         state.drawn = Pairs::default();
         state.simplest = Pairs::default();
         state.simpler.clear();
+        state.settings.clear();
         state.record = None;
         state.stage = Stage::SetUp;
     }
@@ -138,9 +144,15 @@ impl Sweeping {
         self.0.borrow_mut().simplest.set(path, drawn);
     }
 
-    /// Notes a simpler value that a parameter of the kitchen could have.
-    pub(super) fn note_simpler(&self, path: &str, drawn: Drawn) {
-        self.0.borrow_mut().simpler.push((path.to_owned(), drawn));
+    /// Notes of the kitchen that has been drawn which values of parameters would be simpler, by path, and which
+    /// parameters are set.
+    pub(super) fn note_kitchen(
+        &self,
+        simpler: Vec<(String, Drawn)>,
+        settings: Vec<(String, String)>,
+    ) {
+        let mut state = self.0.borrow_mut();
+        (state.simpler, state.settings) = (simpler, settings);
     }
 
     /// What is set for draws right below a path: names and values.
@@ -249,6 +261,7 @@ impl Session {
         Simpler {
             simplest: state.simplest.clone(),
             kitchen: state.simpler.clone(),
+            settings: state.settings.clone(),
         }
     }
 

@@ -35,7 +35,7 @@ pub(super) static DRAWN: &[Builtin] = &[
     control(
         "%NEW-KITCHEN",
         "seed parameters",
-        "As NEW-KITCHEN; returns a list of what that returns, of the parameters with their simplest values where they have others, as lists (NAME VALUE), and of the extent of the room (least x, least y, greatest x, greatest y; m, map). If there is no such kitchen, a string that says why.",
+        "As NEW-KITCHEN; returns a list of what that returns, of the parameters with their simplest values where they have others, as lists (NAME VALUE), of those that are set, as lists (NAME TEXT), and of the extent of the room (least x, least y, greatest x, greatest y; m, map). If there is no such kitchen, a string that says why.",
         &[],
         edit!(drawn_kitchen),
     ),
@@ -126,12 +126,17 @@ fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
         Value::list([Value::string(name), value])
     });
     let simpler = Value::list(simpler.collect::<Vec<_>>());
+    let settings = settings
+        .iter()
+        .map(|(name, setting)| [Value::string(name), Value::string(setting.to_string())]);
+    let settings = Value::list(settings.map(Value::list).collect::<Vec<_>>());
     let Facts { room, start, .. } = kitchen.facts;
     let extent = [-start[0], -start[1], room[0] - start[0], room[1] - start[1]];
     let extent = Value::list(extent.map(Value::Double));
     done(Value::list([
         facts_of(image, &kitchen.facts),
         simpler,
+        settings,
         extent,
     ]))
 }

@@ -143,11 +143,11 @@ pub(super) static TABLE: &[Builtin] = &[
         note,
     ),
     pure(
-        "%SWEEP-SIMPLER",
-        "path value",
-        "Notes a simpler value that a parameter of the kitchen could have.",
+        "%SWEEP-KITCHEN",
+        "path simpler settings",
+        "Notes of the kitchen that has been drawn, by its path, which values of parameters would be simpler, a list of (NAME VALUE), and which parameters are set, a list of (NAME TEXT).",
         &[],
-        simpler,
+        kitchen,
     ),
     pure(
         "%SWEEP-OVERRIDES",
@@ -380,10 +380,23 @@ fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
-fn simpler(image: &mut Image, args: &[Value]) -> Result<Value> {
+fn kitchen(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
-    let drawn = drawn(image, &args[1]);
-    Sweeping::of(image).note_simpler(&path, drawn);
+    let pairs = |list: &Value| {
+        let pairs = list.iter_list().map(|pair| {
+            let mut pair = pair.iter_list();
+            let name = text(&pair.next().unwrap_or(Value::NIL))?;
+            Ok((name, pair.next().unwrap_or(Value::NIL)))
+        });
+        pairs.collect::<Result<Vec<_>>>()
+    };
+    let simpler = pairs(&args[1])?.into_iter();
+    let simpler = simpler.map(|(name, value)| (format!("{path}.{name}"), drawn(image, &value)));
+    let simpler = simpler.collect();
+    let settings = pairs(&args[2])?.into_iter();
+    let settings = settings.map(|(name, value)| Ok((name, text(&value)?)));
+    let settings = settings.collect::<Result<_>>()?;
+    Sweeping::of(image).note_kitchen(simpler, settings);
     Ok(Value::NIL)
 }
 

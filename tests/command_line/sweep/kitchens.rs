@@ -105,6 +105,8 @@ fn a_failing_kitchen_shrinks_to_what_the_failure_needs() {
     for simpler in ["table nil", "back-"] {
         assert!(kitchen.contains(simpler), "{shown}");
     }
+    // The size of a table that is gone changes nothing.
+    assert!(!shown.contains("table-length"), "{shown}");
     let needs = shown
         .lines()
         .find(|line| line.starts_with("no simpler, "))
@@ -160,6 +162,8 @@ fn a_failing_kitchen_shrinks_to_what_the_failure_needs() {
 #[test]
 fn a_failure_that_is_not_the_kitchens_leaves_the_simplest_kitchen() {
     let plan = HIGH_ISLAND.replace("(when (and island", "(when (or t island");
+    // What the sweep itself sets belongs to the kitchen, too.
+    let plan = plan.replace("(kitchen)", "(kitchen :handle-length 0.3)");
     let file = scratch("not-the-kitchens.plan", &plan);
     let file = file.to_str().expect("a name");
     let shrunk = planwright(&[
@@ -175,6 +179,8 @@ fn a_failure_that_is_not_the_kitchens_leaves_the_simplest_kitchen() {
     let shown = text(&shrunk.stdout);
     assert!(shown.contains("home.arrangement one-wall\n"), "{shown}");
     assert!(!shown.contains("home.table true"), "{shown}");
+    assert!(shown.contains(" :handle-length 0.3"), "{shown}");
+    assert!(shown.contains(",handle-length=0.3"), "{shown}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::pool;
 use super::worlds::Worlds;
 use crate::command::failure::CommandError;
-use kitchens::{kind_of_failure, kitchen_path};
+use kitchens::{Kitchen, Settings, kind_of_failure, kitchen_path};
 use session::sweeping::Simpler;
 use sweep::{Drawn, Ending, Record};
 
@@ -28,6 +28,17 @@ impl World {
     /// The path of the kitchen that it has drawn.
     fn kitchen(&self) -> Option<&str> {
         kitchen_path(&self.record)
+    }
+
+    /// The seed of that kitchen.
+    fn kitchen_seed(&self) -> Option<u64> {
+        let seed = self.record.draws.get(self.kitchen()?)?;
+        seed.to_string().parse().ok()
+    }
+
+    /// The parameter of that kitchen which a draw with a path is.
+    fn parameter<'p>(&self, path: &'p str) -> Option<&'p str> {
+        below(path, self.kitchen()?).filter(|name| kitchens::is_parameter(name))
     }
 
     /// Whether another world fails as it does: in other kitchens, furniture has other names.
@@ -80,6 +91,7 @@ pub(super) fn shrink(
     check_failure(&first.record)?;
     let begun = Instant::now();
     let (world, runs, is_complete) = simplified(worlds, number, threads, first, begun);
+    let settings = needed_settings(&world);
     let kind = world.record.kind();
     let kind: Vec<&str> = kind
         .iter()
@@ -91,16 +103,27 @@ pub(super) fn shrink(
         "world {number}, {}, after {runs} runs:",
         kind.join(" ")
     )?;
+    // A parameter of the kitchen may be set in vain: that of something that has been taken out since.
+    let is_in_vain = |path: &str| {
+        let is_set = world.set.iter().any(|(known, _)| known == path);
+        let name = world.parameter(path).filter(|_| is_set);
+        name.is_some_and(|name| settings.iter().all(|(needed, _)| needed != name))
+    };
     for (path, value) in world.record.draws.iter() {
-        writeln!(out, "  {path} {}", value.to_string().to_lowercase())?;
+        if !is_in_vain(path) {
+            writeln!(out, "  {path} {}", value.to_string().to_lowercase())?;
+        }
     }
     for fault in &world.record.faults {
         writeln!(out, "  {fault}")?;
     }
     // What belongs to things that have been taken out is not drawn any more.
-    let set = world.set.iter();
-    let set = set
-        .filter(|(path, _)| path.starts_with("inject.") || world.record.draws.get(path).is_some());
+    let set = world.set.iter().filter(|(path, _)| {
+        let is_there = world.parameter(path).is_some()
+            || path.starts_with("inject.")
+            || world.record.draws.get(path).is_some();
+        is_there && !is_in_vain(path)
+    });
     let set: Vec<String> = set
         .map(|(path, value)| format!("({path:?} {value})"))
         .collect();
@@ -109,7 +132,7 @@ pub(super) fn shrink(
         "(sweep-world '{name} {number} :seed {seed}\n             :with '({}))",
         set.join("\n                     ")
     )?;
-    tell_kitchen(&mut out, &world)?;
+    tell_kitchen(&mut out, &world, &settings)?;
     if !is_complete {
         writeln!(
             out,
@@ -120,36 +143,44 @@ pub(super) fn shrink(
     Ok(())
 }
 
-/// Tells how the kitchen has become simpler, what the failure needs, and how to start it.
-fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
-    let Some(path) = world.kitchen() else {
-        return Ok(());
-    };
-    let Some(seed) = world.record.draws.get(path) else {
-        return Ok(());
-    };
-    let of_kitchen = |full: &str| {
-        let name = full.strip_prefix(path)?.strip_prefix('.')?;
-        kitchens::is_parameter(name).then(|| name.to_owned())
-    };
-    let set = world.set.iter().filter_map(|(full, value)| {
-        let value = value.trim_matches('"').trim_end_matches("d0");
-        Some((of_kitchen(full)?, value.to_owned()))
-    });
-    let set: Vec<(String, String)> = set.collect();
-    let words = |pairs: &[(String, String)], between: &str, after: &str| {
-        let words = pairs
-            .iter()
-            .map(|(name, value)| format!("{name}{between}{value}"));
-        words.collect::<Vec<_>>().join(after)
-    };
-    match set.is_empty() {
-        true => writeln!(out, "kitchen {seed}, in which nothing could be simpler")?,
-        false => writeln!(out, "kitchen {seed}, simpler: {}", words(&set, " ", " · "))?,
+/// The parameters without which the kitchen would be another one, and their values as `--world` has them.
+fn needed_settings(world: &World) -> Settings {
+    let mut settings = Settings::default();
+    for (name, value) in &world.simpler.settings {
+        // They have made a kitchen.
+        let _ = settings.set_text(name, value);
     }
-    let mut needed: Vec<String> = Vec::new();
-    for (full, _) in &world.simpler.kitchen {
-        if let Some(name) = of_kitchen(full).filter(|name| !needed.contains(name)) {
+    match world.kitchen_seed() {
+        Some(seed) => Kitchen::needed(seed, &settings),
+        None => settings,
+    }
+}
+
+/// Tells how the kitchen has become simpler, what the failure needs, and how to start it.
+fn tell_kitchen(out: &mut impl Write, world: &World, settings: &Settings) -> io::Result<()> {
+    let Some(seed) = world.kitchen_seed() else {
+        return Ok(());
+    };
+    let settings = settings.iter();
+    let settings: Vec<(&str, String)> = settings
+        .map(|(name, setting)| (name, setting.to_string()))
+        .collect();
+    let is_simpler = |(name, _): &&(&str, String)| {
+        let mut set = world.set.iter();
+        set.any(|(path, _)| world.parameter(path) == Some(name))
+    };
+    let simpler: Vec<String> = settings
+        .iter()
+        .filter(is_simpler)
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    match simpler.is_empty() {
+        true => writeln!(out, "kitchen {seed}, in which nothing could be simpler")?,
+        false => writeln!(out, "kitchen {seed}, simpler: {}", simpler.join(" · "))?,
+    }
+    let mut needed: Vec<&str> = Vec::new();
+    for (path, _) in &world.simpler.kitchen {
+        if let Some(name) = world.parameter(path).filter(|name| !needed.contains(name)) {
             needed.push(name);
         }
     }
@@ -160,16 +191,16 @@ fn tell_kitchen(out: &mut impl Write, world: &World) -> io::Result<()> {
             needed.join(" · ")
         )?;
     }
-    let keys: String = set
+    let keys: String = settings
         .iter()
-        .map(|(name, value)| match name.as_str() {
+        .map(|(name, value)| match *name {
             "arrangement" => format!(" :{name} :{value}"),
             _ => format!(" :{name} {value}"),
         })
         .collect();
     writeln!(out, "(new-kitchen {seed}{keys})")?;
-    let options: String = set
-        .iter()
+    let options = settings.iter();
+    let options: String = options
         .map(|(name, value)| format!(",{name}={value}"))
         .collect();
     writeln!(out, "planwright --world generated:{seed}{options}")
