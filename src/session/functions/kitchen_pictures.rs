@@ -15,6 +15,7 @@ use kitchens::{Facts, Kitchen, Settings};
 use lisp::builtin::{Builtin, control};
 use lisp::image::Image;
 use lisp::value::Value;
+use lisp::value::known;
 use lisp::value::raise::Raise;
 use spatial::trig;
 use view::picture::view::FIELD_OF_VIEW;
@@ -90,6 +91,9 @@ fn kitchens_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]
     }
     let mut all = picture::Image::filled(size[0], size[1], PAPER);
     for (number, seed) in seeds.iter().enumerate() {
+        if image.take_interrupt() {
+            return Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
+        }
         let kitchen = Kitchen::with(*seed, &Settings::default()).map_err(Raise::reporting)?;
         let one = picture_of(host, *seed, &kitchen, width, height)?;
         let at = [number % columns, number / columns];
