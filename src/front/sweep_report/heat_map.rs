@@ -1,5 +1,6 @@
 //! Where a plan works: the share of successes over two draws, as a picture.
 
+use kitchens::kitchen_path;
 use sweep::Record;
 use sweep::influence::Influence;
 use view::picture::{Image, Line};
@@ -17,20 +18,23 @@ const EMPTY: [u8; 3] = [225, 225, 222];
 const INK: [u8; 3] = [40, 40, 40];
 
 /// The paths of the two draws that a picture is best about: those that explain most, if they are
-/// numbers, or else the first ones that are drawn. `None` if there are no two.
+/// numbers, or else the first ones that are drawn. The seed of a kitchen is none: near seeds have nothing
+/// in common. `None` if there are no two.
 pub(crate) fn axes(records: &[Record]) -> Option<[String; 2]> {
-    let drawn = records.first()?.draws.iter().map(|(name, _)| name);
+    let first = records.first()?;
+    let seed = kitchen_path(first);
+    let drawn = first.draws.iter().map(|(name, _)| name);
     let drawn: Vec<&str> = drawn.collect();
     let influence = Influence::of(records);
     let explaining = influence.significant().map(|effect| effect.name.as_str());
     let differs = |name: &str| {
         let number = |record: &Record| record.draws.get(name)?.number();
-        let first = records.first().and_then(number);
+        let first = number(first);
         first.is_some() && records.iter().any(|record| number(record) != first)
     };
     let mut found: Vec<&str> = Vec::new();
     for name in explaining.chain(drawn) {
-        if found.len() < 2 && !found.contains(&name) && differs(name) {
+        if found.len() < 2 && !found.contains(&name) && seed != Some(name) && differs(name) {
             found.push(name);
         }
     }
@@ -159,5 +163,22 @@ mod tests {
         let wanted = Some(["b.x", "b.y"].map(str::to_owned));
         assert_eq!(axes(&records), wanted);
         assert_eq!(axes(&records[..1]), None);
+    }
+
+    #[test]
+    fn the_seed_of_a_kitchen_is_no_axis() {
+        let world = |i: u32| {
+            let mut record = Record::new(i.into(), Ending::Success);
+            record.draws.set("home", Drawn::Integer(i.into()));
+            let text = Drawn::Text("GALLEY".to_owned());
+            record.draws.set("home.arrangement", text);
+            let number = |scale: f64| Drawn::Number(f64::from(i) * scale);
+            record.draws.set("home.counter-height", number(0.01));
+            record.draws.set("cup.x", number(0.1));
+            record
+        };
+        let records: Vec<Record> = (0..20).map(world).collect();
+        let wanted = Some(["home.counter-height", "cup.x"].map(str::to_owned));
+        assert_eq!(axes(&records), wanted);
     }
 }
