@@ -361,7 +361,7 @@ fn reaches_agree(scenes: u64, least: [u32; 2]) {
 
 #[test]
 fn what_supports_carries_the_weight_and_nothing_else_does() {
-    supports_agree(20, [64, 3]);
+    supports_agree(24, [64, 4]);
 }
 
 #[test]

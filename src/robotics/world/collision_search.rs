@@ -574,14 +574,15 @@ fn visit_near<'a>(
         {
             continue;
         }
-        let overlap = match is_quick && margin >= 0.0 {
-            true => overlap(&placed.pose, solid, &at.pose, other),
+        let (one, two) = (&placed.pose, &at.pose);
+        let overlapping = match is_quick && margin >= 0.0 {
+            true => overlap(one, solid, two, other),
             false => None,
         };
-        let is_answered = overlap.is_some() || is_quick && margin == 0.0;
-        let near = match is_answered {
-            true => overlap,
-            false => separation(&placed.pose, solid, &at.pose, other, margin),
+        let near = match overlapping {
+            // Without a margin, nothing else counts.
+            None if !is_quick || margin != 0.0 => separation(one, solid, two, other, margin),
+            known => known,
         };
         if let Some(separation) = near {
             visit(separation, most)?;

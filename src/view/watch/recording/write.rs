@@ -125,9 +125,9 @@ impl<W: Write> RecordingWriter<W> {
             let transforms = still.collect();
             self.write(Channel::Still, time, &FrameTransforms { transforms })?;
             for (kind, name) in [(Kind::Robot, "robot"), (Kind::Furniture, "kitchen")] {
-                let nodes: Vec<Arc<Node>> = self.nodes.clone();
-                let nodes = nodes.iter().filter(|node| node.kind == kind);
-                self.describe(time, kind, name, nodes.map(AsRef::as_ref))?;
+                let nodes = self.nodes.iter().filter(|node| node.kind == kind);
+                let text = description::description(name, nodes.map(AsRef::as_ref));
+                self.describe(time, kind, text)?;
             }
             let fixed = self.nodes.iter().filter(|n| n.kind != Kind::Object);
             let seen = fixed.filter(|n| !n.mesh.triangles.is_empty());
@@ -256,34 +256,31 @@ impl<W: Write> RecordingWriter<W> {
         };
         self.write(Channel::Objects, frame.time, &update)?;
         let (described, messages) = &mut self.described;
-        let new: Vec<Arc<Node>> = (here.iter())
-            .filter(|id| described.insert(**id))
-            .filter_map(|id| self.nodes.get(*id as usize).cloned())
-            .collect();
+        let new = here.iter().filter(|id| described.insert(**id));
+        let new: Vec<u32> = new.copied().collect();
         self.objects = here;
-        *messages += u32::from(!new.is_empty());
+        if new.is_empty() {
+            return Ok(());
+        }
+        *messages += 1;
         let name = match *messages {
-            0 | 1 => "objects".to_owned(),
+            1 => "objects".to_owned(),
             number => format!("objects {number}"),
         };
-        self.describe(
-            frame.time,
-            Kind::Object,
-            &name,
-            new.iter().map(AsRef::as_ref),
-        )
+        let nodes = new.iter().filter_map(|id| self.node(*id));
+        let text = description::description(&name, nodes);
+        self.describe(frame.time, Kind::Object, text)
     }
 
-    /// Writes a description of nodes of a kind, if there is anything to describe.
-    fn describe<'n>(
+    /// Writes a description of nodes of a kind, if there is one.
+    fn describe(
         &mut self,
         time: f64,
         kind: Kind,
-        name: &str,
-        nodes: impl Iterator<Item = &'n Node>,
+        text: Option<String>,
     ) -> Result<(), RecordingError> {
         let channel = self.descriptions.iter().find(|(known, _)| *known == kind);
-        if let (Some((_, channel)), Some(text)) = (channel, description::description(name, nodes)) {
+        if let (Some((_, channel)), Some(text)) = (channel, text) {
             let data = description::message(&text);
             self.file.add(*channel, Time::nanoseconds(time), &data)?;
         }
