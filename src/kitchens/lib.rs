@@ -149,13 +149,17 @@ impl Kitchen {
     }
 
     /// Those of some settings without which the kitchen of a seed would be another one: the length of a table that
-    /// is not there changes nothing.
+    /// is not there changes nothing. Lengths and counts go first: a table may be missing because it is not
+    /// wanted, or because it has been set too long, and then the former is kept.
     pub fn needed(seed: u64, settings: &Settings) -> Settings {
         let mut needed = settings.clone();
         let Ok(kitchen) = Self::with(seed, settings) else {
             return needed;
         };
-        for (name, _) in settings.iter() {
+        let is_number = |setting: &Setting| matches!(setting, Setting::Number(_));
+        let (sizes, others): (Vec<_>, Vec<_>) =
+            settings.iter().partition(|(_, setting)| is_number(setting));
+        for (name, _) in sizes.into_iter().chain(others) {
             let fewer = needed.without(name);
             let is_same = |other: Self| {
                 other.urdf == kitchen.urdf && other.description == kitchen.description
