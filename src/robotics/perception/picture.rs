@@ -1,5 +1,7 @@
 //! A z-buffer that holds the visible body of each pixel.
 
+use std::ops::Range;
+
 use nalgebra::{Point3, Vector3};
 
 use super::camera::Camera;
@@ -177,12 +179,9 @@ impl Picture {
         let columns = range(0);
         for row in range(1) {
             let y = row as f64 + 0.5;
-            for column in columns.clone() {
+            for column in inside([a, b, c], turn, columns.clone(), y) {
                 let x = column as f64 + 0.5;
                 let (at_a, at_b, at_c) = (cross(b, c, x, y), cross(c, a, x, y), cross(a, b, x, y));
-                if at_a * turn < 0.0 || at_b * turn < 0.0 || at_c * turn < 0.0 {
-                    continue;
-                }
                 let inverse = at_a / area * a[2] + at_b / area * b[2] + at_c / area * c[2];
                 // Rows and columns were clipped to the window above.
                 let pixel = (row - first[1]) * (end[0] - first[0]) + column - first[0];
@@ -193,6 +192,37 @@ impl Picture {
             }
         }
     }
+}
+
+/// The columns, of some, whose middles at a height `y` are in a triangle; `turn` is the sign of its area.
+/// On which side of an edge a middle is changes at most once along a row, also after rounding, so each end
+/// can be searched for.
+fn inside(corners: [[f64; 3]; 3], turn: f64, columns: Range<usize>, y: f64) -> Range<usize> {
+    let [a, b, c] = corners;
+    let mut run = columns;
+    for (from, to) in [(b, c), (c, a), (a, b)] {
+        let is_inside = |column: usize| cross(from, to, column as f64 + 0.5, y) * turn >= 0.0;
+        if (to[1] - from[1]) * turn > 0.0 {
+            run.end = first_of(run.clone(), |column| !is_inside(column));
+        } else {
+            run.start = first_of(run.clone(), is_inside);
+        }
+    }
+    run
+}
+
+/// The first of some columns from which on a condition holds; the end if it holds nowhere.
+fn first_of(columns: Range<usize>, holds: impl Fn(usize) -> bool) -> usize {
+    let Range { mut start, mut end } = columns;
+    while start < end {
+        let middle = start + (end - start) / 2;
+        if holds(middle) {
+            end = middle;
+        } else {
+            start = middle + 1;
+        }
+    }
+    start
 }
 
 /// Twice the signed area of the triangle of `a`, `b` and the point (x, y) in the picture.

@@ -143,10 +143,21 @@ impl<'w> Sight<'w> {
     pub(crate) fn of_robot_at(world: &'w World, name: &str) -> Result<Self, WorldError> {
         let description = world.models().description.camera();
         let camera = Camera::new(description, world.link_pose(description.frame));
+        Self::at(world, camera, name, description.visible_share)
+    }
+
+    /// Takes a picture from anywhere of where one object is, or would be if nothing hid it, and of nothing
+    /// else. It counts as seen if `needed_share` (0..1) of it is in sight.
+    pub fn at(
+        world: &'w World,
+        camera: Camera,
+        name: &str,
+        needed_share: f64,
+    ) -> Result<Self, WorldError> {
         let pose = world.object_pose(name)?;
         let window = window_of(world.object(name)?, &pose, &camera);
         let picture = Picture::of_window(camera, window);
-        Ok(Self::draw(world, picture, description.visible_share))
+        Ok(Self::draw(world, picture, needed_share))
     }
 
     /// Whether the robot's own body is in front of a point (m, map frame) for its own camera. So it is in no

@@ -46,20 +46,6 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(carried_by),
     ),
     control(
-        "%BOX",
-        "body &optional link",
-        "The box around a body in the map: the least and the greatest x, y and z (m), as two lists; NIL if it has no shape. :KITCHEN and :ROBOT are given with a link, and without one stand for all of them.",
-        &["(btr::%box :kitchen \"no_such_link\") => NIL"],
-        host!(bounding_box),
-    ),
-    control(
-        "%BOXES",
-        "body",
-        "The boxes around all links of :ROBOT or :KITCHEN that have a shape, or, for any other body, around all objects: a list of (name least most).",
-        &["(progn (pp-tut:init-projection) (btr::%boxes :objects)) => NIL"],
-        host!(all_boxes),
-    ),
-    control(
         "%LINKS",
         "body &optional solid",
         "The names of the links of :ROBOT or :KITCHEN; if SOLID, of those that have a shape.",
@@ -207,7 +193,7 @@ fn all_shown(simulation: &Simulation, image: &mut Image, bodies: &[BodyName]) ->
 }
 
 /// Which of the two trees is meant, if it is one of them.
-fn is_kitchen(image: &Image, body: &Value) -> Option<bool> {
+pub(super) fn is_kitchen(image: &Image, body: &Value) -> Option<bool> {
     match name_text(image, body)?.as_str() {
         "KITCHEN" => Some(true),
         "ROBOT" => Some(false),
@@ -224,67 +210,9 @@ fn tree<'s>(simulation: &'s Simulation, image: &Image, body: &Value) -> Result<&
     }
 }
 
-fn text(value: &Value) -> Result<String> {
+pub(super) fn text(value: &Value) -> Result<String> {
     let text = value.as_text();
     text.ok_or_else(|| Raise::type_error(value, known::STRING))
-}
-
-fn bounding_box(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let world = &simulation.world;
-    let found = match is_kitchen(image, &args[0]) {
-        None => {
-            let name = simulation.object_named(image, &args[0])?;
-            world.box_of(&BodyName::Object(name))
-        }
-        Some(kitchen) => {
-            let wanted = args.get(1).filter(|link| link.is_true());
-            let wanted = wanted.map(text).transpose()?;
-            let bodies: Vec<BodyName> = match kitchen {
-                true => world.solid_kitchen_links().collect(),
-                false => world.solid_robot_links().collect(),
-            };
-            let meant = bodies.iter().filter(|body| match &wanted {
-                Some(wanted) => body.to_string() == *wanted,
-                None => true,
-            });
-            let boxes = meant.filter_map(|body| world.box_of(body));
-            boxes.reduce(|a, b| {
-                let least = [0, 1, 2].map(|i| a[0][i].min(b[0][i]));
-                [least, [0, 1, 2].map(|i| a[1][i].max(b[1][i]))]
-            })
-        }
-    };
-    done(match found {
-        None => Value::NIL,
-        Some(corners) => Value::list(corners.map(|c| Value::list(c.map(Value::Double)))),
-    })
-}
-
-fn all_boxes(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let world = &simulation.world;
-    let bodies: Vec<BodyName> = match is_kitchen(image, &args[0]) {
-        Some(true) => world.solid_kitchen_links().collect(),
-        Some(false) => world.solid_robot_links().collect(),
-        None => {
-            let objects = world.objects();
-            objects
-                .map(|object| BodyName::Object(object.name().to_owned()))
-                .collect()
-        }
-    };
-    let mut boxes = Vec::new();
-    for body in bodies {
-        let Some(corners) = world.box_of(&body) else {
-            continue;
-        };
-        let name = match &body {
-            BodyName::Object(name) => simulation.symbol_of(name),
-            _ => name_of(body),
-        };
-        let [least, most] = corners.map(|c| Value::list(c.map(Value::Double)));
-        boxes.push(Value::list([name, least, most]));
-    }
-    done(Value::list(boxes))
 }
 
 fn links(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -303,7 +231,7 @@ fn links(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
     done(Value::list(names))
 }
 
-fn name_of(body: BodyName) -> Value {
+pub(super) fn name_of(body: BodyName) -> Value {
     Value::from(body.to_string().as_str())
 }
 
@@ -395,13 +323,15 @@ fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Res
     if names.is_empty() {
         return done(Value::NIL);
     }
-    let sight = match args[1].is_true() {
-        false => Sight::of_robot(world),
-        true => {
-            let pose = simulation.pose_in_map(image, &args[1])?;
-            let camera = Camera::new(world.models().description.camera(), pose);
-            Sight::take(world, camera, 0.0)
-        }
+    let description = world.models().description.camera();
+    let pose = match args[1].is_true() {
+        false => world.link_pose(description.frame),
+        true => simulation.pose_in_map(image, &args[1])?,
+    };
+    let camera = Camera::new(description, pose);
+    let sight = match names.as_slice() {
+        [name] => Sight::at(world, camera, name, 0.0).map_err(raise)?,
+        _ => Sight::take(world, camera, 0.0),
     };
     let mut found = Vec::new();
     for name in &names {

@@ -1,6 +1,7 @@
 //! The builtins that act on the world, one table per topic.
 
 mod asking;
+mod boxes;
 mod carrying;
 mod choosing;
 mod containers;

@@ -35,6 +35,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         functions::locations::VISUALIZATION_TABLE,
     ),
     ("CRAM-BULLET-REASONING", functions::asking::TABLE),
+    ("CRAM-BULLET-REASONING", functions::boxes::TABLE),
     ("CRAM-BULLET-REASONING", functions::trials::TABLE),
     ("CRAM-BULLET-REASONING", functions::timeline::TABLE),
     ("CRAM-BULLET-REASONING", functions::straight_ways::TABLE),
