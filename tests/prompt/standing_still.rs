@@ -231,6 +231,32 @@ fn a_frame_of_a_plan_can_return_a_value() {
 }
 
 #[test]
+fn the_nearest_free_place_is_offered_and_driven_to() {
+    let actions = [
+        "(perform (an action (type going) (location (a location (pose ?place)))))",
+        "(perform (an action (type navigating) (location (a location (pose ?place)))))",
+    ];
+    for action in actions {
+        let mut talk = Talk::new();
+        let shown = talk.say(&format!(
+            "(with-simulated-robot
+               (let ((?place (make-pose \"map\" '((-1 1.5 0) (0 0 0 1)))))
+                 {action}
+                 :there))"
+        ));
+        let label =
+            "[NEAREST] Drive to the nearest free place with this heading: x -0.350, y 1.500.";
+        assert!(shown.contains(label), "{shown}");
+        // What is asked meanwhile does not matter.
+        talk.say("(explain)");
+        assert_eq!(talk.choose(label).lines().last(), Some(":THERE"));
+        let stands =
+            talk.say("(cl-transforms:x (cl-transforms:origin (get-robot-transformation)))");
+        assert_eq!(stands, "-0.35d0\n");
+    }
+}
+
+#[test]
 fn another_arm_that_reaches_is_offered_and_works() {
     let mut talk = Talk::new();
     talk.say(BOTTLE);

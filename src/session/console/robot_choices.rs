@@ -1,18 +1,20 @@
 //! Choices that concern the robot: to repeat an action, with another grasp or arm, from
-//! another base pose, or with the world as it was before the action.
+//! another base pose, to the nearest free place, or with the world as it was before the action.
 
 use super::choice::Choice;
 use super::evaluator::Evaluator;
 use super::stack_frames::Told;
 use crate::printing::on_one_line;
 use cram::designator::perform::Performance;
-use cram::designator::value::{Class, as_class};
+use cram::designator::value::{Class, Designator, Quantifier, as_class};
 use cram::packages;
+use cram::pose::value::pose_stamped;
 use lisp::compile;
 use lisp::image::Image;
 use lisp::print;
 use lisp::value::Value;
 use lisp::value::known;
+use spatial::pose::from_xy_yaw;
 
 /// Maximum number of actions for which a repetition is offered.
 const MAX_ACTIONS: usize = 3;
@@ -41,6 +43,12 @@ impl Evaluator {
             let choice = again(action, &action.designator, None);
             choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
         }
+        choices.extend(actions.first().and_then(|action| {
+            let (designator, place) = self.to_nearest_place(action)?;
+            let label =
+                format!("[NEAREST] Drive to the nearest free place with this heading: {place}.");
+            Some((again(action, &designator, None), label))
+        }));
         if let Some(picking) = actions
             .iter()
             .find(|a| self.type_of_action(a) == "PICKING-UP")
@@ -121,13 +129,54 @@ impl Evaluator {
             properties.push(Value::list([key, value.clone()]));
         }
         let description = Value::list(properties);
-        let copy = cram::designator::value::Designator::new(
+        Value::foreign(Designator::new(
             &mut self.image,
             class,
             quantifier,
             description,
-        );
-        Value::foreign(copy)
+        ))
+    }
+
+    /// The innermost action with the nearest free place as its goal, and that place, if the action is one of
+    /// driving and has stopped because its goal is occupied.
+    fn to_nearest_place(&mut self, action: &Action) -> Option<(Value, String)> {
+        let key = match self.type_of_action(action).as_str() {
+            "GOING" => "TARGET",
+            "NAVIGATING" => "LOCATION",
+            _ => return None,
+        };
+        let report = &self.console.levels.last()?.abort.report;
+        let [x, y, heading] = self.host.simulation.free_place_instead(report)?;
+        let pose = pose_stamped("map", &from_xy_yaw(x, y, heading));
+        let driving = as_class(&action.designator, Class::Action)?;
+        let location = self.designator(Class::Location, driving.quantifier, &[("POSE", pose)]);
+        let kind = driving.property_named(&self.image, "TYPE")?;
+        let properties = [("TYPE", kind), (key, location)];
+        let designator = self.designator(Class::Action, driving.quantifier, &properties);
+        Some((designator, format!("x {x:.3}, y {y:.3}")))
+    }
+
+    /// A designator with some properties, by the names of their keys.
+    fn designator(
+        &mut self,
+        class: Class,
+        quantifier: Quantifier,
+        properties: &[(&str, Value)],
+    ) -> Value {
+        let properties: Vec<Value> = properties
+            .iter()
+            .map(|(name, value)| {
+                let key = self.image.keyword(name).into();
+                Value::list([key, value.clone()])
+            })
+            .collect();
+        let description = Value::list(properties);
+        Value::foreign(Designator::new(
+            &mut self.image,
+            class,
+            quantifier,
+            description,
+        ))
     }
 
     /// Driving to where the object can be grasped, then repeating the action.

@@ -63,6 +63,20 @@ impl Simulation {
         Some(text)
     }
 
+    /// The nearest free place, if a report is of the motion that has failed last and whose goal is occupied.
+    pub(crate) fn free_place_instead(&self, report: &str) -> Option<BasePlace> {
+        let failure = &self.last_failure.as_ref()?.failure;
+        match failure {
+            MotionFailure::GoalOccupied {
+                nearest_free: Some(place),
+                ..
+            } if report.contains(&failure.to_string()) && can_stand(&self.world, place) => {
+                Some(*place)
+            }
+            _ => None,
+        }
+    }
+
     fn explanation(&self, image: &mut Image, failure: &MotionFailure, time: f64) -> String {
         let mut text = format!("{} at {time:.3} s\n", failure.class_name());
         section(&mut text, "What happened", failure.to_string().lines());
