@@ -228,16 +228,16 @@ pub(super) fn targets() -> Vec<Target> {
         open,
     };
     vec![
-        target("reader", 240, 75, reader),
-        target("printer", 60, 70, printer),
+        target("reader", 240, 70, reader),
+        target("printer", 60, 60, printer),
         Target {
             words: DIRECTIVES,
             corpus: control_strings,
-            ..target("format", 70, 35, format)
+            ..target("format", 70, 25, format)
         },
-        target("evaluator", 40, 40, evaluator),
-        target("debugger", 10, 60, debugger),
-        target("prompt", 10, 30, prompt),
+        target("evaluator", 40, 30, evaluator),
+        target("debugger", 10, 50, debugger),
+        target("prompt", 10, 20, prompt),
     ]
 }
 

@@ -50,10 +50,10 @@ pub(super) fn targets() -> Vec<Target> {
         open,
     };
     vec![
-        target("swank", 60, of_emacs, swank),
-        target("jupyter", 60, of_jupyter, jupyter),
-        target("mcp", 60, of_assistants, mcp),
-        target("serve", 60, of_editors, serve),
+        target("swank", 50, of_emacs, swank),
+        target("jupyter", 40, of_jupyter, jupyter),
+        target("mcp", 50, of_assistants, mcp),
+        target("serve", 50, of_editors, serve),
     ]
 }
 

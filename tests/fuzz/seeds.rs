@@ -4,7 +4,7 @@ use super::target::{Taken, Target, attempt, with_large_stack};
 use super::targets;
 
 /// Maximum number of pieces of a target that are tried.
-const MAX_PIECES: usize = 60;
+const MAX_PIECES: usize = 24;
 
 /// Of a hundred pieces of a target, how many are read, and some that are not.
 fn read(target: &Target) -> Result<(usize, Vec<String>), String> {
