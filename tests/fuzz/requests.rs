@@ -71,16 +71,19 @@ fn programs() -> impl Iterator<Item = String> {
     all.filter(|program| program.len() < 400 && !is_left_out(program))
 }
 
+/// Ends a server.
+type End = Box<dyn FnOnce() + Send>;
+
 /// A thread with a session that serves.
 struct Serving {
     interrupt: Arc<AtomicBool>,
-    end: Box<dyn FnOnce() + Send>,
+    end: End,
 }
 
 impl Serving {
     /// Begins; `serve` tells where clients can connect and how to end.
     fn begin<T: Send + 'static>(
-        serve: impl FnOnce(&mut Session, &mpsc::Sender<(T, Box<dyn FnOnce() + Send>)>) + Send + 'static,
+        serve: impl FnOnce(&mut Session, &mpsc::Sender<(T, End)>) + Send + 'static,
     ) -> (Self, T) {
         let (tell, told) = mpsc::channel();
         let (tell_flag, flag) = mpsc::channel();
@@ -254,7 +257,7 @@ fn swank() -> Taker {
             let server = swank::Server::bind(options).expect("there is a port");
             let address = server.address();
             let begin = move |stopper: swank::Stopper| {
-                let stop: Box<dyn FnOnce() + Send> = Box::new(move || stopper.stop());
+                let stop: End = Box::new(move || stopper.stop());
                 tell.send((address, stop)).expect("somebody waits");
             };
             drop(server.serve(session, None, begin));
@@ -360,7 +363,7 @@ fn jupyter() -> Taker {
             };
             let ending = interrupter.clone();
             let kernel = Kernel::listen(&connection, interrupter, settings).expect("a kernel");
-            let stop: Box<dyn FnOnce() + Send> = Box::new(move || ending.end());
+            let stop: End = Box::new(move || ending.end());
             tell.send((kernel.addresses()[0], stop))
                 .expect("somebody waits");
             kernel.serve(session);
