@@ -5,7 +5,8 @@
 
 use std::alloc::System;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
 
 use cap::Cap;
 use planwright::{Evaluate, HeapLimit, Outcome, Session, SessionOptions};
@@ -111,6 +112,7 @@ fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
     };
     run(
         "(defstruct node next) (defclass thing () ((part :accessor part)))
+         (defgeneric visit (x))
          (defun long (x) (append (make-list 30) (list x)))",
     );
     for (count, circle) in [
@@ -162,6 +164,30 @@ fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
             "(let ((g (gensym)) (h (gensym))) (setf (symbol-value g) h (symbol-value h) g))",
         ),
         (20_000, "(setf (symbol-value (gensym)) 1)"),
+        (4000, "(delete-package (make-package \"PASSING\"))"),
+        (
+            5000,
+            "(let ((c (make-condition 'simple-error :format-arguments (list 1))))
+               (setf (cdr (simple-condition-format-arguments c)) (long c)))",
+        ),
+        (
+            5000,
+            "(let ((r nil)) (restart-case (setf r (long (compute-restarts))) (again () r)))",
+        ),
+        (
+            5000,
+            "(let ((g (gensym)))
+               (set g (make-two-way-stream (make-synonym-stream g) (make-synonym-stream g))))",
+        ),
+        (
+            100,
+            "(progn (eval '(defmethod visit ((x (eql 7))) (lambda () x)))
+                    (remove-method #'visit (find-method #'visit '() (list '(eql 7)))))",
+        ),
+        (
+            100,
+            "(eval '(defclass again () ((a :initform (let ((f nil)) (setf f (lambda () f)))))))",
+        ),
         (
             2000,
             "(let ((x (list nil))) (cpl:top-level (cpl:with-tags (:tag a (setf (car x) a) (long x)))))",
@@ -223,6 +249,57 @@ fn memory_that_circles_hold_is_freed_before_it_is_said_to_be_exhausted() {
         most < limit + limit / 10,
         "{most} B of {limit} B were in use"
     );
+}
+
+#[test]
+fn a_limit_that_is_set_is_kept_whatever_fills_it() {
+    let _alone = MEMORY.lock();
+    let mut session = Session::new(&limited(usize::MAX)).unwrap();
+    let is_over = AtomicBool::new(false);
+    let wrong = std::thread::scope(|scope| {
+        // A vector that has grown is smaller again before a session looks.
+        scope.spawn(|| {
+            while !is_over.load(Ordering::Relaxed) {
+                in_use();
+                std::thread::sleep(Duration::from_micros(50));
+            }
+        });
+        let mut wrong = Vec::new();
+        for filling in [
+            "(let ((all '())) (loop (push (make-string 1000) all)))",
+            "(let ((all '())) (loop (push (make-hash-table) all)))",
+            "(let ((all '())) (loop (push (make-array '(10 10)) all)))",
+            "(let ((all '())) (loop (push (gensym) all)))",
+            "(let ((all '())) (loop (push (lambda () all) all)))",
+            "(let ((all '())) (loop (push (make-condition 'error) all)))",
+            "(let ((all '())) (loop (push (cpl:make-fluent) all)))",
+            "(let ((all '())) (loop (push (desig:make-designator :object '((:type :cup))) all)))",
+            "(let ((h (make-hash-table))) (loop for i from 0 do (setf (gethash i h) i)))",
+            "(let ((v (make-array 1 :adjustable t :fill-pointer 0))) (loop (vector-push-extend 1 v)))",
+            "(let ((s \"ab\")) (loop (setf s (concatenate 'string s s))))",
+            "(let ((l (list 1 2))) (loop (setf l (append l l))))",
+            "(let ((x (list 1))) (loop (setf x (copy-tree (list x x)))))",
+        ] {
+            assert_eq!(
+                session.evaluate("test", "(tg:gc :full t)", &mut |_| {}),
+                Outcome::Finished
+            );
+            MOST.store(0, Ordering::Relaxed);
+            let limit = in_use() + (48 << 20);
+            let heap = &session.image_mut().limits.heap;
+            heap.set_limit(limited(limit).heap);
+            let form = format!("(handler-case {filling} (storage-condition () 'full))");
+            let outcome = session.evaluate("test", &form, &mut |_| {});
+            assert_eq!(outcome, Outcome::Finished, "{filling}");
+            let most = MOST.load(Ordering::Relaxed);
+            if most > limit + limit / 10 {
+                wrong.push(format!("{most} B of {limit} B were in use: {filling}"));
+            }
+        }
+        is_over.store(true, Ordering::Relaxed);
+        wrong
+    });
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]

@@ -11,6 +11,7 @@ const STACK_BYTES: usize = 64 << 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=src/front/build.rs");
+    println!("cargo::rustc-check-cfg=cfg(fuzzing)");
     let thread = thread::Builder::new().stack_size(STACK_BYTES);
     let compiled = thread.spawn(compiled)?;
     let code = compiled.join().map_err(|_| "the compiler has failed")??;

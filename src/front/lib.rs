@@ -89,11 +89,18 @@ pub use view::watch::{About, TaskId, TaskState};
 #[doc = include_str!("guide.md")]
 pub mod guide {}
 
+/// What `tests/fuzz/coverage` feeds.
+#[cfg(all(fuzzing, not(test)))]
+#[doc(hidden)]
+#[path = "../../tests/fuzz/mod.rs"]
+pub mod fuzz;
+
 /// White-box tests, in one binary; `tests/command_line` tests the program.
 #[cfg(test)]
 #[path = "../../tests"]
 #[allow(clippy::print_stdout)]
 mod tests {
+    #[allow(unreachable_pub, reason = "another program feeds the same targets")]
     mod fuzz;
     mod jupyter;
     mod language;

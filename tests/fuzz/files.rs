@@ -1,103 +1,22 @@
-//! Targets that are files: URDF, data as s-expressions, transcripts, journals and recordings.
+//! Targets that are files of a session: transcripts, journals and recordings.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::Path;
-use std::sync::{Arc, LazyLock};
 
 use super::corpus;
-use super::run::{Taker, Target};
+use super::target::{Taken, Taker, Target};
 use crate::prompt::Earlier;
 use crate::transcript::{Transcript, Verdict, blessed};
-use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
-use robotics::robot::{KinematicTree, RobotDescription};
-use robotics::world::grasp_library::{GRASPS, GraspLibrary};
-use robotics::world::object_library::{OBJECTS, ObjectLibrary};
-use robotics::world::{KitchenDescription, Models, RobotConfiguration, World};
 use view::watch::live::{History, Origin};
 use view::watch::recording::{RecordingError, read_recording};
 
 pub(super) fn targets() -> Vec<Target> {
     vec![
         Target {
-            name: "urdf",
-            share: 60,
-            words: &[
-                "<",
-                ">",
-                "/>",
-                "</",
-                "\"",
-                "<!--",
-                "-->",
-                "<![CDATA[",
-                "]]>",
-                "<?",
-                "?>",
-                "&lt;",
-                "&#0;",
-                "&#x110000;",
-                "<link name=\"x\"/>",
-                "<joint",
-                "</robot>",
-                " xyz=\"",
-                " rpy=\"",
-                " size=\"",
-                " radius=\"",
-                " scale=\"",
-                "<mimic joint=\"j\"/>",
-                "<box ",
-                "<cylinder radius=\"1\" length=\"1\"/>",
-                "<sphere radius=\"",
-                "type=\"fixed\"",
-                "type=\"planar\"",
-                "1e-6 ",
-                "1e4 ",
-                "\u{e4}",
-                "\0",
-            ],
-            corpus: urdfs,
-            open: urdf,
-        },
-        Target {
-            name: "data",
-            share: 120,
-            words: &[
-                "(",
-                ")",
-                "()",
-                " . ",
-                "'",
-                "#",
-                "#(",
-                ";",
-                "#;",
-                "#|",
-                "\"",
-                "|",
-                "\\",
-                ":",
-                "#:",
-                "(object ",
-                "(grasp ",
-                "(arm ",
-                "(available ",
-                "(kinds ",
-                "(order ",
-                "(rotation ",
-                "1e400",
-                "-",
-                "+inf.0",
-                "#t",
-                "nil",
-                "\u{e4}",
-            ],
-            corpus: || corpus::forms("world", ".sexp"),
-            open: data,
-        },
-        Target {
             name: "transcript",
-            share: 90,
+            share: 80,
+            least_read: 70,
             words: &[
                 "\nA> ",
                 "\nPP-TUT 1]> ",
@@ -123,7 +42,7 @@ pub(super) fn targets() -> Vec<Target> {
                 [
                     corpus::stretches("tests/transcripts", ".transcript"),
                     corpus::stretches("tests/conformance", ".transcript"),
-                    corpus::stretches("docs", ".md"),
+                    sessions(),
                 ]
                 .concat()
             },
@@ -131,7 +50,8 @@ pub(super) fn targets() -> Vec<Target> {
         },
         Target {
             name: "journal",
-            share: 130,
+            share: 100,
+            least_read: 95,
             words: &[
                 "\n",
                 "\r",
@@ -159,7 +79,8 @@ pub(super) fn targets() -> Vec<Target> {
         },
         Target {
             name: "recording",
-            share: 60,
+            share: 40,
+            least_read: 85,
             words: &[
                 "\u{89}MCAP0\r\n",
                 "\0\0\0\0\0\0\0\0",
@@ -186,118 +107,19 @@ pub(super) fn targets() -> Vec<Target> {
     ]
 }
 
-const SMALL_URDF: &str = "<?xml version=\"1.0\"?>\n<robot name=\"r\"><!-- three links -->\
-    <material name=\"red\"><color rgba=\"1 0 0 1\"/></material>\
-    <link name=\"a\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" \
-    iyz=\"0\" izz=\"1\"/></inertial><visual><origin xyz=\"0 0 1\"/><geometry><box size=\"1 1 1\"/>\
-    </geometry><material name=\"red\"/></visual>\
-    <collision><geometry><cylinder radius=\"0.3\" length=\"1\"/></geometry></collision></link>\
-    <link name=\"b\"><collision><origin xyz=\"0 0 1\" rpy=\"0 1 0\"/><geometry>\
-    <sphere radius=\"0.2\"/></geometry></collision></link><link name=\"c\"><collision><geometry>\
-    <box size=\"0.1 2 1\"/></geometry></collision></link>\
-    <joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/>\
-    <limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"3\"/></joint>\
-    <joint name=\"k\" type=\"prismatic\"><origin xyz=\"1 2 0\"/><parent link=\"b\"/><child link=\"c\"/>\
-    <axis xyz=\"1 0 0\"/><limit lower=\"0\" upper=\"0.5\"/><mimic joint=\"j\" multiplier=\"2\" offset=\"1\"/>\
-    </joint></robot>";
-
-fn urdfs() -> Vec<Vec<u8>> {
-    let mut pieces = corpus::stretches("world", ".urdf");
-    pieces.extend(std::iter::repeat_n(
-        SMALL_URDF.as_bytes().to_vec(),
-        pieces.len() / 2 + 1,
-    ));
+/// The pieces of documents in which a session begins.
+fn sessions() -> Vec<Vec<u8>> {
+    let mut pieces = corpus::stretches("docs", ".md");
+    let begins = |piece: &Vec<u8>| String::from_utf8_lossy(piece).contains("```session\n");
+    pieces.retain(begins);
     pieces
-}
-
-struct Pr2 {
-    tree: KinematicTree,
-    description: RobotDescription,
-}
-
-static PR2: LazyLock<Pr2> = LazyLock::new(|| {
-    let tree = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf").unwrap();
-    let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &tree).unwrap();
-    Pr2 { tree, description }
-});
-
-static KITCHEN: LazyLock<KinematicTree> =
-    LazyLock::new(|| KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf").unwrap());
-
-/// Reads a kitchen, and now and then builds a world with it and lets it take some steps.
-fn urdf() -> Taker {
-    let mut read = 0;
-    Box::new(move |input| {
-        let text = String::from_utf8_lossy(input);
-        let Ok(kitchen) = KinematicTree::from_urdf(&text, "r.urdf") else {
-            return Ok(());
-        };
-        read += 1;
-        if read % 100 == 0 {
-            let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp").unwrap();
-            let furnishing = KitchenDescription::built_in(&kitchen).unwrap();
-            let models = Models::new(
-                PR2.tree.clone(),
-                PR2.description.clone(),
-                kitchen,
-                furnishing,
-                objects,
-            );
-            let joints = models.description.start_positions(&models.robot);
-            let base = spatial::Pose::identity();
-            let mut world = World::new(Arc::new(models), RobotConfiguration { base, joints });
-            for _ in 0..3 {
-                world.step();
-            }
-        }
-        Ok(())
-    })
-}
-
-fn data() -> Taker {
-    LazyLock::force(&PR2);
-    LazyLock::force(&KITCHEN);
-    Box::new(|input| {
-        let text = String::from_utf8_lossy(input);
-        let _ = ObjectLibrary::from_sexp(&text, "objects.sexp");
-        let _ = GraspLibrary::from_sexp(&text, "grasps.sexp");
-        // A record alone is an error before most is looked at; behind the built-in ones it counts.
-        match input.len() % 16 {
-            0 => drop(ObjectLibrary::from_sexp(
-                &format!("{OBJECTS}\n{text}"),
-                "objects.sexp",
-            )),
-            1 => drop(GraspLibrary::from_sexp(
-                &format!("{GRASPS}\n{text}"),
-                "grasps.sexp",
-            )),
-            2 => drop(RobotDescription::from_sexp(
-                &format!("{PR2_DESCRIPTION}\n{text}"),
-                "pr2.sexp",
-                &PR2.tree,
-            )),
-            3 => drop(RobotDescription::from_sexp(&text, "pr2.sexp", &PR2.tree)),
-            4 => drop(KitchenDescription::from_sexp(
-                &format!("{KITCHEN_DESCRIPTION}\n{text}"),
-                "kitchen.sexp",
-                &KITCHEN,
-            )),
-            5 => drop(KitchenDescription::from_sexp(
-                &text,
-                "kitchen.sexp",
-                &KITCHEN,
-            )),
-            _ => {}
-        }
-        Ok(())
-    })
 }
 
 /// Reads a transcript, compares its expectations with those of the next entry, and blesses it.
 fn transcript() -> Taker {
     Box::new(|input| {
         let text = String::from_utf8_lossy(input);
-        let name = if input.len() % 2 == 0 {
+        let name = if text.contains("```") || text.contains("~~~") {
             "a.md"
         } else {
             "a.transcript"
@@ -314,7 +136,7 @@ fn transcript() -> Taker {
             }
         }
         let _ = blessed(&transcript, &verdicts);
-        Ok(())
+        Ok(Taken::if_read(!transcript.entries.is_empty()))
     })
 }
 
@@ -385,7 +207,7 @@ fn journal() -> Taker {
                 return Err("what has been cut off has other inputs".to_owned());
             }
         }
-        Ok(())
+        Ok(Taken::if_read(!whole_inputs.is_empty()))
     })
 }
 
@@ -478,21 +300,31 @@ fn recordings() -> Vec<Vec<u8>> {
     corpus
 }
 
+/// The topic of the message that begins most like a text.
+fn topic_of(text: &[u8]) -> usize {
+    let alike = |message: &str| {
+        let pairs = message.bytes().zip(text);
+        pairs.take_while(|(a, b)| a == *b).count()
+    };
+    let like = MESSAGES.iter().max_by_key(|(_, message)| alike(message));
+    like.map_or(0, |(topic, _)| *topic)
+}
+
 /// Reads a text as one message among sound ones, and anything else as a file. The library's own
 /// panics become errors; a text is read by us, so there a panic is our own.
 fn recording() -> Taker {
     Box::new(|input| {
         let history = History::new(Origin::Recording);
         if !input.starts_with(b"{") {
-            let _ = read_recording(input, &history);
-            return Ok(());
+            let is_read = read_recording(input, &history).is_ok();
+            return Ok(Taken::if_read(is_read));
         }
         let sound = |at: usize| (MESSAGES[at].0, MESSAGES[at].1.as_bytes());
-        let topic = input.len() % TOPICS.len();
+        let topic = topic_of(input);
         let file = written(&[sound(0), sound(2), (topic, input), sound(0)]);
         match read_recording(&file, &history) {
             Err(RecordingError::Reader(problem)) => Err(problem),
-            Ok(_) | Err(_) => Ok(()),
+            read => Ok(Taken::if_read(read.is_ok())),
         }
     })
 }

@@ -2,7 +2,7 @@
 //! reads a program at the prompt.
 
 use super::corpus;
-use super::run::{Taker, Target};
+use super::target::{Taken, Taker, Target};
 use lisp::Image;
 use lisp::guard::heap::HeapLimit;
 use lisp::reader::{Completeness, Lexer, Reader, Token, TokenKind, is_complete};
@@ -12,7 +12,7 @@ use session::{LogLevel, Session, SessionOptions};
 /// What an image or a session takes before another is made: texts leave names and objects.
 const MAX_INPUTS: usize = 2000;
 
-const WORDS: &[&str] = &[
+pub(super) const WORDS: &[&str] = &[
     "(",
     ")",
     "()",
@@ -202,7 +202,7 @@ const ARGUMENTS: &[&str] = &[
 const MAX_POLLS: u64 = 60;
 
 /// Names of what would touch files, open windows or wait: texts with them are left out.
-const LEFT_OUT: &[&str] = &[
+pub(super) const LEFT_OUT: &[&str] = &[
     "open",
     "file",
     "director",
@@ -219,24 +219,25 @@ const LEFT_OUT: &[&str] = &[
 ];
 
 pub(super) fn targets() -> Vec<Target> {
-    let target = |name, share, open| Target {
+    let target = |name, share, least_read, open| Target {
         name,
         share,
+        least_read,
         words: WORDS,
         corpus: corpus::programs,
         open,
     };
     vec![
-        target("reader", 330, reader),
-        target("printer", 60, printer),
+        target("reader", 240, 70, reader),
+        target("printer", 60, 60, printer),
         Target {
             words: DIRECTIVES,
             corpus: control_strings,
-            ..target("format", 80, format)
+            ..target("format", 70, 25, format)
         },
-        target("evaluator", 50, evaluator),
-        target("debugger", 10, debugger),
-        target("prompt", 10, prompt),
+        target("evaluator", 40, 30, evaluator),
+        target("debugger", 10, 50, debugger),
+        target("prompt", 10, 20, prompt),
     ]
 }
 
@@ -301,7 +302,7 @@ fn reader() -> Taker {
                 "the reader ends inside: {ends_inside}; {completeness:?}"
             ));
         }
-        Ok(())
+        Ok(Taken::if_read(!is_wrong && !ends_inside))
     })
 }
 
@@ -312,7 +313,8 @@ fn resident() -> usize {
     pages.unwrap_or(0) * 4096
 }
 
-fn session(definitions: &str) -> Session {
+/// A session that has evaluated a text.
+pub(super) fn session(definitions: &str) -> Session {
     let options = SessionOptions {
         log_level: LogLevel::Error,
         heap: Some(HeapLimit {
@@ -329,30 +331,33 @@ fn session(definitions: &str) -> Session {
 }
 
 /// Evaluates a text; the report of a defect, or of the condition that begins with `watched`, is
-/// an error.
-fn evaluate(session: &mut Session, text: &str, watched: &str) -> Result<(), String> {
-    let mut problem = Ok(());
+/// an error. What is evaluated to its end is read.
+fn evaluate(session: &mut Session, text: &str, watched: &str) -> Result<Taken, String> {
+    let mut problem = None;
     session.interrupt_next_at(MAX_POLLS);
-    session.evaluate("fuzz", text, &mut |event| {
+    let outcome = session.evaluate("fuzz", text, &mut |event| {
         let abort = match &event {
             Event::Aborted(abort) => &**abort,
             Event::Stopped(stop) => &stop.abort,
             _ => return,
         };
         if abort.condition == "#<DEFECT>" || abort.report.starts_with(watched) {
-            problem = Err(abort.report.clone());
+            problem = Some(abort.report.clone());
         }
     });
     session
         .interrupt_handle()
         .store(false, std::sync::atomic::Ordering::Relaxed);
-    problem
+    match problem {
+        Some(problem) => Err(problem),
+        None => Ok(Taken::if_read(outcome == Outcome::Finished)),
+    }
 }
 
 /// A taker of texts for a session, which is made anew now and then.
 fn in_session(
     definitions: &'static str,
-    mut take: impl FnMut(&mut Session, &str) -> Result<(), String> + 'static,
+    mut take: impl FnMut(&mut Session, &str) -> Result<Taken, String> + 'static,
 ) -> Taker {
     let mut current = session(definitions);
     let mut taken = 0;
@@ -364,7 +369,7 @@ fn in_session(
         let text = String::from_utf8_lossy(input);
         let folded = text.to_lowercase();
         if LEFT_OUT.iter().any(|name| folded.contains(name)) {
-            return Ok(());
+            return Ok(Taken::Refused);
         }
         take(&mut current, &text)
     })
@@ -429,10 +434,11 @@ fn debugger() -> Taker {
                 break;
             }
             let typed = TYPED[(text.len() + at * 5) % TYPED.len()];
-            done = evaluate(session, typed, "\0");
+            // What opens the debugger is read there, too.
+            done = evaluate(session, typed, "\0").map(|_| Taken::Read);
         }
         while done.is_ok() && session.level() > 0 {
-            done = evaluate(session, "q", "\0");
+            done = evaluate(session, "q", "\0").map(|_| Taken::Read);
         }
         session.set_interactive(false);
         done
@@ -447,7 +453,7 @@ fn prompt() -> Taker {
             let at = at.unwrap_or(text.len());
             let _ = (session.completions(text, at), session.hint(text, at));
         }
-        let _ = session.check("fuzz", text);
-        Ok(())
+        let found = session.check("fuzz", text);
+        Ok(Taken::if_read(found.is_empty()))
     })
 }

@@ -9,25 +9,48 @@
 //! FUZZ_EXECUTIONS=10000000 cargo test --lib -- fuzz::long_run --ignored --nocapture
 //! ```
 //!
+//! `tests/fuzz/coverage/run` chooses inputs by the code that they reach, instead.
 //! `FUZZ_TARGET` selects one target, `FUZZ_SEED` other inputs and `FUZZ_FROM` the number of the
 //! first one. The number under way is in `target/fuzz/position`, in case an input ends the
 //! process; inputs that fail are saved beside it.
 
 mod corpus;
 mod files;
+#[cfg(test)]
 mod found;
 mod language;
+mod models;
 mod mutation;
+mod notebooks;
+mod requests;
+mod robots;
+#[cfg(test)]
 mod run;
+#[cfg(test)]
+mod seeds;
+mod sweeps;
+mod target;
 
-use run::Target;
+#[cfg(not(test))]
+pub use mutation::Mutation;
+#[cfg(not(test))]
+pub use target::{Taken, Taker, attempt};
+pub use target::{Target, with_large_stack};
 
 /// All targets. Shares are of a thousand executions.
-fn targets() -> Vec<Target> {
-    [language::targets(), files::targets()]
-        .into_iter()
-        .flatten()
-        .collect()
+pub fn targets() -> Vec<Target> {
+    [
+        language::targets(),
+        files::targets(),
+        models::targets(),
+        sweeps::targets(),
+        notebooks::targets(),
+        requests::targets(),
+        robots::targets(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 #[test]
@@ -36,14 +59,12 @@ fn the_shares_of_all_targets_are_the_whole() {
     assert_eq!(sum, 1000);
 }
 
-/// Enough to notice a target that does not work any more.
-const SHORT_RUN: u64 = 8_000;
-
 #[test]
 fn short_run() {
-    let found = run::with_large_stack(|| {
+    let found = with_large_stack(|| {
         let plan = run::Plan {
-            executions: SHORT_RUN,
+            // Enough to notice a target that does not work any more.
+            executions: 8_000,
             ..run::Plan::default()
         };
         run::all(&targets(), &plan, &mut |_| {})
@@ -56,7 +77,7 @@ fn short_run() {
 fn long_run() {
     session::defect::keep_caught_panics_quiet();
     run::abort_when_stuck();
-    let found = run::with_large_stack(|| {
+    let found = with_large_stack(|| {
         run::all(&targets(), &run::Plan::of_environment(), &mut |line| {
             println!("{line}");
         })

@@ -52,13 +52,13 @@ const BRACKETS: &[(u8, u8)] = &[
 ];
 
 /// Makes one input.
-pub(super) struct Mutation {
+pub struct Mutation {
     random: Pcg64,
 }
 
 impl Mutation {
     /// For the input with that number.
-    pub(super) fn new(seed: u64, target: &str, number: u64) -> Self {
+    pub fn new(seed: u64, target: &str, number: u64) -> Self {
         let hash = target.bytes().fold(seed, |hash, byte| {
             hash.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte)
         });
@@ -68,7 +68,7 @@ impl Mutation {
     }
 
     /// A piece of the corpus, changed in a few places.
-    pub(super) fn input(&mut self, corpus: &[Vec<u8>], words: &[&str]) -> Vec<u8> {
+    pub fn input(&mut self, corpus: &[Vec<u8>], words: &[&str]) -> Vec<u8> {
         let mut input = self.one_of(corpus).clone();
         for _ in 0..=self.below(8) {
             self.change(&mut input, corpus, words);
@@ -171,6 +171,7 @@ impl Mutation {
     }
 }
 
+#[cfg(test)]
 #[test]
 fn an_input_can_be_made_again_and_others_differ() {
     let corpus = [b"(list 1 (car '(2 3)) \"text\")".to_vec()];

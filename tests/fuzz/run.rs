@@ -9,24 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::mutation::Mutation;
-use lisp::guard::set_stack_budget;
-use session::defect;
-
-/// What takes inputs.
-pub(super) struct Target {
-    pub(super) name: &'static str,
-    /// Of a thousand executions, how many are of this target.
-    pub(super) share: u64,
-    /// Words that mean something to it.
-    pub(super) words: &'static [&'static str],
-    /// What inputs are made of.
-    pub(super) corpus: fn() -> Vec<Vec<u8>>,
-    /// A fresh one, which takes one input after the other.
-    pub(super) open: fn() -> Taker,
-}
-
-/// Takes an input; an error says what is wrong with the program.
-pub(super) type Taker = Box<dyn FnMut(&[u8]) -> Result<(), String>>;
+use super::target::{Target, attempt};
 
 /// How much is to be done.
 #[derive(Default)]
@@ -123,21 +106,19 @@ fn one(target: &Target, plan: &Plan, count: u64, folder: &std::path::Path) -> Ve
         // If that fails, only the number of an input that ends the process is lost.
         let _ = position.seek(SeekFrom::Start(0));
         let _ = position.write_all(format!("{} {number:12}\n", target.name).as_bytes());
-        let mut attempt = || {
+        let mut timed = || {
             let begin = Instant::now();
-            let outcome = defect::caught(|| take(&input));
+            let outcome = attempt(&mut take, &input);
             (outcome, begin.elapsed() >= SLOW)
         };
-        let (mut outcome, mut is_slow) = attempt();
+        let (mut outcome, mut is_slow) = timed();
         if is_slow {
             // Other processes may have slowed it down.
-            (outcome, is_slow) = attempt();
+            (outcome, is_slow) = timed();
         }
         let problem = match outcome {
-            Ok(Ok(())) if is_slow => Some("it takes too long".to_owned()),
-            Ok(Ok(())) => None,
-            Ok(Err(problem)) => Some(problem),
-            Err(defect) => Some(format!("it panics: {defect}")),
+            Ok(_) => is_slow.then(|| "it takes too long".to_owned()),
+            Err(problem) => Some(problem),
         };
         EXECUTED.fetch_add(1, Ordering::Relaxed);
         let Some(problem) = problem else { continue };
@@ -159,21 +140,6 @@ fn one(target: &Target, plan: &Plan, count: u64, folder: &std::path::Path) -> Ve
         }
     }
     found
-}
-
-/// Runs something on a thread like those of the program's commands.
-pub(super) fn with_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    thread::scope(|scope| {
-        let thread = thread::Builder::new().stack_size(64 << 20);
-        let work = || {
-            set_stack_budget(48 << 20);
-            work()
-        };
-        let thread = thread
-            .spawn_scoped(scope, work)
-            .expect("a thread can be made");
-        thread.join().expect("the thread does not panic")
-    })
 }
 
 /// Ends the process if a single execution takes minutes.

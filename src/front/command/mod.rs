@@ -58,6 +58,8 @@ use watching::WatchArguments;
 
 #[cfg(test)]
 pub(crate) use open::open_default;
+#[cfg(any(test, fuzzing))]
+pub(crate) use sweep::texts as sweep_texts;
 
 /// Runs the command line of this process. `in_use` tells how many bytes its allocator has given
 /// out.

@@ -151,7 +151,7 @@ impl Kernel {
     }
 
     /// Where the channels are: shell, iopub, stdin, control and heartbeat.
-    #[cfg(test)]
+    #[cfg(any(test, fuzzing))]
     pub(crate) fn addresses(&self) -> Vec<SocketAddr> {
         self.sockets.iter().map(Socket::address).collect()
     }

@@ -34,5 +34,5 @@ pub(crate) use watchdog::watch;
 
 #[cfg(test)]
 pub(crate) use message::Author;
-#[cfg(test)]
+#[cfg(any(test, fuzzing))]
 pub(crate) use signature::Signer;

@@ -1,6 +1,7 @@
 //! Vectors with fill pointers: pushing and popping.
 
 use crate::builtin::Builtin;
+use crate::guard::reserve;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
@@ -106,7 +107,9 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
                     return Ok(Value::NIL);
                 };
                 let filler = super::array_make::filler(v.element_type);
-                v.items.resize(size + extension.max(size), filler);
+                let more = extension.max(size);
+                reserve(more.saturating_mul(size_of::<Value>()));
+                v.items.resize(size.saturating_add(more), filler);
             }
             v.set(pointer, value);
             v.fill_pointer.set(Some(pointer + 1));

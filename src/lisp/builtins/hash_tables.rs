@@ -5,6 +5,7 @@ use std::rc::Rc;
 use super::lists::size;
 use super::shown::shown;
 use crate::builtin::Builtin;
+use crate::guard::reserve;
 use crate::image::Image;
 use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
@@ -104,6 +105,10 @@ fn set_gethash(
 ) -> Outcome {
     cycles::note(table, value);
     cycles::note(table, key);
+    let more = table.bytes_to_grow();
+    if more > 0 {
+        reserve(more);
+    }
     table.insert(key.clone(), value.clone());
     Ok(value.clone())
 }

@@ -98,13 +98,13 @@ impl Image {
             }
         }
         self.locks.locked = Some(Rc::new(locked));
-        self.locks.packages = self.packages.ids().count();
+        self.locks.packages = self.packages.made();
         self.locks.open = Rc::new(free);
     }
 
     /// Was the package there when the packages were locked?
     pub(crate) fn is_built_in(&self, package: PackageId) -> bool {
-        usize::from(package.0) < self.locks.packages
+        (package.0 as usize) < self.locks.packages
     }
 
     /// Have the packages been locked?

@@ -26,6 +26,31 @@ fn the_debuggers_hook_is_called_instead_of_stopping() {
 }
 
 #[test]
+fn any_number_of_packages_is_made_and_deleted() {
+    check(&[
+        (
+            "(progn (dotimes (i 70000) (delete-package (make-package \"PASSING\")))
+                    (list (find-package \"PASSING\") (package-name (make-package \"PASSING\"))))",
+            "(NIL \"PASSING\")",
+        ),
+        (
+            "(let ((p (make-package \"GONE\" :nicknames '(\"G\"))))
+               (delete-package p)
+               (list (package-name p) (find-package \"G\") (delete-package p)
+                     (package-name (make-package \"G\"))))",
+            "(NIL NIL NIL \"G\")",
+        ),
+        (
+            "(let ((p (make-package \"USED\")))
+               (make-package \"USER\" :use '(\"USED\"))
+               (handler-bind ((package-error #'continue)) (delete-package p))
+               (list (package-use-list \"USER\") (find-package \"USED\")))",
+            "(NIL NIL)",
+        ),
+    ]);
+}
+
+#[test]
 fn errors_about_packages_can_be_continued() {
     let continued = |form: &str| {
         format!(

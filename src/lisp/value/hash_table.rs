@@ -104,6 +104,22 @@ impl HashTable {
         entries.get(place)?.as_ref().map(|(_, value)| value.clone())
     }
 
+    /// Bytes that another key takes beside those that the table has already: none, unless it is full.
+    pub(crate) fn bytes_to_grow(&self) -> usize {
+        let (Ok(index), Ok(entries)) = (self.index.try_borrow(), self.entries.try_borrow()) else {
+            return 0;
+        };
+        let mut bytes = 0;
+        if index.len() == index.capacity() {
+            // The old places are there until all keys have new ones, twice as many.
+            bytes += 2 * index.capacity() * size_of::<(HashKey, usize)>();
+        }
+        if entries.len() == entries.capacity() {
+            bytes += entries.capacity() * size_of::<Option<(Value, Value)>>();
+        }
+        bytes
+    }
+
     /// Sets the value of a key.
     pub fn insert(&self, key: Value, value: Value) {
         let mut index = self.index.borrow_mut();

@@ -1,6 +1,6 @@
 //! Packages: name spaces of symbols.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::present_symbols::PresentSymbols;
@@ -8,7 +8,7 @@ use super::symbol::{Sym, SymbolTable};
 
 /// A package of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct PackageId(pub u16);
+pub struct PackageId(pub u32);
 
 /// How a name is accessible in a package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -40,10 +40,29 @@ pub struct Package {
 }
 
 /// All packages of an image. Copies share the packages until one changes them.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct PackageTable {
     packages: Vec<Rc<Package>>,
     by_name: BTreeMap<Rc<str>, PackageId>,
+    /// Those that have not been deleted.
+    present: BTreeSet<PackageId>,
+    /// What is known of all that have been deleted.
+    deleted: Rc<Package>,
+}
+
+impl Default for PackageTable {
+    fn default() -> Self {
+        let deleted = Package {
+            name: "(deleted)".into(),
+            ..Package::default()
+        };
+        Self {
+            packages: Vec::new(),
+            by_name: BTreeMap::new(),
+            present: BTreeSet::new(),
+            deleted: Rc::new(deleted),
+        }
+    }
 }
 
 impl PackageTable {
@@ -61,9 +80,10 @@ impl PackageTable {
         if self.find(name).is_some() || nicknames.iter().any(|n| self.find(n).is_some()) {
             return None;
         }
-        let id = PackageId(u16::try_from(self.packages.len()).ok()?);
+        let id = PackageId(u32::try_from(self.packages.len()).ok()?);
         let name: Rc<str> = name.into();
         self.by_name.insert(name.clone(), id);
+        self.present.insert(id);
         self.packages.push(Rc::new(Package {
             name,
             ..Package::default()
@@ -88,19 +108,31 @@ impl PackageTable {
         self.by_name.get(name).copied()
     }
 
-    /// Forgets a package's names, so that it can no longer be found.
+    /// Forgets a package, so that it can no longer be found. A program may still hold it.
     pub fn delete(&mut self, id: PackageId) {
-        self.by_name.retain(|_, found| *found != id);
+        self.forget_names(id);
+        self.present.remove(&id);
+        self.packages[id.0 as usize] = self.deleted.clone();
+    }
+
+    /// Forgets the names of a package.
+    fn forget_names(&mut self, id: PackageId) {
+        let package = &self.packages[id.0 as usize];
+        for name in package.nicknames.iter().chain([&package.name]) {
+            if self.by_name.get(name) == Some(&id) {
+                self.by_name.remove(name);
+            }
+        }
     }
 
     /// The package.
     pub fn get(&self, id: PackageId) -> &Package {
-        &self.packages[usize::from(id.0)]
+        &self.packages[id.0 as usize]
     }
 
     /// The package, mutably.
     pub fn get_mut(&mut self, id: PackageId) -> &mut Package {
-        Rc::make_mut(&mut self.packages[usize::from(id.0)])
+        Rc::make_mut(&mut self.packages[id.0 as usize])
     }
 
     /// All names and nicknames with their packages, by name.
@@ -108,9 +140,15 @@ impl PackageTable {
         self.by_name.iter().map(|(name, id)| (name.as_ref(), *id))
     }
 
-    /// All packages, in order of creation.
+    /// All packages that have not been deleted, in order of creation.
     pub fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
-        (0..self.packages.len()).filter_map(|i| u16::try_from(i).ok().map(PackageId))
+        let ids: Vec<PackageId> = self.present.iter().copied().collect();
+        ids.into_iter()
+    }
+
+    /// How many packages have been made, those included that have been deleted.
+    pub(crate) fn made(&self) -> usize {
+        self.packages.len()
     }
 
     /// The symbol accessible under a name in a package.
@@ -178,7 +216,9 @@ impl PackageTable {
 
     /// Removes a package from those that another uses.
     pub(crate) fn unuse_package(&mut self, package: PackageId, used: PackageId) {
-        self.get_mut(package).uses.retain(|id| *id != used);
+        if self.get(package).uses.contains(&used) {
+            self.get_mut(package).uses.retain(|id| *id != used);
+        }
     }
 
     /// Makes an exported symbol internal again.
@@ -234,7 +274,7 @@ impl PackageTable {
         if taken(name) || nicknames.iter().any(|n| taken(n)) {
             return false;
         }
-        self.by_name.retain(|_, found| *found != id);
+        self.forget_names(id);
         self.by_name.insert(name.into(), id);
         let this = self.get_mut(id);
         this.name = name.into();
@@ -247,6 +287,6 @@ impl PackageTable {
 
     /// Has the package been deleted?
     pub fn is_deleted(&self, id: PackageId) -> bool {
-        self.find(&self.get(id).name) != Some(id)
+        !self.present.contains(&id)
     }
 }

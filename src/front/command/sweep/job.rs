@@ -71,6 +71,15 @@ struct End {
 }
 
 impl Plan {
+    /// Reads what is to be done, or says what is wrong.
+    fn read(text: &str) -> Result<Self, String> {
+        let plan: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        match plan.mistake() {
+            Some(mistake) => Err(mistake),
+            None => Ok(plan),
+        }
+    }
+
     /// What is wrong with it, if anything is.
     fn mistake(&self) -> Option<String> {
         let (worlds, shards) = (self.worlds, self.shards);
@@ -154,13 +163,9 @@ impl Job {
             path: path.clone(),
             error,
         })?;
-        let wrong = |what: String| {
+        let plan = Plan::read(&text).map_err(|what| {
             CommandError::Sweep(format!("{} describes no sweep: {what}", path.display()))
-        };
-        let plan: Plan = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-        if let Some(mistake) = plan.mistake() {
-            return Err(wrong(mistake));
-        }
+        })?;
         Ok(Self { folder, plan })
     }
 
@@ -218,13 +223,8 @@ impl Job {
 
     /// Writes a shard.
     pub(super) fn write(&self, shard: u64, records: &[Record]) -> Result<(), CommandError> {
-        let text = lines(records);
-        let end = End {
-            count: records.len() as u64,
-            hash: checksum(&text),
-        };
-        let end = serde_json::to_string(&end).unwrap_or_default();
-        let written = write_whole(&self.path_of(shard), format!("{text}{end}\n").as_bytes());
+        let text = sealed(lines(records), records.len() as u64);
+        let written = write_whole(&self.path_of(shard), text.as_bytes());
         // Somebody else may have done it meanwhile, and tidied up.
         written.or_else(|error| self.read(shard).map(drop).map_err(|_| error))
     }
@@ -252,35 +252,13 @@ impl Job {
 
     /// The records of a shard.
     pub(super) fn read(&self, shard: u64) -> Result<Vec<Record>, Lack> {
-        let damaged = |why: &str| Lack::Damaged(why.to_owned());
         let text = fs::read_to_string(self.path_of(shard));
         let text = text.map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => Lack::Missing,
-            io::ErrorKind::InvalidData => damaged("it is not UTF-8"),
+            io::ErrorKind::InvalidData => Lack::Damaged("it is not UTF-8".to_owned()),
             _ => Lack::Damaged(error.to_string()),
         })?;
-        let cut_off = || damaged("it is cut off: no count and checksum at its end");
-        let body = text.strip_suffix('\n').ok_or_else(cut_off)?;
-        let at = body.rfind('\n').map_or(0, |at| at + 1);
-        let (text, end) = body.split_at(at);
-        let end: End = serde_json::from_str(end).map_err(|_| cut_off())?;
-        if end.hash != checksum(text) {
-            return Err(damaged("its checksum is not that of its records"));
-        }
-        let records: Result<Vec<Record>, Lack> = text
-            .lines()
-            .zip(1..)
-            .map(|(line, number)| {
-                let read = serde_json::from_str(line);
-                read.map_err(|error| Lack::Damaged(format!("line {number}: {error}")))
-            })
-            .collect();
-        let records = records?;
-        let worlds = records.iter().map(|record| record.world);
-        match end.count == records.len() as u64 && worlds.eq(self.worlds_of(shard)) {
-            true => Ok(records),
-            false => Err(damaged("it does not have the worlds of this shard")),
-        }
+        unsealed(&text, self.worlds_of(shard)).map_err(Lack::Damaged)
     }
 
     /// Whether the records of a shard are there.
@@ -335,6 +313,54 @@ pub(super) fn files(folder: &Path) -> Vec<PathBuf> {
     files.retain(|path| path.is_file());
     files.sort();
     files
+}
+
+/// The lines of a shard with the line at its end.
+fn sealed(lines: String, count: u64) -> String {
+    let hash = checksum(&lines);
+    let end = serde_json::to_string(&End { count, hash }).unwrap_or_default();
+    format!("{lines}{end}\n")
+}
+
+/// The records of these worlds in the text of a shard, or how it is damaged.
+fn unsealed(text: &str, worlds: impl Iterator<Item = u64>) -> Result<Vec<Record>, String> {
+    let cut_off = || "it is cut off: no count and checksum at its end".to_owned();
+    let body = text.strip_suffix('\n').ok_or_else(cut_off)?;
+    let at = body.rfind('\n').map_or(0, |at| at + 1);
+    let (text, end) = body.split_at(at);
+    let end: End = serde_json::from_str(end).map_err(|_| cut_off())?;
+    if end.hash != checksum(text) {
+        return Err("its checksum is not that of its records".to_owned());
+    }
+    let lines = text.lines().zip(1..);
+    let records = lines.map(|(line, number)| {
+        let read = serde_json::from_str(line);
+        read.map_err(|error| format!("line {number}: {error}"))
+    });
+    let records: Vec<Record> = records.collect::<Result<_, _>>()?;
+    let found = records.iter().map(|record| record.world);
+    match end.count == records.len() as u64 && found.eq(worlds) {
+        true => Ok(records),
+        false => Err("it does not have the worlds of this shard".to_owned()),
+    }
+}
+
+/// The texts of a sweep's files, for whoever tries how they are read.
+#[cfg(any(test, fuzzing))]
+pub(crate) mod texts {
+    use super::{Plan, Record, sealed, unsealed};
+
+    /// Whether a text says what a sweep is to do.
+    pub(crate) fn is_plan(text: &str) -> bool {
+        Plan::read(text).is_ok()
+    }
+
+    /// The records of a shard with these lines, which has the first worlds.
+    pub(crate) fn shard(lines: &str) -> Result<Vec<Record>, String> {
+        let lines = format!("{}\n", lines.trim_end_matches('\n'));
+        let count = lines.lines().count() as u64;
+        unsealed(&sealed(lines, count), 0..count)
+    }
 }
 
 /// Records as lines of JSON.

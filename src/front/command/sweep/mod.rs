@@ -29,6 +29,8 @@ use descriptions::ROBOTS;
 use episodes::Episodes;
 use file::sweep_file;
 use heat_map::HeatMap;
+#[cfg(any(test, fuzzing))]
+pub(crate) use job::texts;
 use job::{Job, lines, write_whole};
 use kept::Kept;
 use kitchens::KitchenTable;

@@ -12,5 +12,5 @@ mod socket;
 
 pub(crate) use socket::{Kind, PeerNumber, Socket};
 
-#[cfg(test)]
+#[cfg(any(test, fuzzing))]
 pub(crate) use frame::{encoded, read_frame};

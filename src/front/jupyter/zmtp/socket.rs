@@ -116,7 +116,7 @@ impl Socket {
     }
 
     /// Where it listens.
-    #[cfg(test)]
+    #[cfg(any(test, fuzzing))]
     pub(crate) fn address(&self) -> SocketAddr {
         self.0.address
     }
