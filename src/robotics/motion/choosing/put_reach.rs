@@ -1,6 +1,7 @@
 //! Whether a hand could put down what it holds with the base at some pose, without moving
 //! anything.
 
+use std::cell::{Cell, RefCell};
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Translation3, Vector3};
@@ -8,6 +9,7 @@ use nalgebra::{Translation3, Vector3};
 use super::aligned_bases::AlignedBases;
 use super::grasp_chooser::{TURNS, about_z};
 use super::grasp_reach::{Effort, GraspReach, Station};
+use super::lone_hand::{LoneHand, Looked};
 use super::overhead::Overhead;
 use super::shoulder::Shoulder;
 use crate::motion::contact::hand::releasing_opening;
@@ -146,6 +148,9 @@ pub struct PutReach<'w> {
     /// How far (m) the wrist is from the object.
     span: f64,
     overhead: Overhead<'w>,
+    /// What keeps the hand from each heading wherever the base is, as far as that has been looked at.
+    barred: RefCell<Vec<Option<GraspObstacle>>>,
+    looked: Cell<Looked>,
 }
 
 impl<'w> PutReach<'w> {
@@ -162,7 +167,40 @@ impl<'w> PutReach<'w> {
             target,
             reach: GraspReach::new(world, Some(&grip.object), true),
             shoulder: Shoulder::of(world, grip.side, true),
+            barred: RefCell::new(vec![None; grip.headings().len()]),
+            looked: Cell::default(),
         })
+    }
+
+    /// Whether the hand is kept from every heading wherever the base is, as far as that has been looked at.
+    pub(crate) fn is_barred_everywhere(&self) -> bool {
+        self.barred.borrow().iter().all(Option::is_some)
+    }
+
+    /// After a base pose in vain, rules the headings out at which the hand, or the forearm, has no room where
+    /// the hand lets go and on its way off the object.
+    fn bar_without_room(&self) {
+        let Some(next) = self.looked.get().next(self.postures()) else {
+            return;
+        };
+        self.looked.set(next);
+        let HeldGrip { side, opening, .. } = *self.grip;
+        let object = Some(self.grip.object.as_str());
+        let Some(mut hand) = LoneHand::new(self.world, side, opening, object) else {
+            return;
+        };
+        let mut barred = self.barred.borrow_mut();
+        for (heading, barred) in self.grip.headings().into_iter().zip(barred.iter_mut()) {
+            if barred.is_some() {
+                continue;
+            }
+            let poses = self.grip.poses(&(self.target * about_z(heading)));
+            // With the base at the origin, the poses of the tool are those in the map. The lift is along the
+            // axes of the base.
+            let [_, off @ ..] = self.overhead.putting(&Pose::identity(), poses);
+            let part = GraspPart::Lift;
+            *barred = hand.obstacle(&off.map(|tool| Station { part, tool }), next);
+        }
     }
 
     /// Number of postures that have been checked for collisions.
@@ -193,7 +231,11 @@ impl<'w> PutReach<'w> {
         let object = base.inverse() * self.target;
         let mut from = self.reach.with_base_at(base, effort);
         let mut nearest = None;
-        for heading in self.grip.headings() {
+        for (index, heading) in self.grip.headings().into_iter().enumerate() {
+            if let Some(Some(obstacle)) = self.barred.borrow().get(index) {
+                nearest = Some(obstacle.clone());
+                continue;
+            }
             let poses = self.grip.poses(&(object * about_z(heading)));
             let poses = self.overhead.putting(base, poses);
             // Things come to stand a little farther away than planned.
@@ -209,6 +251,7 @@ impl<'w> PutReach<'w> {
                 Err(obstacle) => nearest = Some(obstacle),
             }
         }
+        self.bar_without_room();
         let part = GraspPart::Lift;
         Err(nearest.unwrap_or(GraspObstacle::OutOfReach { part }))
     }
