@@ -5,7 +5,7 @@ use super::Simulation;
 use super::imagined::Imagined;
 use robotics::motion::{
     Candidates, Effort, GraspChoice, GraspChooser, GraspObstacle, GraspPart, GraspQuestion,
-    HeldGrip, MotionFailure, PutReach, needed, plan_grasp,
+    HeldGrip, MotionFailure, PathSearch, PutReach, needed, plan_grasp,
 };
 use robotics::robot::Side;
 use robotics::world::World;
@@ -13,6 +13,8 @@ use spatial::Pose;
 
 /// Maximum number of grasps for which a path is searched.
 const MAX_PATHS: usize = 6;
+/// For how many of them it is searched longer, if none is found soon.
+const MAX_LONG_SEARCHES: usize = 1;
 
 /// How many base poses at which something is in the way of a few postures are examined again, with
 /// more postures, when no other will do.
@@ -40,6 +42,7 @@ impl Simulation {
         let candidates = Candidates::new(&self.models, &self.grasps, question);
         let chooser = GraspChooser::new(&self.world, question, &candidates);
         let mut paths = 0;
+        let mut unsure = Vec::new();
         let here = self.base();
         let mut targets = TargetChecks::default();
         let choice = chooser.choose(base.unwrap_or(&here), Effort::THOROUGH, |choice| {
@@ -54,20 +57,39 @@ impl Simulation {
                 let report = "too many others have none".to_owned();
                 return Err(GraspObstacle::NoPath { report });
             }
-            let stations = needed(&choice.poses);
-            plan_grasp(
-                &self.world,
-                choice.side,
-                &question.object,
-                choice.opening,
-                &choice.poses.pregrasp,
-                &stations,
-            )
-            .map_err(|failure| GraspObstacle::NoPath {
-                report: failure.to_string().lines().collect::<Vec<_>>().join(" "),
-            })
+            self.path_to(question, choice, PathSearch::Short)
+                .map_err(|failure| {
+                    unsure.push(choice.clone());
+                    GraspObstacle::NoPath {
+                        report: failure.to_string().lines().collect::<Vec<_>>().join(" "),
+                    }
+                })
         });
-        choice.map_err(MotionFailure::NoGrasp)
+        choice.or_else(|nothing| {
+            // A long search may find what a short one has not.
+            let mut unsure = unsure.into_iter().take(MAX_LONG_SEARCHES);
+            unsure
+                .find(|choice| self.path_to(question, choice, PathSearch::Long).is_ok())
+                .ok_or(MotionFailure::NoGrasp(nothing))
+        })
+    }
+
+    /// Whether a path leads to a grasp, and off again, from where the robot stands.
+    fn path_to(
+        &self,
+        question: &GraspQuestion,
+        choice: &GraspChoice,
+        search: PathSearch,
+    ) -> Result<(), MotionFailure> {
+        plan_grasp(
+            &self.world,
+            choice.side,
+            &question.object,
+            choice.opening,
+            &choice.poses.pregrasp,
+            &needed(&choice.poses),
+            search,
+        )
     }
 }
 
