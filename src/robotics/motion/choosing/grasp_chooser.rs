@@ -17,7 +17,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::aligned_bases::AlignedBases;
 use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
 use super::lone_hand::{LoneHand, Looked};
-use super::overhead::Overhead;
+use super::overhead::{Overhead, lifting};
 use super::shoulder::Shoulder;
 use crate::motion::contact::grip_torque::{ExcessTorque, Pads};
 use crate::motion::contact::holding::held_objects;
@@ -309,9 +309,33 @@ impl<'w> GraspChooser<'w> {
     /// After a base pose in vain, rules the candidates out for which the hand, or the forearm, has no room
     /// where the hand approaches or grasps.
     fn bar_without_room(&self) {
-        let Some(next) = self.candidates.looked.get().next(self.postures()) else {
-            return;
-        };
+        if let Some(next) = self.candidates.looked.get().next(self.postures()) {
+            self.bar_where(next);
+        }
+    }
+
+    /// The hands and grasps, each with one angle by which it may be turned, for which the hand has room at the
+    /// object, wherever the base is.
+    pub fn with_room(&self) -> Vec<(Side, String, f64)> {
+        if self.candidates.looked.get() < Looked::Hand {
+            self.bar_where(Looked::Hand);
+        }
+        let mut found: Vec<(Side, String, f64)> = Vec::new();
+        for (index, candidate) in self.candidates.all.iter().enumerate() {
+            let is_new = || {
+                !found
+                    .iter()
+                    .any(|(side, grasp, _)| *side == candidate.side && *grasp == candidate.grasp)
+            };
+            if self.known_obstacle(index).is_none() && is_new() {
+                found.push((candidate.side, candidate.grasp.clone(), candidate.turn));
+            }
+        }
+        found
+    }
+
+    /// Rules the candidates out that have no room where it is looked for.
+    fn bar_where(&self, next: Looked) {
         self.candidates.looked.set(next);
         let mut hands: Vec<(Side, f64, LoneHand<'_>)> = Vec::new();
         for (index, candidate) in self.candidates.all.iter().enumerate() {
@@ -373,7 +397,7 @@ impl<'w> GraspChooser<'w> {
         let arm = self.world.models().description.arm(candidate.side);
         let turned = object * about_z(candidate.turn);
         let poses = candidate.definition.tool_poses(&turned, &arm.tool_axes);
-        let poses = poses.ok()?;
+        let poses = lifting(poses.ok()?);
         Some(match &self.overhead {
             Some(overhead) => overhead.picking(base, poses),
             None => poses,

@@ -10,14 +10,15 @@ use super::aligned_bases::AlignedBases;
 use super::grasp_chooser::{TURNS, about_z};
 use super::grasp_reach::{Effort, GraspReach, Station};
 use super::lone_hand::{LoneHand, Looked};
-use super::overhead::Overhead;
+use super::overhead::{Overhead, over};
 use super::shoulder::Shoulder;
-use crate::motion::contact::hand::releasing_opening;
+use crate::motion::contact::grip_torque::Pads;
+use crate::motion::contact::hand::{releasing_from, releasing_opening};
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::robot::Side;
 use crate::world::grasp_library::{GraspDefinition, Lift, NotARotation};
 use crate::world::{Models, World, WorldError};
-use spatial::Pose;
+use spatial::{Pose, pose};
 
 /// How far (m) the hand lifts and withdraws if it is not known how it has grasped the object.
 const UP: [f64; 3] = [0.0, 0.0, 0.15];
@@ -108,6 +109,42 @@ impl HeldGrip {
         })
     }
 
+    /// The grip with the fingers opened as far as they will be to let go of the object, whose shape tells how far
+    /// apart they are when they hold it.
+    #[must_use]
+    pub fn letting_go(mut self, world: &World) -> Self {
+        let gripper = &world.models().description.arm(self.side).gripper;
+        let (Ok(object), Ok(at)) = (world.object(&self.object), world.object_pose(&self.object))
+        else {
+            return self;
+        };
+        let tool = at * self.tool_in_object;
+        let pads = Pads::closing(gripper, object, &at, &tool, self.opening, gripper.effort);
+        if let Some(gap) = pads.map(|pads| pads.gap()).filter(|gap| *gap < self.opening) {
+            self.opening = releasing_from(gripper, gap);
+        }
+        self
+    }
+
+    /// Whether the hand holds the object as in another grip, but for an angle about the axis of a round object, by which
+    /// it may be turned where it is put down.
+    pub fn is_same_but_turned(&self, other: &Self) -> bool {
+        const NEAR: (f64, f64) = (1e-6, 1e-6);
+        const OPENING: f64 = 2e-3;
+        let is_alike = self.object == other.object && self.side == other.side;
+        if !is_alike || (self.opening - other.opening).abs() > OPENING {
+            return false;
+        }
+        let upright = Pose::identity();
+        let [own, others] = [self, other].map(|grip| grip.poses(&upright));
+        self.headings().into_iter().any(|heading| {
+            let turned = others.iter().map(|pose| about_z(heading) * *pose);
+            own.iter().zip(turned).all(|(a, b)| {
+                pose::distance_between(a, &b) < NEAR.0 && pose::angle_between(a, &b) < NEAR.1
+            })
+        })
+    }
+
     /// The headings (rad, relative to the one that is wanted) at which the object may be put down,
     /// the nearest first.
     pub fn headings(&self) -> Vec<f64> {
@@ -129,9 +166,10 @@ impl HeldGrip {
             let offset = turn * Vector3::from(offset);
             object * Translation3::from(offset) * self.tool_in_object
         };
+        let at = tool([0.0; 3]);
         [
-            self.lift.in_base * tool(self.lift.offset),
-            tool([0.0; 3]),
+            over(&at, self.lift.in_base * tool(self.lift.offset)),
+            at,
             tool(self.second_pregrasp),
             tool(self.pregrasp),
         ]
@@ -173,16 +211,36 @@ impl<'w> PutReach<'w> {
     }
 
     /// Whether the hand is kept from every heading wherever the base is, as far as that has been looked at.
-    pub(crate) fn is_barred_everywhere(&self) -> bool {
+    pub fn is_barred_everywhere(&self) -> bool {
         self.barred.borrow().iter().all(Option::is_some)
+    }
+
+    /// Whether the hand has room there at any heading, wherever the base is. For whoever then asks for a few base
+    /// poses only: room for the forearm is not looked for any more, which takes longer than those.
+    pub fn has_room(&self) -> bool {
+        if self.looked.get() < Looked::Hand {
+            self.bar_where(Looked::Hand);
+        }
+        self.looked.set(Looked::Forearm);
+        !self.is_barred_everywhere()
+    }
+
+    /// What keeps the hand from the place at the heading that is wanted, wherever the base is, as far as that has
+    /// been looked at.
+    pub fn known_obstacle(&self) -> Option<GraspObstacle> {
+        self.barred.borrow().first().cloned().flatten()
     }
 
     /// After a base pose in vain, rules the headings out at which the hand, or the forearm, has no room where
     /// the hand lets go and on its way off the object.
     fn bar_without_room(&self) {
-        let Some(next) = self.looked.get().next(self.postures()) else {
-            return;
-        };
+        if let Some(next) = self.looked.get().next(self.postures()) {
+            self.bar_where(next);
+        }
+    }
+
+    /// Rules the headings out that have no room where it is looked for.
+    fn bar_where(&self, next: Looked) {
         self.looked.set(next);
         let HeldGrip { side, opening, .. } = *self.grip;
         let object = Some(self.grip.object.as_str());
@@ -204,7 +262,7 @@ impl<'w> PutReach<'w> {
     }
 
     /// Number of postures that have been checked for collisions.
-    pub(crate) fn postures(&self) -> u32 {
+    pub fn postures(&self) -> u32 {
         self.reach.postures()
     }
 
