@@ -3,9 +3,9 @@
 use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
-use crate::simulation::target_checks::{PlacingTarget, TargetGrasps};
 use crate::simulation::motions::{self, side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
+use crate::simulation::target_checks::{PlacingTarget, TargetGrasps};
 use cram::Reply;
 use indexmap::IndexMap;
 use lisp::builtin::{Builtin, control};
@@ -15,33 +15,37 @@ use lisp::typed::keywords;
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::motion::GraspQuestion;
 use robotics::motion::interruption::interruptible;
+use robotics::motion::{GraspObstacle, GraspQuestion};
 use robotics::robot::Side;
 use spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(super) static TABLE: &[Builtin] = &[control(
-    "CHOOSE-GRASP",
-    "object &key arms grasps base-pose target target-base-pose failed",
-    "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",
-    &[],
-    host!(choose_grasp),
-), control(
-    "GRASPS-FOR-TARGET",
-    "object target &key arms grasps",
-    "The arms and grasps by which a perceived object can be put down at a pose, wherever the robot stands, of those for which the hand has room where the object is now: a list of lists of an arm and its grasps. If there are none, the second value tells why, and the third one is true if the hand has no room at the target for any of them. The fourth one is true if the object is round and no grasps are given, so that the grasps are also turned about its axis; the fifth one if all will do for which there is room.",
-    &[],
-    host!(grasps_for_target),
-), control(
-    "ROOM-TO-PUT-DOWN-P",
-    "arm name target",
-    "Has the hand that holds an object of the world room to put it down at a pose, wherever the robot stands?",
-    &[],
-    host!(room_to_put_down),
-)];
+pub(super) static TABLE: &[Builtin] = &[
+    control(
+        "CHOOSE-GRASP",
+        "object &key arms grasps base-pose target target-base-pose failed",
+        "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",
+        &[],
+        host!(choose_grasp),
+    ),
+    control(
+        "GRASPS-FOR-TARGET",
+        "object target &key arms grasps",
+        "The arms and grasps by which a perceived object can be put down at a pose, wherever the robot stands, of those for which the hand has room where the object is now: a list of lists of an arm and its grasps. If there are none, the second value tells why, and the third one is true if the hand has no room at the target for any of them. The fourth one is true if the object is round and no grasps are given, so that the grasps are also turned about its axis; the fifth one if all will do for which there is room.",
+        &[],
+        host!(grasps_for_target),
+    ),
+    control(
+        "ROOM-TO-PUT-DOWN-P",
+        "arm name target",
+        "Has the hand that holds an object of the world room to put it down at a pose, wherever the robot stands?",
+        &[],
+        host!(room_to_put_down),
+    ),
+];
 
 /// One thing or a list of things.
 fn listed(value: Option<Value>) -> Vec<Value> {
@@ -168,6 +172,10 @@ fn room_to_put_down(
 fn why_none(found: &TargetGrasps) -> Option<String> {
     let mut causes: IndexMap<String, usize> = IndexMap::new();
     for (.., obstacle) in &found.others {
+        let obstacle = match obstacle {
+            GraspObstacle::NotAtTarget { obstacle } => obstacle,
+            other => other,
+        };
         *causes.entry(obstacle.to_string()).or_default() += 1;
     }
     let most = causes.values().copied().max()?;

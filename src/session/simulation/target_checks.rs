@@ -152,11 +152,11 @@ impl TargetChecks {
         if let Some((_, _, known)) = known {
             return known.clone();
         }
-        let checked =
-            self.test(simulation, question, target, way)
-                .map_err(|obstacle| GraspObstacle::NotAtTarget {
-                    obstacle: Box::new(obstacle),
-                });
+        let checked = self
+            .test(simulation, question, target, way)
+            .map_err(|obstacle| GraspObstacle::NotAtTarget {
+                obstacle: Box::new(obstacle),
+            });
         self.done
             .push((way.side, way.grasp.to_owned(), checked.clone()));
         checked
@@ -190,7 +190,10 @@ impl TargetChecks {
         let Ok(grip) = grip.map(|grip| grip.letting_go(world)) else {
             return Err(nowhere);
         };
-        let known = self.grips.iter().find(|(known, _)| known.is_same_but_turned(&grip));
+        let known = self
+            .grips
+            .iter()
+            .find(|(known, _)| known.is_same_but_turned(&grip));
         if let Some((_, known)) = known {
             return known.clone();
         }

@@ -120,7 +120,10 @@ impl HeldGrip {
         };
         let tool = at * self.tool_in_object;
         let pads = Pads::closing(gripper, object, &at, &tool, self.opening, gripper.effort);
-        if let Some(gap) = pads.map(|pads| pads.gap()).filter(|gap| *gap < self.opening) {
+        if let Some(gap) = pads
+            .map(|pads| pads.gap())
+            .filter(|gap| *gap < self.opening)
+        {
             self.opening = releasing_from(gripper, gap);
         }
         self
