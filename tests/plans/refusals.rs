@@ -141,8 +141,8 @@ fn a_target_to_which_no_way_leads_is_given_up_earlier_than_one_that_is_no_good()
          (defparameter *class* 'object-undeliverable)
          (defparameter *tried* '())
          (system:without-package-locks
-           (defun deliver-to (object place stand action)
-             (declare (ignore object stand action))
+           (defun deliver-to (object place stand action most-stands)
+             (declare (ignore object stand action most-stands))
              (push (cl-tf:x (cl-tf:origin (desig:reference place))) *tried*)
              (cpl:fail *class* :description \"as the test wants it\")))",
     );
