@@ -57,6 +57,7 @@ pub const LIBRARY: &[(&str, &str)] = library![
     "two-hands.plan",
     "searching.plan",
     "fetching.plan",
+    "fetching-for-target.plan",
     "delivering.plan",
     "transporting.plan",
     "pointing.plan",

@@ -33,6 +33,7 @@ mod parking;
 mod past;
 mod published_code;
 mod putting_down;
+mod quick_answers;
 mod random_scenes;
 mod rays;
 mod real_robot;

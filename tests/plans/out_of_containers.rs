@@ -233,7 +233,7 @@ fn milk_that_stands_askew_at_the_back_of_the_fridge_is_taken_over_its_edge() {
 #[test]
 fn milk_is_grasped_for_a_place_in_the_fridge_where_it_can_be_put_down() {
     let fridge = &STORES[1];
-    for seed in [2, 3, 5] {
+    for seed in [1, 2, 3, 5] {
         let mut cook = Cook::with_seed(seed);
         cook.done(PLAN);
         cook.done(

@@ -141,8 +141,8 @@ fn a_target_to_which_no_way_leads_is_given_up_earlier_than_one_that_is_no_good()
          (defparameter *class* 'object-undeliverable)
          (defparameter *tried* '())
          (system:without-package-locks
-           (defun deliver-to (object place stand action)
-             (declare (ignore object stand action))
+           (defun deliver-to (object place stand action most-stands)
+             (declare (ignore object stand action most-stands))
              (push (cl-tf:x (cl-tf:origin (desig:reference place))) *tried*)
              (cpl:fail *class* :description \"as the test wants it\")))",
     );
@@ -161,4 +161,5 @@ fn a_target_to_which_no_way_leads_is_given_up_earlier_than_one_that_is_no_good()
     let count = |said: String| said.lines().last().unwrap_or_default().to_owned();
     assert!(count(cook.done(&deliver("object-undeliverable"))).starts_with("13"));
     assert!(count(cook.done(&deliver("no-way-to-target"))).starts_with("3"));
+    assert!(count(cook.done(&deliver("no-stand-for-target"))).starts_with("4"));
 }

@@ -31,8 +31,11 @@ const MAX_CHECKS: u32 = 5000;
 const MAX_AGAIN: usize = 1000;
 /// A part of the search ends when so many postures of the arms have been checked for collisions: most
 /// of the time goes there, about 10 µs for each. Where there is a place, hundreds are enough most of the
-/// time; a cup in a corner with boxes in front of it takes 65,000 and then 335,000.
-const MAX_POSTURES: [u32; 3] = [70_000, 350_000, 40_000];
+/// time; a cup in a corner with boxes in front of it takes 6,000 and then 28,000.
+const MAX_POSTURES: [u32; 3] = [15_000, 36_000, 8_000];
+/// A search also ends when the target has been in reach from so many base poses, but out of sight from all of them:
+/// looking takes a millisecond, and whoever asks may do without sight.
+const MAX_UNSEEN: u32 = 400;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -49,6 +52,8 @@ pub(super) struct BaseSearch {
     checks: u32,
     /// Number of postures that have been checked in each part, in the first one since it has found one.
     postures: [u32; 3],
+    /// Number of base poses from which only sight was wanting, since one has been found.
+    unseen: u32,
     walk: Walk,
     /// Base poses near the one that the walk has come to, if the arms need such.
     beside: VecDeque<Pose>,
@@ -112,6 +117,7 @@ impl BaseSearch {
             imagined,
             checks: 0,
             postures: [0; 3],
+            unseen: 0,
             walk: Walk::first(query, map.cells.clone(), draw),
             map,
             beside: VecDeque::new(),
@@ -140,6 +146,7 @@ impl BaseSearch {
             goal,
             checks,
             postures,
+            unseen,
             walk,
             beside,
             again,
@@ -188,6 +195,10 @@ impl BaseSearch {
                     Err(rejection) if rejection.is_unseen => tally.note_unseen(),
                     Err(_) => {}
                 }
+                if test.reach.has_no_room() {
+                    tally.add(no_room(query));
+                    return Ok(None);
+                }
                 continue;
             }
             let base = match beside.pop_front() {
@@ -209,7 +220,7 @@ impl BaseSearch {
             }
             match test.run(&base, Effort::QUICK, checks)? {
                 Ok(()) => {
-                    *checks = 0;
+                    (*checks, *unseen) = (0, 0);
                     postures[Part::First as usize] = 0;
                     return Ok(Some(base));
                 }
@@ -219,8 +230,18 @@ impl BaseSearch {
                     }
                     if rejection.is_unseen {
                         tally.note_unseen();
+                        *unseen += 1;
+                        if *unseen >= MAX_UNSEEN {
+                            tally.add(rejection.cause);
+                            tally.give_up();
+                            return Ok(None);
+                        }
                     }
                     tally.add(rejection.cause);
+                    if test.reach.has_no_room() {
+                        tally.add(no_room(query));
+                        return Ok(None);
+                    }
                 }
             }
             if *checks >= MAX_CHECKS {
@@ -328,6 +349,11 @@ impl<'a> Test<'a> {
             NoReach::InTheWay => format!("with something in the way to {name}"),
         }
     }
+}
+
+/// Why no base pose will do if the hands have no room.
+fn no_room(query: &BaseQuery) -> String {
+    format!("with no room for a hand at {}", query.target.name)
 }
 
 /// The part of the floor (m) that is searched.

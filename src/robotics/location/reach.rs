@@ -164,6 +164,15 @@ impl<'a> Reach<'a> {
         is_near.then_some(()).ok_or(NoReach::TooFar)
     }
 
+    /// Whether it has been found that the hands have no room at the target, wherever the base is.
+    pub(super) fn has_no_room(&self) -> bool {
+        match self {
+            Self::Grasp(chooser, _) => chooser.is_barred_everywhere(),
+            Self::Put(put) => put.is_barred_everywhere(),
+            Self::Open(_) | Self::Point(..) | Self::Nothing => false,
+        }
+    }
+
     /// The base poses near one (map frame) from which the target may be reached: that one, unless the arms
     /// have to be turned towards it.
     pub(super) fn bases_near(&self, base: &Pose) -> Vec<Pose> {
@@ -175,13 +184,14 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// Number of postures of the arms that have been checked for collisions, as far as they are counted.
+    /// Number of postures of the arms that have been checked.
     pub(super) fn postures(&self) -> u32 {
         match self {
             Self::Grasp(chooser, _) => chooser.postures(),
             Self::Put(put) => put.postures(),
             Self::Point(reach, ..) => reach.postures(),
-            Self::Open(_) | Self::Nothing => 0,
+            Self::Open(chooser) => chooser.points(),
+            Self::Nothing => 0,
         }
     }
 

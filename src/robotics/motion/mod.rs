@@ -50,6 +50,7 @@ pub use planning::base_checker::BaseChecker;
 pub(crate) use planning::base_path::MIN_MARGIN;
 pub use planning::drive_plan::plan_drive;
 pub use planning::interruption;
+pub use planning::pose_goal::PathSearch;
 pub use planning::rigid_loop::{GREATEST_STRAIN, strain};
 pub use planning::straight_way::{WayBegin, WayStart, WaysStart, straight_way, straight_ways};
 pub use trajectories::axis_group::AxisGroup;

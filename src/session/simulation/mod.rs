@@ -23,6 +23,7 @@ pub(super) mod real;
 pub(super) mod seen;
 mod sweep_world;
 mod tally;
+pub(super) mod target_checks;
 pub(super) mod transforms;
 
 use std::cell::{OnceCell, RefCell};

@@ -9,14 +9,15 @@
 //! tests come first, and what keeps the hand itself from a grasp is found out once, since it does
 //! not depend on where the base is. Whether a path leads to the grasp is not checked.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::aligned_bases::AlignedBases;
 use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
-use super::overhead::Overhead;
+use super::lone_hand::{LoneHand, Looked};
+use super::overhead::{Overhead, lifting};
 use super::shoulder::Shoulder;
 use crate::motion::contact::grip_torque::{ExcessTorque, Pads};
 use crate::motion::contact::holding::held_objects;
@@ -97,6 +98,8 @@ pub struct Candidates {
     refusal: Option<String>,
     /// What keeps the hand from each of them wherever the base is, as far as it is known.
     barred: RefCell<Vec<Option<GraspObstacle>>>,
+    /// What has been looked at of the room for hands.
+    looked: Cell<Looked>,
 }
 
 impl Candidates {
@@ -109,6 +112,7 @@ impl Candidates {
             all,
             refusal,
             barred,
+            looked: Cell::default(),
         }
     }
 
@@ -167,6 +171,12 @@ impl<'w> GraspChooser<'w> {
         let is_heavy =
             |one: &Option<GraspObstacle>| matches!(one, Some(GraspObstacle::TooHeavy { .. }));
         !barred.is_empty() && barred.iter().all(is_heavy)
+    }
+
+    /// Whether every candidate is ruled out wherever the base is, as far as that is known.
+    pub(crate) fn is_barred_everywhere(&self) -> bool {
+        let count = self.candidates.all.len();
+        count > 0 && (0..count).all(|index| self.known_obstacle(index).is_some())
     }
 
     /// Number of postures that have been checked for collisions.
@@ -278,6 +288,7 @@ impl<'w> GraspChooser<'w> {
             }
         }
         met.append(&mut tried);
+        self.bar_without_room();
         let missed = missed.filter(|_| effort == Effort::THOROUGH);
         Err(self.no_grasp(met, missed))
     }
@@ -293,6 +304,67 @@ impl<'w> GraspChooser<'w> {
             return Some(GraspObstacle::HasFailed);
         }
         self.candidates.barred.borrow()[index].clone()
+    }
+
+    /// After a base pose in vain, rules the candidates out for which the hand, or the forearm, has no room
+    /// where the hand approaches or grasps.
+    fn bar_without_room(&self) {
+        if let Some(next) = self.candidates.looked.get().next(self.postures()) {
+            self.bar_where(next);
+        }
+    }
+
+    /// The hands and grasps, each with one angle by which it may be turned, for which the hand has room at the
+    /// object, wherever the base is.
+    pub fn with_room(&self) -> Vec<(Side, String, f64)> {
+        if self.candidates.looked.get() < Looked::Hand {
+            self.bar_where(Looked::Hand);
+        }
+        let mut found: Vec<(Side, String, f64)> = Vec::new();
+        for (index, candidate) in self.candidates.all.iter().enumerate() {
+            let is_new = || {
+                !found
+                    .iter()
+                    .any(|(side, grasp, _)| *side == candidate.side && *grasp == candidate.grasp)
+            };
+            if self.known_obstacle(index).is_none() && is_new() {
+                found.push((candidate.side, candidate.grasp.clone(), candidate.turn));
+            }
+        }
+        found
+    }
+
+    /// Rules the candidates out that have no room where it is looked for.
+    fn bar_where(&self, next: Looked) {
+        self.candidates.looked.set(next);
+        let mut hands: Vec<(Side, f64, LoneHand<'_>)> = Vec::new();
+        for (index, candidate) in self.candidates.all.iter().enumerate() {
+            let (side, opening) = (candidate.side, candidate.opening);
+            // With the base at the origin, the poses of the tool are those in the map.
+            let poses = self.poses(candidate, &Pose::identity(), &self.question.in_map);
+            let (None, Some(poses)) = (self.known_obstacle(index), poses) else {
+                continue;
+            };
+            let known = hands
+                .iter()
+                .position(|(s, o, _)| *s == side && *o == opening);
+            let place = match known {
+                Some(place) => place,
+                None => {
+                    let object = Some(self.question.object.as_str());
+                    let Some(hand) = LoneHand::new(self.world, side, opening, object) else {
+                        return;
+                    };
+                    hands.push((side, opening, hand));
+                    hands.len() - 1
+                }
+            };
+            let mut stations = needed(&poses);
+            stations.retain(|station| station.part != GraspPart::Lift);
+            if let Some(obstacle) = hands[place].2.obstacle(&stations, next) {
+                self.candidates.barred.borrow_mut()[index] = Some(obstacle);
+            }
+        }
     }
 
     /// Keeps what is in the way of a candidate, if it is in its way wherever the base is: what
@@ -325,7 +397,7 @@ impl<'w> GraspChooser<'w> {
         let arm = self.world.models().description.arm(candidate.side);
         let turned = object * about_z(candidate.turn);
         let poses = candidate.definition.tool_poses(&turned, &arm.tool_axes);
-        let poses = poses.ok()?;
+        let poses = lifting(poses.ok()?);
         Some(match &self.overhead {
             Some(overhead) => overhead.picking(base, poses),
             None => poses,

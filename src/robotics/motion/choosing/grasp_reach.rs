@@ -17,6 +17,8 @@ use spatial::Pose;
 
 /// Step (m) between torso heights that are tried.
 const HEIGHT_STEP: f64 = 0.06;
+/// How often an arm is asked whether it reaches a pose in the time in which a posture is checked.
+const ASKED_PER_POSTURE: u32 = 10;
 /// Open fingers may overlap their object this much (m) where they will grip it.
 const TIGHT_FIT: f64 = 0.002;
 
@@ -79,6 +81,8 @@ pub(crate) struct GraspReach<'w> {
     heights: Vec<f64>,
     /// Number of postures that have been checked for collisions.
     postures: Cell<u32>,
+    /// How often the arm has been asked whether it reaches a pose.
+    asked: Cell<u32>,
 }
 
 /// One hand.
@@ -123,13 +127,14 @@ impl<'w> GraspReach<'w> {
             hands,
             heights,
             postures: Cell::new(0),
+            asked: Cell::new(0),
         }
     }
 
-    /// Number of postures that have been checked for collisions, for all base poses: most of the time
-    /// goes there.
+    /// Number of postures that have been checked for collisions, for all base poses, and of what takes as
+    /// long: most of the time goes there.
     pub(crate) fn postures(&self) -> u32 {
-        self.postures.get()
+        self.postures.get() + self.asked.get() / ASKED_PER_POSTURE
     }
 
     /// Names of the links of a hand.
@@ -204,6 +209,7 @@ impl<'w> GraspReachFrom<'w> {
     /// matter.
     pub(crate) fn reaches(&self, side: Side, tool: &Pose, height: f64) -> bool {
         let arm = self.reach.world.models().description.arm(side);
+        self.reach.asked.set(self.reach.asked.get() + 1);
         arm.kinematics.reaches(&self.wrist(side, tool, height))
     }
 
@@ -273,7 +279,7 @@ impl<'w> GraspReachFrom<'w> {
                 return Err(Met::Hand(GraspObstacle::NotTried));
             }
             self.checks += 1;
-            self.reach.postures.set(self.reach.postures() + 1);
+            self.reach.postures.set(self.reach.postures.get() + 1);
             let lift = self.reach.world.models().description.torso.joint;
             let lift = lift.map(|_| height);
             let positions: Vec<f64> = lift.into_iter().chain(posture).collect();

@@ -8,6 +8,7 @@ pub(crate) mod grasp_reach;
 mod hand_directions;
 mod hand_shape;
 pub(crate) mod handle_chooser;
+mod lone_hand;
 pub(crate) mod overhead;
 pub(crate) mod put_reach;
 pub(crate) mod reach;

@@ -20,6 +20,42 @@ const STEP: f64 = 0.05;
 /// Directions (unit vectors) that differ so little are the same.
 const SAME: f64 = 1e-6;
 
+/// How steep (sine of the angle) a lift is at least.
+const STEEP: f64 = 0.5;
+
+/// The poses with a lift that leads up. Lifts are along the axes of an object: where that lies on its side, they
+/// would drag it along what it lies on.
+pub(crate) fn lifting(poses: ToolPoses) -> ToolPoses {
+    let ToolPoses { grasp, lift, .. } = poses;
+    if is_steep(&grasp, &lift) {
+        return poses;
+    }
+    ToolPoses {
+        lift: as_far_up(&grasp, &lift),
+        second_lift: as_far_up(&grasp, &poses.second_lift),
+        ..poses
+    }
+}
+
+/// The pose over a place from which a tool comes down to it, straight above unless it is over it as it is.
+pub(super) fn over(at: &Pose, lift: Pose) -> Pose {
+    match is_steep(at, &lift) {
+        true => lift,
+        false => as_far_up(at, &lift),
+    }
+}
+
+fn is_steep(from: &Pose, to: &Pose) -> bool {
+    let way = to.translation.vector - from.translation.vector;
+    way.z >= STEEP * way.norm()
+}
+
+/// The pose straight above one, as far from it as another one.
+fn as_far_up(from: &Pose, to: &Pose) -> Pose {
+    let way = (to.translation.vector - from.translation.vector).norm();
+    Translation3::new(0.0, 0.0, way) * from
+}
+
 /// What is above the place of an object.
 pub struct Overhead<'w> {
     world: &'w World,

@@ -1,6 +1,7 @@
 //! Whether a hand could put down what it holds with the base at some pose, without moving
 //! anything.
 
+use std::cell::{Cell, RefCell};
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Translation3, Vector3};
@@ -8,14 +9,16 @@ use nalgebra::{Translation3, Vector3};
 use super::aligned_bases::AlignedBases;
 use super::grasp_chooser::{TURNS, about_z};
 use super::grasp_reach::{Effort, GraspReach, Station};
-use super::overhead::Overhead;
+use super::lone_hand::{LoneHand, Looked};
+use super::overhead::{Overhead, over};
 use super::shoulder::Shoulder;
-use crate::motion::contact::hand::releasing_opening;
+use crate::motion::contact::grip_torque::Pads;
+use crate::motion::contact::hand::{releasing_from, releasing_opening};
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::robot::Side;
 use crate::world::grasp_library::{GraspDefinition, Lift, NotARotation};
 use crate::world::{Models, World, WorldError};
-use spatial::Pose;
+use spatial::{Pose, pose};
 
 /// How far (m) the hand lifts and withdraws if it is not known how it has grasped the object.
 const UP: [f64; 3] = [0.0, 0.0, 0.15];
@@ -106,6 +109,45 @@ impl HeldGrip {
         })
     }
 
+    /// The grip with the fingers opened as far as they will be to let go of the object, whose shape tells how far
+    /// apart they are when they hold it.
+    #[must_use]
+    pub fn letting_go(mut self, world: &World) -> Self {
+        let gripper = &world.models().description.arm(self.side).gripper;
+        let (Ok(object), Ok(at)) = (world.object(&self.object), world.object_pose(&self.object))
+        else {
+            return self;
+        };
+        let tool = at * self.tool_in_object;
+        let pads = Pads::closing(gripper, object, &at, &tool, self.opening, gripper.effort);
+        if let Some(gap) = pads
+            .map(|pads| pads.gap())
+            .filter(|gap| *gap < self.opening)
+        {
+            self.opening = releasing_from(gripper, gap);
+        }
+        self
+    }
+
+    /// Whether the hand holds the object as in another grip, but for an angle about the axis of a round object, by which
+    /// it may be turned where it is put down.
+    pub fn is_same_but_turned(&self, other: &Self) -> bool {
+        const NEAR: (f64, f64) = (1e-6, 1e-6);
+        const OPENING: f64 = 2e-3;
+        let is_alike = self.object == other.object && self.side == other.side;
+        if !is_alike || (self.opening - other.opening).abs() > OPENING {
+            return false;
+        }
+        let upright = Pose::identity();
+        let [own, others] = [self, other].map(|grip| grip.poses(&upright));
+        self.headings().into_iter().any(|heading| {
+            let turned = others.iter().map(|pose| about_z(heading) * *pose);
+            own.iter().zip(turned).all(|(a, b)| {
+                pose::distance_between(a, &b) < NEAR.0 && pose::angle_between(a, &b) < NEAR.1
+            })
+        })
+    }
+
     /// The headings (rad, relative to the one that is wanted) at which the object may be put down,
     /// the nearest first.
     pub fn headings(&self) -> Vec<f64> {
@@ -127,9 +169,10 @@ impl HeldGrip {
             let offset = turn * Vector3::from(offset);
             object * Translation3::from(offset) * self.tool_in_object
         };
+        let at = tool([0.0; 3]);
         [
-            self.lift.in_base * tool(self.lift.offset),
-            tool([0.0; 3]),
+            over(&at, self.lift.in_base * tool(self.lift.offset)),
+            at,
             tool(self.second_pregrasp),
             tool(self.pregrasp),
         ]
@@ -146,6 +189,9 @@ pub struct PutReach<'w> {
     /// How far (m) the wrist is from the object.
     span: f64,
     overhead: Overhead<'w>,
+    /// What keeps the hand from each heading wherever the base is, as far as that has been looked at.
+    barred: RefCell<Vec<Option<GraspObstacle>>>,
+    looked: Cell<Looked>,
 }
 
 impl<'w> PutReach<'w> {
@@ -162,11 +208,64 @@ impl<'w> PutReach<'w> {
             target,
             reach: GraspReach::new(world, Some(&grip.object), true),
             shoulder: Shoulder::of(world, grip.side, true),
+            barred: RefCell::new(vec![None; grip.headings().len()]),
+            looked: Cell::default(),
         })
     }
 
+    /// Whether the hand is kept from every heading wherever the base is, as far as that has been looked at.
+    pub fn is_barred_everywhere(&self) -> bool {
+        self.barred.borrow().iter().all(Option::is_some)
+    }
+
+    /// Whether the hand has room there at any heading, wherever the base is. For whoever then asks for a few base
+    /// poses only: room for the forearm is not looked for any more, which takes longer than those.
+    pub fn has_room(&self) -> bool {
+        if self.looked.get() < Looked::Hand {
+            self.bar_where(Looked::Hand);
+        }
+        self.looked.set(Looked::Forearm);
+        !self.is_barred_everywhere()
+    }
+
+    /// What keeps the hand from the place at the heading that is wanted, wherever the base is, as far as that has
+    /// been looked at.
+    pub fn known_obstacle(&self) -> Option<GraspObstacle> {
+        self.barred.borrow().first().cloned().flatten()
+    }
+
+    /// After a base pose in vain, rules the headings out at which the hand, or the forearm, has no room where
+    /// the hand lets go and on its way off the object.
+    fn bar_without_room(&self) {
+        if let Some(next) = self.looked.get().next(self.postures()) {
+            self.bar_where(next);
+        }
+    }
+
+    /// Rules the headings out that have no room where it is looked for.
+    fn bar_where(&self, next: Looked) {
+        self.looked.set(next);
+        let HeldGrip { side, opening, .. } = *self.grip;
+        let object = Some(self.grip.object.as_str());
+        let Some(mut hand) = LoneHand::new(self.world, side, opening, object) else {
+            return;
+        };
+        let mut barred = self.barred.borrow_mut();
+        for (heading, barred) in self.grip.headings().into_iter().zip(barred.iter_mut()) {
+            if barred.is_some() {
+                continue;
+            }
+            let poses = self.grip.poses(&(self.target * about_z(heading)));
+            // With the base at the origin, the poses of the tool are those in the map. The lift is along the
+            // axes of the base.
+            let [_, off @ ..] = self.overhead.putting(&Pose::identity(), poses);
+            let part = GraspPart::Lift;
+            *barred = hand.obstacle(&off.map(|tool| Station { part, tool }), next);
+        }
+    }
+
     /// Number of postures that have been checked for collisions.
-    pub(crate) fn postures(&self) -> u32 {
+    pub fn postures(&self) -> u32 {
         self.reach.postures()
     }
 
@@ -193,7 +292,11 @@ impl<'w> PutReach<'w> {
         let object = base.inverse() * self.target;
         let mut from = self.reach.with_base_at(base, effort);
         let mut nearest = None;
-        for heading in self.grip.headings() {
+        for (index, heading) in self.grip.headings().into_iter().enumerate() {
+            if let Some(Some(obstacle)) = self.barred.borrow().get(index) {
+                nearest = Some(obstacle.clone());
+                continue;
+            }
             let poses = self.grip.poses(&(object * about_z(heading)));
             let poses = self.overhead.putting(base, poses);
             // Things come to stand a little farther away than planned.
@@ -209,6 +312,7 @@ impl<'w> PutReach<'w> {
                 Err(obstacle) => nearest = Some(obstacle),
             }
         }
+        self.bar_without_room();
         let part = GraspPart::Lift;
         Err(nearest.unwrap_or(GraspObstacle::OutOfReach { part }))
     }

@@ -9,7 +9,7 @@ use crate::motion::failure::base_place::BasePlace;
 use crate::motion::planning::base_checker::BaseChecker;
 use crate::motion::planning::configuration::at_place;
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
-use crate::motion::planning::pose_goal::{PoseGoalTask, TORSO_STEP};
+use crate::motion::planning::pose_goal::{PathSearch, PoseGoalTask, TORSO_STEP};
 use crate::robot::Side;
 use crate::world::{AllowedPairs, BodyName, CollisionHit, World};
 use spatial::Pose;
@@ -44,6 +44,7 @@ pub fn can_reach(
         world,
         goals: vec![(side, *tool)],
         contacts,
+        search: PathSearch::Long,
     };
     let heights = task.heights(TORSO_STEP);
     // The first one is the present one, at which the torso need not move.

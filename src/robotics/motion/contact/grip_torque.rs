@@ -107,6 +107,11 @@ impl Pads {
         Some(pads)
     }
 
+    /// The gap between them (m).
+    pub(crate) fn gap(&self) -> f64 {
+        self.gap
+    }
+
     /// The torque of a load (N) that acts at a point (m, map frame), if they do not transmit that much.
     ///
     /// Two soft fingers are taken, each of whose pads presses evenly on a disc. About the axis through

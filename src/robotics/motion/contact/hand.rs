@@ -149,6 +149,10 @@ fn is_between(world: &World, side: Side, handle: LinkId) -> bool {
 pub fn releasing_opening(world: &World, side: Side) -> f64 {
     let gripper = &world.models().description.arm(side).gripper;
     let now = gripper.opening_at(world.robot_configuration().joints.get(gripper.joint));
-    let most = gripper.opening_at(gripper.limits.upper);
-    (now + RELEASE).min(most)
+    releasing_from(gripper, now)
+}
+
+/// The same (m) for fingers that are so far apart (m).
+pub(crate) fn releasing_from(gripper: &Gripper, now: f64) -> f64 {
+    (now + RELEASE).min(gripper.opening_at(gripper.limits.upper))
 }

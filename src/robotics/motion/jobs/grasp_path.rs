@@ -12,6 +12,7 @@ use crate::motion::failure::grasp_obstacle::GraspPart;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::planning::configuration::with_joints;
+use crate::motion::planning::pose_goal::PathSearch;
 use crate::robot::Side;
 use crate::world::World;
 use spatial::Pose;
@@ -29,6 +30,7 @@ pub fn plan_grasp(
     opening: f64,
     first: &Pose,
     stations: &[Station],
+    search: PathSearch,
 ) -> Result<(), MotionFailure> {
     let mut world = world.clone();
     let first = Station {
@@ -41,8 +43,8 @@ pub fn plan_grasp(
         side,
         object,
         &first,
-        TcpPath::Free,
-        CollisionMode::AvoidAll,
+        (TcpPath::Free, CollisionMode::AvoidAll),
+        search,
     );
     for station in stations {
         let (path, mode) = match station.part {
@@ -53,7 +55,7 @@ pub fn plan_grasp(
             let effort = gripper_of(&world, side).effort;
             press(&mut world, side, object, effort)?;
         }
-        follow(&mut world, side, object, station, path, mode)?;
+        follow(&mut world, side, object, station, (path, mode), search)?;
         if station.part == GraspPart::Approach {
             let gripper = gripper_of(&world, side);
             let fingers = gripper.position_for_opening(opening);
@@ -76,12 +78,13 @@ fn follow(
     side: Side,
     object: &str,
     station: &Station,
-    path: TcpPath,
-    mode: CollisionMode,
+    (path, mode): (TcpPath, CollisionMode),
+    search: PathSearch,
 ) -> Result<(), MotionFailure> {
     let mut poses = [None; 2];
     poses[side.index()] = Some(PoseGoal::InBase(station.tool));
-    let mut goal = HandGoal::new(poses, path, mode, Some(object.to_owned()));
+    let goal = HandGoal::new(poses, path, mode, Some(object.to_owned()));
+    let mut goal = goal.searching(search);
     for plans in 0..HandGoal::MAX_PLANS {
         let plan = goal.plan(world, plans)?;
         world.teleport_robot(&plan.end(world.robot_configuration()));

@@ -8,7 +8,7 @@ use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::planning::joint_plan::JointPlan;
-use crate::motion::planning::pose_goal::PoseGoalTask;
+use crate::motion::planning::pose_goal::{PathSearch, PoseGoalTask};
 use crate::robot::Side;
 use crate::world::{AllowedPairs, CollisionHit, World};
 use spatial::Pose;
@@ -49,6 +49,7 @@ pub struct HandGoal {
     target: Option<String>,
     /// Whether the goals have got the errors of the robot.
     has_erred: bool,
+    search: PathSearch,
 }
 
 impl MoveTcp {
@@ -85,7 +86,15 @@ impl HandGoal {
             mode,
             target,
             has_erred: false,
+            search: PathSearch::Long,
         }
+    }
+
+    /// The goals with paths that are searched for as given.
+    #[must_use]
+    pub(super) fn searching(mut self, search: PathSearch) -> Self {
+        self.search = search;
+        self
     }
 }
 
@@ -132,6 +141,7 @@ impl JointGoal for HandGoal {
             world,
             goals,
             contacts,
+            search: self.search,
         };
         if self.path == TcpPath::Straight {
             if let Some(straight) = task.plan_line() {

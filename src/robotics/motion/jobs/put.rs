@@ -14,7 +14,7 @@ use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::planning::joint_plan::JointPlan;
-use crate::motion::planning::pose_goal::PoseGoalTask;
+use crate::motion::planning::pose_goal::{PathSearch, PoseGoalTask};
 use crate::motion::planning::put_plan::{PutMotion, PutPlan, no_way_down, nothing_below};
 use crate::robot::{LinkId, Side};
 use crate::world::{BodyName, CollisionHit, World};
@@ -108,6 +108,7 @@ impl JointGoal for PutGoal {
             world,
             goals,
             contacts,
+            search: PathSearch::Long,
         };
         let plan = PutPlan {
             task,

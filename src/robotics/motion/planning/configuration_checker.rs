@@ -11,7 +11,7 @@ use crate::world::{
 };
 
 /// Clearance (m) of planned configurations from everything.
-pub(super) const PLAN_MARGIN: f64 = 0.004;
+pub(crate) const PLAN_MARGIN: f64 = 0.004;
 /// Overlap (m) accepted for pairs that are close at the start.
 const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 

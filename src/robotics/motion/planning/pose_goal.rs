@@ -52,10 +52,15 @@ const SPREAD: usize = 3;
 const SHORT_SAMPLES: usize = 200;
 /// Number of configurations at one height that get a long search for a path.
 const LONG_SEARCHES: usize = 2;
+/// Random configurations of each search after the first long one.
+const AFTER_LONG_SEARCH: usize = 500;
 /// Number of final configurations at one height that are tried for a straight line.
 const LINE_ENDS: usize = 6;
 /// Number of heights at which the search for a path may fail before giving up.
 const MAX_HEIGHTS: usize = 4;
+/// The same for one of several goals, and the random configurations and checks of each search.
+const SHORT_HEIGHTS: usize = 2;
+const SHORT_CHOICE: (usize, usize) = (300, 6000);
 
 /// How far (m) before its goal a hand that is to touch something slows down.
 const TOUCH_STRETCH: f64 = 0.03;
@@ -65,6 +70,40 @@ pub(crate) struct PoseGoalTask<'a> {
     pub(crate) world: &'a World,
     pub(crate) goals: Vec<(Side, Pose)>,
     pub(crate) contacts: ExpectedContacts,
+    pub(crate) search: PathSearch,
+}
+
+/// How long a path of the arms is searched for, where a straight one is blocked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PathSearch {
+    /// To find out which of several goals has a path: most paths that there are, are found soon. The long
+    /// search finds the same ones.
+    Short,
+    /// As for a motion.
+    #[default]
+    Long,
+}
+
+impl PathSearch {
+    fn effort(self) -> JointPathEffort {
+        let long = JointPathEffort::default();
+        match self {
+            Self::Long => long,
+            Self::Short => JointPathEffort {
+                samples: SHORT_CHOICE.0,
+                checks: SHORT_CHOICE.1,
+                ..long
+            },
+        }
+    }
+
+    /// Number of heights at which a search may fail.
+    fn heights(self) -> usize {
+        match self {
+            Self::Long => MAX_HEIGHTS,
+            Self::Short => SHORT_HEIGHTS,
+        }
+    }
 }
 
 /// A configuration that reaches the goals.
@@ -239,7 +278,7 @@ impl PoseGoalTask<'_> {
                     continue;
                 }
             };
-            match self.plan_to_one_of(&free, &group, &mut checker) {
+            match self.plan_to_one_of(&free, &group, &mut checker, searched) {
                 Ok(trajectory) => {
                     return Ok(JointPlan::new(
                         group.joints,
@@ -251,21 +290,23 @@ impl PoseGoalTask<'_> {
                 Err(failure) => last_failure = Some(failure),
             }
             searched += 1;
-            if searched >= MAX_HEIGHTS {
+            if searched >= self.search.heights() {
                 break;
             }
         }
         Err(last_failure.unwrap_or_else(|| self.unreachable(touching)))
     }
 
-    /// Tries straight joint paths to the best configurations, then long searches to the very best.
+    /// Tries straight joint paths to the best configurations, then searches to the very best: a long one first;
+    /// where it was in vain, also at another height before, others are rarely worth as much.
     fn plan_to_one_of(
         &self,
         free: &[GoalConfiguration],
         group: &PlanningGroup,
         checker: &mut ConfigurationChecker<'_>,
+        searched: usize,
     ) -> Result<Trajectory, MotionFailure> {
-        let effort = JointPathEffort::default();
+        let effort = self.search.effort();
         let now = group.now(self.world);
         for configuration in free.iter().take(SHORT_LIST) {
             let mut blocked = |q: &[f64]| checker.obstacle(q);
@@ -285,7 +326,7 @@ impl PoseGoalTask<'_> {
         let mut result = None;
         // Whether a level path leads to a configuration depends much on which one it is.
         let short = JointPathEffort {
-            samples: SHORT_SAMPLES,
+            samples: SHORT_SAMPLES.min(effort.samples),
             ..effort
         };
         let short = (!checker.level().is_empty()).then_some(short);
@@ -293,7 +334,15 @@ impl PoseGoalTask<'_> {
             let some = free.iter().step_by(SPREAD).take(SHORT_SEARCHES);
             some.map(move |configuration| (configuration, short))
         });
-        let long = free.iter().take(LONG_SEARCHES).map(|one| (one, effort));
+        let after = JointPathEffort {
+            samples: AFTER_LONG_SEARCH.min(effort.samples),
+            ..effort
+        };
+        let long = free.iter().take(LONG_SEARCHES).enumerate();
+        let long = long.map(|(i, one)| match i + searched {
+            0 => (one, effort),
+            _ => (one, after),
+        });
         for (configuration, effort) in short.chain(long) {
             match plan_joint_trajectory(
                 self.world,
@@ -398,7 +447,7 @@ impl PoseGoalTask<'_> {
                     continue;
                 };
                 let mut checker = self.checker(&group, contacts);
-                let effort = JointPathEffort::default();
+                let effort = self.search.effort();
                 if let Ok(trajectory) =
                     plan_joint_trajectory(self.world, &group, start, &mut checker, effort)
                 {

@@ -4,7 +4,7 @@
 use super::cartesian_path::{CartesianEnd, CartesianLine, CartesianTask, tcp_in_base};
 use super::configuration_checker::ConfigurationChecker;
 use super::planning_group::PlanningGroup;
-use super::pose_goal::{PoseGoalTask, REASON_STEP};
+use super::pose_goal::{PathSearch, PoseGoalTask, REASON_STEP};
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
 use crate::motion::contact::holding::held_objects;
 use crate::robot::Side;
@@ -94,6 +94,7 @@ pub fn straight_ways(
         world,
         goals,
         contacts,
+        search: PathSearch::Long,
     };
     let heights = match begin {
         WayBegin::AtAnyHeight | WayBegin::HereAtAnyHeight => task.heights(REASON_STEP),
