@@ -105,7 +105,9 @@ fn shards() -> Vec<Vec<u8>> {
             .set("bottle.y", Drawn::Number(0.1 * world as f64));
         record.draws.set("clutter", Drawn::Integer(2));
         record.draws.set("kind", Drawn::Text(":CUP".to_owned()));
-        record.draws.set("dark", Drawn::Flag(world % 2 == 0));
+        record
+            .draws
+            .set("dark", Drawn::Flag(world.is_multiple_of(2)));
         record.expectations.set("parked", world != 2);
         record.measures.set("path", Drawn::Number(1.5));
         record.faults.push("gripper".to_owned());

@@ -111,7 +111,7 @@ fn processor_time() -> Option<f64> {
 fn in_use() -> usize {
     static ASKED: AtomicUsize = AtomicUsize::new(0);
     static KNOWN: AtomicUsize = AtomicUsize::new(0);
-    if ASKED.fetch_add(1, Ordering::Relaxed) % 256 == 0 {
+    if ASKED.fetch_add(1, Ordering::Relaxed).is_multiple_of(256) {
         let bytes = resident().and_then(|kilobytes| usize::try_from(kilobytes * 1024).ok());
         KNOWN.store(bytes.unwrap_or(0), Ordering::Relaxed);
     }

@@ -44,7 +44,7 @@ impl Evaluator {
             choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
         }
         choices.extend(actions.first().and_then(|action| {
-            let (designator, place) = self.to_nearest_place(action)?;
+            let (designator, place) = self.driving_to_nearest_place(action)?;
             let label =
                 format!("[NEAREST] Drive to the nearest free place with this heading: {place}.");
             Some((again(action, &designator, None), label))
@@ -139,7 +139,7 @@ impl Evaluator {
 
     /// The innermost action with the nearest free place as its goal, and that place, if the action is one of
     /// driving and has stopped because its goal is occupied.
-    fn to_nearest_place(&mut self, action: &Action) -> Option<(Value, String)> {
+    fn driving_to_nearest_place(&mut self, action: &Action) -> Option<(Value, String)> {
         let key = match self.type_of_action(action).as_str() {
             "GOING" => "TARGET",
             "NAVIGATING" => "LOCATION",
