@@ -6,7 +6,7 @@ use super::evaluator::Evaluator;
 use super::stack_frames::Told;
 use crate::printing::on_one_line;
 use cram::designator::perform::Performance;
-use cram::designator::value::{Class, Designator, Quantifier, as_class};
+use cram::designator::value::{Class, as_class};
 use cram::packages;
 use cram::pose::value::pose_stamped;
 use lisp::compile;
@@ -43,12 +43,9 @@ impl Evaluator {
             let choice = again(action, &action.designator, None);
             choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
         }
-        choices.extend(actions.first().and_then(|action| {
-            let (designator, place) = self.driving_to_nearest_place(action)?;
-            let label =
-                format!("[NEAREST] Drive to the nearest free place with this heading: {place}.");
-            Some((again(action, &designator, None), label))
-        }));
+        if let Some(innermost) = actions.first() {
+            choices.extend(self.nearest_choice(innermost));
+        }
         if let Some(picking) = actions
             .iter()
             .find(|a| self.type_of_action(a) == "PICKING-UP")
@@ -129,54 +126,41 @@ impl Evaluator {
             properties.push(Value::list([key, value.clone()]));
         }
         let description = Value::list(properties);
-        Value::foreign(Designator::new(
+        let copy = cram::designator::value::Designator::new(
             &mut self.image,
             class,
             quantifier,
             description,
-        ))
+        );
+        Value::foreign(copy)
     }
 
-    /// The innermost action with the nearest free place as its goal, and that place, if the action is one of
-    /// driving and has stopped because its goal is occupied.
-    fn driving_to_nearest_place(&mut self, action: &Action) -> Option<(Value, String)> {
-        let key = match self.type_of_action(action).as_str() {
-            "GOING" => "TARGET",
-            "NAVIGATING" => "LOCATION",
+    /// Driving to the nearest free place in place of an action of driving that has stopped because its goal is
+    /// occupied.
+    fn nearest_choice(&mut self, driving: &Action) -> Option<(Choice, String)> {
+        let text = match self.type_of_action(driving).as_str() {
+            "GOING" => {
+                "(lambda (?pose)
+                   (perform (an action (type going) (target (a location (pose ?pose))))))"
+            }
+            "NAVIGATING" => {
+                "(lambda (?pose)
+                   (perform (an action (type navigating) (location (a location (pose ?pose))))))"
+            }
             _ => return None,
         };
         let report = &self.console.levels.last()?.abort.report;
         let [x, y, heading] = self.host.simulation.free_place_instead(report)?;
-        let pose = pose_stamped("map", &from_xy_yaw(x, y, heading));
-        let driving = as_class(&action.designator, Class::Action)?;
-        let location = self.designator(Class::Location, driving.quantifier, &[("POSE", pose)]);
-        let kind = driving.property_named(&self.image, "TYPE")?;
-        let properties = [("TYPE", kind), (key, location)];
-        let designator = self.designator(Class::Action, driving.quantifier, &properties);
-        Some((designator, format!("x {x:.3}, y {y:.3}")))
-    }
-
-    /// A designator with some properties, by the names of their keys.
-    fn designator(
-        &mut self,
-        class: Class,
-        quantifier: Quantifier,
-        properties: &[(&str, Value)],
-    ) -> Value {
-        let properties: Vec<Value> = properties
-            .iter()
-            .map(|(name, value)| {
-                let key = self.image.keyword(name).into();
-                Value::list([key, value.clone()])
-            })
-            .collect();
-        let description = Value::list(properties);
-        Value::foreign(Designator::new(
-            &mut self.image,
-            class,
-            quantifier,
-            description,
-        ))
+        let choice = Choice::Call {
+            frame: driving.frame,
+            function: self.plan_function(text)?,
+            args: vec![pose_stamped("map", &from_xy_yaw(x, y, heading))],
+            motion: None,
+        };
+        let label = format!(
+            "[NEAREST] Drive to the nearest free place with this heading: x {x:.3}, y {y:.3}."
+        );
+        Some((choice, label))
     }
 
     /// Driving to where the object can be grasped, then repeating the action.
@@ -186,7 +170,12 @@ impl Evaluator {
         let (pose, arm, grasp) = found?;
         let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
         let designator = self.with_properties(&picking.designator, &others);
-        let function = self.drive_and_perform()?;
+        let function = self.plan_function(
+            "(lambda (?pose action)
+               (park-arms)
+               (perform (an action (type going) (target (a location (pose ?pose)))))
+               (perform action))",
+        )?;
         let shown = |value: &Value| print::to_string(&self.image, value, true);
         let label = format!(
             "[BASE] Park, drive to where {} reaches it with {}, and pick it up from there.",
@@ -202,16 +191,13 @@ impl Evaluator {
         Some((choice, label))
     }
 
-    fn drive_and_perform(&mut self) -> Option<Value> {
-        const TEXT: &str = "(lambda (?pose action)
-            (park-arms)
-            (perform (an action (type going) (target (a location (pose ?pose)))))
-            (perform action))";
+    /// The function that a lambda expression in the package of the plans says.
+    fn plan_function(&mut self, text: &str) -> Option<Value> {
         let package = self.image.packages.find("CRAM-MOBILE-PICK-PLACE-PLANS")?;
         let before = self.image.special(known::V_PACKAGE).clone();
         self.image
             .set_special(known::V_PACKAGE, Value::Package(package));
-        let lambda = self.form_of("debugger", TEXT);
+        let lambda = self.form_of("debugger", text);
         self.image.set_special(known::V_PACKAGE, before);
         let function = compile::compile_lambda(&mut self.image, &lambda?).ok()?;
         Some(Value::Function(function))

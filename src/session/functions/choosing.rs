@@ -142,13 +142,12 @@ fn grasps_for_target(
         false => Value::NIL,
     };
     let is_certain = by_arm.is_empty() && found.is_certain;
-    let flag = |is_true: bool| if is_true { Value::T } else { Value::NIL };
     done(Value::values(vec![
         Value::list(by_arm),
         why,
-        flag(is_certain),
-        flag(found.is_from_all_angles),
-        flag(found.others.is_empty()),
+        Value::bool(is_certain),
+        Value::bool(found.is_from_all_angles),
+        Value::bool(found.others.is_empty()),
     ]))
 }
 
@@ -161,11 +160,7 @@ fn room_to_put_down(
     let object = simulation.object_named(image, &args[1])?;
     let pose = pose_in_map(simulation, image, &args[2])?;
     let has_room = simulation.has_room_to_put(&object, side, pose);
-    done(if has_room.map_err(Raise::reporting)? {
-        Value::T
-    } else {
-        Value::NIL
-    })
+    done(Value::bool(has_room.map_err(Raise::reporting)?))
 }
 
 /// The most frequent cause for which no grasp suits a target.

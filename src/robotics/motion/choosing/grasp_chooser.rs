@@ -353,7 +353,7 @@ impl<'w> GraspChooser<'w> {
                 None => {
                     let object = Some(self.question.object.as_str());
                     let Some(hand) = LoneHand::new(self.world, side, opening, object) else {
-                        return;
+                        continue;
                     };
                     hands.push((side, opening, hand));
                     hands.len() - 1
