@@ -33,7 +33,7 @@ fn a_plan_picks_up_a_bottle_and_the_world_tells_where_it_is() {
     assert_eq!((session.time(), session.objects().len()), (0.0, 0));
     let (outcome, printed) = run(&mut session, PICKING_UP);
     assert_eq!(outcome, Outcome::Finished, "{printed}");
-    assert!(printed.contains("8.679: Lifting"), "{printed}");
+    assert!(printed.contains("8.629: Lifting"), "{printed}");
 
     assert!(session.time() > 5.0);
     assert_eq!(session.objects(), ["BOTTLE-1"]);
@@ -421,7 +421,7 @@ fn observers_are_told_of_tasks_motions_and_hands() {
         PlanEventKind::Printed(text) => Some(text.as_str()),
         _ => None,
     });
-    assert!(printed.collect::<String>().contains("8.679: Lifting"));
+    assert!(printed.collect::<String>().contains("8.629: Lifting"));
 
     let tree = log.tree();
     let all: Vec<&TaskNode> = tree.iter().flat_map(TaskNode::all).collect();

@@ -34,6 +34,17 @@ fn a_flat_thing_is_not_pressed_into_the_table_while_it_is_gripped() {
 }
 
 #[test]
+fn a_hand_opens_in_the_posture_at_the_start() {
+    let mut cook = Cook::new();
+    for hand in ["left", "right"] {
+        cook.done(&format!(
+            "(with-simulated-robot
+               (perform (a motion (type opening-gripper) (gripper {hand}))))"
+        ));
+    }
+}
+
+#[test]
 fn an_opened_hand_drops_what_it_held() {
     let mut cook = Cook::at_table_with_bottle();
     cook.take_bottle();

@@ -257,7 +257,8 @@ class Robot:
         self.gap, self.now, self.queue, self.number = 0.0, time.monotonic(), [], 0
         self.begun, self.deaths, self.clock, self.since, self.next = [], 0, 0.0, self.now, 0.0
         self.stood = None
-        self.set_gap(gaps[0][0])
+        # As it was left when the pairs were measured. A hand that is wide open touches its forearm where some goals are.
+        self.set_gap(gaps[-1][0])
         self.participant = participant = DomainParticipant(DOMAIN)
         self.tf = DataWriter(participant, Topic(participant, "rt/tf", ros.TFMessage), qos=ros.reliable(100))
         self.states = DataWriter(participant, Topic(participant, "rt/joint_states", ros.JointState), qos=ros.reliable(10))
