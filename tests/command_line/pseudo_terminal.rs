@@ -173,6 +173,18 @@ impl Terminal {
         String::from_utf8_lossy(&screen.screen().contents_formatted()).into_owned()
     }
 
+    /// The rows of the screen that hold something, from the one that begins with the text to the
+    /// cursor's; none while no row begins so.
+    pub(crate) fn rows_from(&self, beginning: &str) -> Option<usize> {
+        let screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
+        let screen = screen.screen();
+        let (cursor, _) = screen.cursor_position();
+        let first = screen
+            .rows(0, screen.size().1)
+            .position(|row| row.starts_with(beginning))?;
+        (usize::from(cursor) + 1).checked_sub(first)
+    }
+
     fn prompts(&self) -> usize {
         prompts_in(&self.text())
     }
