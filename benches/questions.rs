@@ -9,7 +9,7 @@ const SCENE: &str = "
     (in-package :btr)
     (pp-tut:init-projection)
     (dotimes (i 30)
-      (destructuring-bind (x y width depth) (if (< i 15) '(-1.1 0.6 0.2 0.2) '(1.35 -0.5 0.15 0.3))
+      (destructuring-bind (x y width depth) (if (< i 15) '(-1.1 0.6 0.2 0.2) '(1.35 0.0 0.15 0.3))
         (btr-utils:spawn-object (intern (format nil \"THING-~a\" i)) (nth (mod i 4) '(:bottle :cup :bowl :mug))
                                 :pose (list (list (+ x (* width (mod i 3)))
                                                   (+ y (* depth (mod (floor i 3) 5)))

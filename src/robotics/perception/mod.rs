@@ -6,6 +6,8 @@
 pub mod camera;
 pub mod mesh;
 pub mod picture;
+mod raster;
+mod silhouette;
 pub mod visibility;
 mod window;
 

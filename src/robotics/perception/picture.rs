@@ -1,11 +1,10 @@
 //! A z-buffer that holds the visible body of each pixel.
 
-use std::ops::Range;
-
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
 use super::camera::Camera;
 use super::mesh::Mesh;
+use super::raster;
 use super::window::Window;
 use crate::world::PartKey;
 use spatial::Pose;
@@ -19,9 +18,6 @@ pub struct Picture {
     /// Inverse of the depth (1/m), 0 where nothing is seen.
     inverse_depth: Vec<f64>,
 }
-
-/// A corner in the camera's frame.
-type Corner = Vector3<f64>;
 
 impl Picture {
     /// An empty picture.
@@ -97,137 +93,29 @@ impl Picture {
 
     /// Draws a surface at the pose (map frame). Surfaces may be drawn in any order.
     pub fn draw(&mut self, key: PartKey, pose: &Pose, mesh: &Mesh) {
-        let to_camera = self.camera.pose.inverse() * pose;
-        let corners: Vec<Corner> = mesh
-            .corners
-            .iter()
-            .map(|p: &Point3<f64>| (to_camera * p).coords)
-            .collect();
-        if corners.iter().all(|c| c.z < self.camera.near)
-            || corners.iter().all(|c| c.z > self.camera.far)
-        {
-            return;
-        }
-        for triangle in &mesh.triangles {
-            // A mesh's triangles are indices into its own list of corners.
-            let [a, b, c] = triangle.map(|i| corners[i as usize]);
-            let outward = (b - a).cross(&(c - a));
-            if outward.dot(&a) < 0.0 {
-                self.draw_clipped(key, [a, b, c]);
-            }
-        }
-    }
-
-    /// Draws the part of the triangle beyond the near plane.
-    fn draw_clipped(&mut self, key: PartKey, corners: [Corner; 3]) {
-        let near = self.camera.near;
-        if corners.iter().all(|c| c.z >= near) {
-            self.draw_triangle(key, corners);
-            return;
-        }
-        // A plane clips a triangle to at most four corners.
-        let mut kept = [Corner::zeros(); 4];
-        let mut count = 0;
-        let mut keep = |corner: Corner| {
-            kept[count] = corner;
-            count += 1;
-        };
-        for i in 0..3 {
-            let (from, to) = (corners[i], corners[(i + 1) % 3]);
-            if from.z >= near {
-                keep(from);
-            }
-            if (from.z >= near) != (to.z >= near) {
-                keep(from + (to - from) * ((near - from.z) / (to.z - from.z)));
-            }
-        }
-        for i in 2..count {
-            self.draw_triangle(key, [kept[0], kept[i - 1], kept[i]]);
-        }
-    }
-
-    /// Draws a triangle that lies beyond the near plane.
-    fn draw_triangle(&mut self, key: PartKey, corners: [Corner; 3]) {
-        let (width, height) = (self.camera.width, self.camera.height);
-        let f = self.camera.focal_length();
-        let centre = [width as f64 / 2.0, height as f64 / 2.0];
-        // Columns, rows and inverse depths, all of which are linear in the picture.
-        let [a, b, c] = corners.map(|p| {
-            [
-                centre[0] + f * p.x / p.z,
-                centre[1] + f * p.y / p.z,
-                1.0 / p.z,
-            ]
-        });
-        let area = cross(a, b, c[0], c[1]);
-        if area == 0.0 {
-            return;
-        }
-        let Window { first, end } = self.window;
-        let range = |axis: usize| {
-            let (lo, hi) = (
-                a[axis].min(b[axis]).min(c[axis]),
-                a[axis].max(b[axis]).max(c[axis]),
-            );
-            // Pixel centres are at halves; the casts saturate at the borders.
-            let lowest = (lo - 0.5).ceil().max(0.0) as usize;
-            let after = ((hi - 0.5).floor() + 1.0).max(0.0) as usize;
-            lowest.max(first[axis])..after.min(end[axis])
-        };
-        let farthest = 1.0 / self.camera.far;
-        let turn = area.signum();
-        let columns = range(0);
-        for row in range(1) {
-            let y = row as f64 + 0.5;
-            for column in inside([a, b, c], turn, columns.clone(), y) {
-                let x = column as f64 + 0.5;
-                let (at_a, at_b, at_c) = (cross(b, c, x, y), cross(c, a, x, y), cross(a, b, x, y));
-                let inverse = at_a / area * a[2] + at_b / area * b[2] + at_c / area * c[2];
-                // Rows and columns were clipped to the window above.
-                let pixel = (row - first[1]) * (end[0] - first[0]) + column - first[0];
-                if inverse > self.inverse_depth[pixel] && inverse >= farthest {
-                    self.inverse_depth[pixel] = inverse;
-                    self.keys[pixel] = Some(key);
+        let Self {
+            camera,
+            window,
+            keys,
+            inverse_depth,
+        } = self;
+        let farthest = 1.0 / camera.far;
+        raster::each_row(camera, window, pose, mesh, |facet, row, columns| {
+            let [_, nearest] = facet.bounds();
+            let first = window.at([columns.start, row]);
+            for (column, place) in columns.zip(first..) {
+                // What is nearer already needs no exact comparison.
+                if nearest <= inverse_depth[place] {
+                    continue;
+                }
+                let inverse = facet.inverse_depth(column, row);
+                if inverse > inverse_depth[place] && inverse >= farthest {
+                    inverse_depth[place] = inverse;
+                    keys[place] = Some(key);
                 }
             }
-        }
+        });
     }
-}
-
-/// The columns, of some, whose middles at a height `y` are in a triangle; `turn` is the sign of its area.
-/// On which side of an edge a middle is changes at most once along a row, also after rounding, so each end
-/// can be searched for.
-fn inside(corners: [[f64; 3]; 3], turn: f64, columns: Range<usize>, y: f64) -> Range<usize> {
-    let [a, b, c] = corners;
-    let mut run = columns;
-    for (from, to) in [(b, c), (c, a), (a, b)] {
-        let is_inside = |column: usize| cross(from, to, column as f64 + 0.5, y) * turn >= 0.0;
-        if (to[1] - from[1]) * turn > 0.0 {
-            run.end = first_of(run.clone(), |column| !is_inside(column));
-        } else {
-            run.start = first_of(run.clone(), is_inside);
-        }
-    }
-    run
-}
-
-/// The first of some columns from which on a condition holds; the end if it holds nowhere.
-fn first_of(columns: Range<usize>, holds: impl Fn(usize) -> bool) -> usize {
-    let Range { mut start, mut end } = columns;
-    while start < end {
-        let middle = start + (end - start) / 2;
-        if holds(middle) {
-            end = middle;
-        } else {
-            start = middle + 1;
-        }
-    }
-    start
-}
-
-/// Twice the signed area of the triangle of `a`, `b` and the point (x, y) in the picture.
-fn cross(a: [f64; 3], b: [f64; 3], x: f64, y: f64) -> f64 {
-    (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::camera::Camera;
 use super::mesh::Mesh;
 use super::picture::Picture;
+use super::silhouette::Silhouette;
 use super::window::Window;
 use crate::world::{BodyName, Object, PartKey, World, WorldError};
 use spatial::{Pose, trig};
@@ -57,10 +58,7 @@ pub struct Visibility {
 impl Visibility {
     /// Share of the object that is in sight (0..1).
     pub fn fraction(&self) -> f64 {
-        if self.full_pixels == 0 {
-            return 0.0;
-        }
-        (self.visible_pixels as f64 / self.full_pixels as f64).min(1.0)
+        share_of(self.visible_pixels, self.full_pixels)
     }
 
     /// The bodies in front of the object, those that hide most of it first.
@@ -93,14 +91,35 @@ impl fmt::Display for Visibility {
     }
 }
 
-/// The pixels in which an object at a pose (map frame) may be seen.
-fn window_of(object: &Object, pose: &Pose, camera: &Camera) -> Window {
-    let corners = object.shapes().iter().flat_map(|placed| {
-        let at = pose * placed.pose;
-        let corners = Mesh::of(&placed.shape).corners;
-        corners.into_iter().map(move |corner| at * corner)
-    });
+/// The surfaces of an object at a pose (map frame), each with its own.
+fn surfaces(object: &Object, pose: &Pose) -> Vec<(Pose, Mesh)> {
+    let shapes = object.shapes().iter();
+    shapes
+        .map(|placed| (pose * placed.pose, Mesh::of(&placed.shape)))
+        .collect()
+}
+
+/// The pixels in which surfaces may be seen, each at its pose (map frame).
+fn window_of(surfaces: &[(Pose, Mesh)], camera: &Camera) -> Window {
+    let corners = surfaces
+        .iter()
+        .flat_map(|(pose, mesh)| mesh.corners.iter().map(move |corner| pose * corner));
     Window::around(camera, corners)
+}
+
+/// The pixels that would show surfaces, of an object at a pose (map frame), if there were nothing else and the
+/// camera were turned towards the object.
+fn full_pixels(camera: &Camera, pose: &Pose, surfaces: &[(Pose, Mesh)]) -> usize {
+    let turned = camera.turned_to(&Point3::from(pose.translation.vector));
+    Silhouette::of(&turned, window_of(surfaces, &turned), surfaces).count()
+}
+
+/// The share (0..1) of an object's pixels that show it.
+fn share_of(visible: usize, full: usize) -> f64 {
+    match full {
+        0 => 0.0,
+        full => (visible as f64 / full as f64).min(1.0),
+    }
 }
 
 /// What is seen in one direction.
@@ -155,7 +174,7 @@ impl<'w> Sight<'w> {
         needed_share: f64,
     ) -> Result<Self, WorldError> {
         let pose = world.object_pose(name)?;
-        let window = window_of(world.object(name)?, &pose, &camera);
+        let window = window_of(&surfaces(world.object(name)?, &pose), &camera);
         let picture = Picture::of_window(camera, window);
         Ok(Self::draw(world, picture, needed_share))
     }
@@ -211,51 +230,68 @@ impl<'w> Sight<'w> {
     pub fn visibility(&self, name: &str) -> Result<Visibility, WorldError> {
         let object = self.world.object(name)?;
         let pose = self.world.object_pose(name)?;
-        let camera = *self.picture.camera();
-        let key = object.key();
-        let alone = |camera: Camera, window: Window| {
-            let mut picture = Picture::of_window(camera, window);
-            for placed in object.shapes() {
-                picture.draw(key, &(pose * placed.pose), &Mesh::of(&placed.shape));
-            }
-            picture
-        };
-        let origin = Point3::from(pose.translation.vector);
-        let turned = camera.turned_to(&origin);
-        let in_middle = alone(turned, window_of(object, &pose, &turned));
+        let surfaces = surfaces(object, &pose);
         let mut visibility = Visibility {
             object: name.to_owned(),
             visible_pixels: 0,
-            full_pixels: in_middle.count(key),
+            full_pixels: full_pixels(self.picture.camera(), &pose, &surfaces),
             occluders: Vec::new(),
             needed_share: self.needed_share,
-            outside: self.outside(object, &pose),
+            outside: self.outside(&surfaces),
         };
-        let may_show = object.shapes().iter().any(|placed| {
-            let radius = placed.shape.bounding_radius();
-            self.picture.may_show(&(pose * placed.pose), radius)
-        });
-        if may_show {
-            let window = window_of(object, &pose, &camera);
-            let window = self.picture.window().common_with(&window);
-            let shown = self.picture.keys_in(window);
-            visibility.visible_pixels = shown.filter(|there| *there == Some(key)).count();
-            visibility.occluders = self.occluders(key, &alone(camera, window));
+        if self.may_show(object, &pose) {
+            let window = self.window_of(&surfaces);
+            visibility.visible_pixels = self.pixels_of(object, window);
+            let alone = Silhouette::of(self.picture.camera(), window, &surfaces);
+            visibility.occluders = self.occluders(object.key(), &alone);
         }
         Ok(visibility)
     }
 
+    /// The share of the object (0..1) that is in sight: [`Visibility::fraction`], with less work.
+    pub fn share(&self, name: &str) -> Result<f64, WorldError> {
+        let object = self.world.object(name)?;
+        let pose = self.world.object_pose(name)?;
+        if !self.may_show(object, &pose) {
+            return Ok(0.0);
+        }
+        let surfaces = surfaces(object, &pose);
+        let visible = self.pixels_of(object, self.window_of(&surfaces));
+        if visible == 0 {
+            return Ok(0.0);
+        }
+        let full = full_pixels(self.picture.camera(), &pose, &surfaces);
+        Ok(share_of(visible, full))
+    }
+
+    /// Whether the object, which is at the pose (map frame), may be in the picture.
+    fn may_show(&self, object: &Object, pose: &Pose) -> bool {
+        object.shapes().iter().any(|placed| {
+            let radius = placed.shape.bounding_radius();
+            self.picture.may_show(&(pose * placed.pose), radius)
+        })
+    }
+
+    /// The pixels of the picture in which surfaces may be seen.
+    fn window_of(&self, surfaces: &[(Pose, Mesh)]) -> Window {
+        let window = window_of(surfaces, self.picture.camera());
+        self.picture.window().common_with(&window)
+    }
+
+    /// How many pixels of a window show the object.
+    fn pixels_of(&self, object: &Object, window: Window) -> usize {
+        let there = self.picture.keys_in(window);
+        there.filter(|there| *there == Some(object.key())).count()
+    }
+
     /// The bodies at the pixels that would show the object if it were alone.
-    fn occluders(&self, key: PartKey, alone: &Picture) -> Vec<(BodyName, usize)> {
+    fn occluders(&self, key: PartKey, alone: &Silhouette) -> Vec<(BodyName, usize)> {
         let mut counts: Vec<(PartKey, usize)> = Vec::new();
         let there = self.picture.keys_in(alone.window());
-        for (there, wanted) in there.zip(alone.keys()) {
-            let (Some(there), Some(_)) = (there, wanted) else {
+        for (there, wanted) in there.zip(alone.shows()) {
+            let Some(there) = there.filter(|there| *wanted && *there != key) else {
                 continue;
             };
-            if there == key {
-                continue;
-            }
             match counts.iter_mut().find(|(k, _)| *k == there) {
                 Some((_, count)) => *count += 1,
                 None => counts.push((there, 1)),
@@ -268,10 +304,9 @@ impl<'w> Sight<'w> {
             .collect()
     }
 
-    /// How far the object extends beyond the borders of the picture.
-    fn outside(&self, object: &Object, pose: &Pose) -> Option<(Border, f64)> {
+    /// How far surfaces, each at its pose (map frame), extend beyond the borders of the picture.
+    fn outside(&self, surfaces: &[(Pose, Mesh)]) -> Option<(Border, f64)> {
         let camera = self.picture.camera();
-        let to_camera = camera.pose.inverse() * pose;
         let half_width = camera.horizontal_fov() / 2.0;
         let half_height = camera.vertical_fov / 2.0;
         let mut farthest: Option<(Border, f64)> = None;
@@ -280,9 +315,10 @@ impl<'w> Sight<'w> {
                 farthest = Some((border, excess));
             }
         };
-        for placed in object.shapes() {
-            for corner in Mesh::of(&placed.shape).corners {
-                let p = to_camera * placed.pose * corner;
+        for (pose, mesh) in surfaces {
+            let to_camera = camera.pose.inverse() * pose;
+            for corner in &mesh.corners {
+                let p = to_camera * corner;
                 let across = trig::atan2(p.x, p.z);
                 keep(Border::Right, across - half_width);
                 keep(Border::Left, -across - half_width);

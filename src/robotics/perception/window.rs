@@ -79,6 +79,11 @@ impl Window {
     pub(super) fn place(&self, [column, row]: [usize; 2]) -> Option<usize> {
         let [columns, rows] = [0, 1].map(|i| self.first[i]..self.end[i]);
         let is_inside = columns.contains(&column) && rows.contains(&row);
-        is_inside.then(|| (row - self.first[1]) * self.width() + column - self.first[0])
+        is_inside.then(|| self.at([column, row]))
+    }
+
+    /// The place of a pixel of the window among its pixels, row by row.
+    pub(super) fn at(&self, [column, row]: [usize; 2]) -> usize {
+        (row - self.first[1]) * self.width() + column - self.first[0]
     }
 }

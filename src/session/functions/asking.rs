@@ -90,6 +90,13 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(sights),
     ),
     control(
+        "%SHARES-IN-SIGHT",
+        "names camera-pose",
+        "As %SIGHTS, but only the shares: a list of (name share).",
+        &["(progn (pp-tut:init-projection) (btr::%shares-in-sight nil nil)) => NIL"],
+        host!(shares_in_sight),
+    ),
+    control(
         "%HAND-REACHES",
         "pose arm &optional object",
         "Can the hand be at a pose from where the robot stands, at any height of the torso, while the robot touches nothing, or nothing but the object?",
@@ -314,25 +321,40 @@ pub(super) fn seconds(value: &Value) -> Result<f64> {
     })
 }
 
-fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// A look at objects, by the robot's camera or one at the pose of an optical frame.
+fn look<'s>(
+    simulation: &'s Simulation,
+    image: &mut Image,
+    names: &[String],
+    camera_pose: &Value,
+) -> Result<Sight<'s>> {
     let world = &simulation.world;
-    let names: Vec<String> = args[0]
-        .iter_list()
+    let description = world.models().description.camera();
+    let pose = match camera_pose.is_true() {
+        false => world.link_pose(description.frame),
+        true => simulation.pose_in_map(image, camera_pose)?,
+    };
+    let camera = Camera::new(description, pose);
+    match names {
+        [name] => Sight::at(world, camera, name, 0.0).map_err(raise),
+        _ => Ok(Sight::take(world, camera, 0.0)),
+    }
+}
+
+/// The names of the objects that are in a list.
+fn names_in(simulation: &Simulation, image: &mut Image, list: &Value) -> Result<Vec<String>> {
+    let names = list.iter_list();
+    names
         .map(|name| simulation.object_named(image, &name))
-        .collect::<Result<_>>()?;
+        .collect()
+}
+
+fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let names = names_in(simulation, image, &args[0])?;
     if names.is_empty() {
         return done(Value::NIL);
     }
-    let description = world.models().description.camera();
-    let pose = match args[1].is_true() {
-        false => world.link_pose(description.frame),
-        true => simulation.pose_in_map(image, &args[1])?,
-    };
-    let camera = Camera::new(description, pose);
-    let sight = match names.as_slice() {
-        [name] => Sight::at(world, camera, name, 0.0).map_err(raise)?,
-        _ => Sight::take(world, camera, 0.0),
-    };
+    let sight = look(simulation, image, &names, &args[1])?;
     let mut found = Vec::new();
     for name in &names {
         let visibility = sight.visibility(name).map_err(raise)?;
@@ -348,6 +370,27 @@ fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Res
         ]));
     }
     done(Value::list(found))
+}
+
+fn shares_in_sight(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let names = names_in(simulation, image, &args[0])?;
+    if names.is_empty() {
+        return done(Value::NIL);
+    }
+    let sight = look(simulation, image, &names, &args[1])?;
+    let row = |name: &String| {
+        let share = sight.share(name).map_err(raise)?;
+        Ok(Value::list([
+            simulation.symbol_of(name),
+            Value::Double(share),
+        ]))
+    };
+    let rows: Result<Vec<Value>> = names.iter().map(row).collect();
+    done(Value::list(rows?))
 }
 
 fn hand_reaches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

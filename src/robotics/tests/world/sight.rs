@@ -29,7 +29,7 @@ fn seen(world: &World) -> [(i64, i64, f64); 3] {
     ["A", "B", "C"].map(|name| {
         let place = world.object_pose(name).unwrap().translation.vector.into();
         let [column, row] = sight.picture().camera().pixel_of(&place).unwrap();
-        let share = sight.visibility(name).unwrap().fraction() * 100.0;
+        let share = visibility(world, name).fraction() * 100.0;
         (column as i64, row as i64, share.floor())
     })
 }
@@ -72,7 +72,10 @@ fn looking_right_shows_the_bottle_that_was_missing() {
 }
 
 fn visibility(world: &World, name: &str) -> Visibility {
-    Sight::of_robot(world).visibility(name).unwrap()
+    let sight = Sight::of_robot(world);
+    let visibility = sight.visibility(name).unwrap();
+    assert_eq!(sight.share(name).unwrap(), visibility.fraction());
+    visibility
 }
 
 #[test]
