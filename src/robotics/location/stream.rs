@@ -40,6 +40,19 @@ enum Search {
     Base(Box<BaseSearch>),
     /// There is nothing to search, for this reason.
     Nothing(String),
+    /// It has been set aside; the area (m²) in which it searches.
+    SetAside(f64),
+}
+
+impl Search {
+    /// The map of where to look, if it is there.
+    fn map(&self) -> Option<&Costmap> {
+        match self {
+            Self::Place(search) => Some(search.map()),
+            Self::Base(search) => Some(search.map()),
+            Self::Nothing(_) | Self::SetAside(_) => None,
+        }
+    }
 }
 
 /// What can be shown of a search.
@@ -84,11 +97,23 @@ impl Stream {
         self.search = None;
     }
 
+    /// Drops what takes memory of what was prepared: maps, and copies of the world. Whoever goes on
+    /// prepares it again; what has been offered is not offered again.
+    pub fn set_aside(&mut self) {
+        if let Some((_, search)) = &mut self.search
+            && let Some(map) = search.map()
+        {
+            *search = Search::SetAside(map.area());
+        }
+    }
+
     /// Makes the search fit the world as it is. What was prepared for another state of the world is
     /// dropped.
     fn prepare(&mut self, scene: Scene<'_>) -> Result<(), WorldError> {
         let state = self.query.state(scene.world);
-        if self.search.as_ref().is_some_and(|(s, _)| *s == state) {
+        let is_there =
+            |(s, search): &(u64, Search)| *s == state && !matches!(search, Search::SetAside(_));
+        if self.search.as_ref().is_some_and(is_there) {
             return Ok(());
         }
         self.tally = Tally::default();
@@ -230,9 +255,9 @@ impl Stream {
     /// How large the area is in which is searched, and how many poses have been offered.
     pub fn summary(&self) -> String {
         let area = match &self.search {
-            Some((_, Search::Place(search))) => search.map().area(),
-            Some((_, Search::Base(search))) => search.map().area(),
-            _ => 0.0,
+            Some((_, Search::SetAside(area))) => *area,
+            Some((_, search)) => search.map().map_or(0.0, Costmap::area),
+            None => 0.0,
         };
         let count = self.offered.count();
         format!("Area to look in: {area:.2} m²\nPoses offered: {count}")

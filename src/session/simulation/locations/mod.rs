@@ -7,6 +7,7 @@ mod references;
 mod things;
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
@@ -41,26 +42,49 @@ pub(crate) struct LocationStream {
     class_symbol: Sym,
 }
 
+/// How many searches keep what they have prepared: those at which was worked last. An action works on a few
+/// at a time; its designators may be kept for ever, as the tree of tasks keeps them.
+const AT_HAND: usize = 8;
+
 /// All searches that have been begun. With these, what they have prepared ends: copies of the world,
 /// which a program's values may hold in circles that nobody can free.
 #[derive(Default)]
-pub(super) struct Searches(Vec<Weak<RefCell<Stream>>>);
+pub(super) struct Searches {
+    begun: Vec<Weak<RefCell<Stream>>>,
+    /// Those that keep what they have prepared, the one at which was worked last at the end.
+    at_hand: RefCell<VecDeque<Weak<RefCell<Stream>>>>,
+}
 
 impl Searches {
     /// Does nothing hold any of them any more?
     pub(super) fn are_over(&self) -> bool {
-        self.0.iter().all(|stream| stream.strong_count() == 0)
+        self.begun.iter().all(|stream| stream.strong_count() == 0)
     }
 
     fn note(&mut self, stream: &Rc<RefCell<Stream>>) {
-        self.0.retain(|stream| stream.strong_count() > 0);
-        self.0.push(Rc::downgrade(stream));
+        self.begun.retain(|stream| stream.strong_count() > 0);
+        self.begun.push(Rc::downgrade(stream));
+    }
+
+    /// One has been worked at. Sets aside the one at which nobody has worked for longest, if there are too many.
+    fn note_work(&self, stream: &Rc<RefCell<Stream>>) {
+        let mut at_hand = self.at_hand.borrow_mut();
+        at_hand.retain(|other| {
+            other.strong_count() > 0 && !std::ptr::eq(other.as_ptr(), Rc::as_ptr(stream))
+        });
+        at_hand.push_back(Rc::downgrade(stream));
+        if at_hand.len() > AT_HAND
+            && let Some(oldest) = at_hand.pop_front().and_then(|stream| stream.upgrade())
+            && let Ok(mut oldest) = oldest.try_borrow_mut()
+        {
+            oldest.set_aside();
+        }
     }
 }
 
 impl Drop for Searches {
     fn drop(&mut self) {
-        for stream in self.0.iter().filter_map(Weak::upgrade) {
+        for stream in self.begun.iter().filter_map(Weak::upgrade) {
             // One that is at work ends with whoever has it at work.
             if let Ok(mut stream) = stream.try_borrow_mut() {
                 stream.forget();
@@ -150,6 +174,7 @@ impl Simulation {
         let done = interruptible(interruption(image), || {
             work(&mut stream.stream.borrow_mut(), self.location_scene())
         });
+        self.begun_searches.note_work(&stream.stream);
         match done {
             Some(done) => done.map(Some).map_err(|error| raised(&error)),
             None => {
