@@ -12,6 +12,7 @@ use lisp::image::extension::Extension;
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use robotics::location::{Direction, Orientation};
+use robotics::robot::description::DriveKind;
 use robotics::robot::{KinematicTree, Side};
 use robotics::world::Models;
 use robotics::world::kitchen_description::{
@@ -185,6 +186,10 @@ fn robot(image: &mut Image, models: &Models) -> Value {
         ("arm-links", links),
         ("arm-joints", joints),
         ("grippers", grippers),
+        (
+            "drives",
+            Value::from(description.base.kind != DriveKind::Fixed),
+        ),
     ];
     property_list(image, entries)
 }

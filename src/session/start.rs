@@ -1,5 +1,6 @@
 //! Where the robot is when a session starts, in a kitchen that it may not fit into.
 
+use robotics::robot::description::DriveKind;
 use robotics::world::{
     AllowedPairs, BodyName, CollisionChecker, Models, RobotConfiguration, World,
 };
@@ -34,6 +35,12 @@ pub(super) fn remark(models: &Models, world: &World) -> Option<String> {
         }
         None => return None,
     };
+    if models.description.base.kind == DriveKind::Fixed {
+        return Some(format!(
+            "{problem}; its base does not drive: say in its description where it stands, \
+             (base … :start ((x y z) (0 0 0 1)))"
+        ));
+    }
     let advice = match free_place(models, robot, &mut checker) {
         Some([x, y]) => format!(
             "put it elsewhere first; ({x:.2} {y:.2}) is free: (btr-utils:move-robot '(({x:.2} {y:.2} 0) (0 0 0 1)))"
@@ -84,10 +91,11 @@ fn free_place(
     on_floor.find(|[x, y]| {
         // What is told is what was looked at.
         let [x, y] = [x, y].map(|value| (value * 100.0).round() / 100.0);
-        let moved = RobotConfiguration {
+        let mut moved = RobotConfiguration {
             base: from_xy_yaw(x, y, 0.0),
             joints: robot.joints.clone(),
         };
+        moved.base.translation.z = robot.base.translation.z;
         checker.is_free(&moved, &AllowedPairs::default(), 0.0)
     })
 }

@@ -1,5 +1,6 @@
 //! Plans: the plan language, designators, whole plans.
 
+mod arm_on_table;
 mod braking;
 mod chores;
 mod clutter;

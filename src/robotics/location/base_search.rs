@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::base_query::BaseQuery;
+use super::base_query::{BaseQuery, Item};
 use super::base_walk::Walk;
 use super::costmap::{Costmap, Factor};
 use super::draw::Draw;
@@ -38,6 +38,14 @@ const MAX_POSTURES: [u32; 3] = [15_000, 36_000, 8_000];
 const MAX_UNSEEN: u32 = 400;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
+/// A base that does not drive is at a pose if that is as near (m, rad) as this.
+const SAME_PLACE: f64 = 1e-3;
+/// How far (m) the map of a base that does not drive extends around it.
+const AT_BASE: f64 = 0.1;
+/// From where such a base reaches or sees something, or does not.
+const FROM_HERE: &str = "from where the robot stands, whose base does not move";
+/// Why such a base is nowhere else.
+const ELSEWHERE: &str = "elsewhere than where the robot stands, whose base does not move";
 
 /// The search in one state of the world.
 pub(super) struct BaseSearch {
@@ -101,7 +109,8 @@ impl BaseSearch {
         draw: &mut Draw,
     ) -> Result<Result<Self, String>, WorldError> {
         let factors = factors(query, scene.world);
-        let map = match Costmap::product(RESOLUTION, limits(query), &factors) {
+        let limits = limits(query, scene.world);
+        let map = match Costmap::product(RESOLUTION, limits, &factors) {
             Ok(map) => map,
             Err(emptied) => {
                 return Ok(Err(format!(
@@ -140,6 +149,9 @@ impl BaseSearch {
         offered: &Offered,
         tally: &mut Tally,
     ) -> Result<Option<Pose>, WorldError> {
+        if is_fixed(scene.world) {
+            return self.next_where_it_stands(query, scene, offered, tally);
+        }
         let Self {
             imagined,
             looking,
@@ -153,10 +165,6 @@ impl BaseSearch {
             is_second_look,
             ..
         } = self;
-        if scene.world.models().description.base.kind == DriveKind::Fixed {
-            tally.add("the robot's base does not drive".to_owned());
-            return Ok(None);
-        }
         let arms = &scene.world.models().description.arms;
         let has_planar_arm = arms.iter().any(|arm| arm.kinematics.plane().is_some());
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
@@ -251,6 +259,53 @@ impl BaseSearch {
         }
     }
 
+    /// Where the base stands, if it does not drive and that has not been offered.
+    fn next_where_it_stands(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        offered: &Offered,
+        tally: &mut Tally,
+    ) -> Result<Option<Pose>, WorldError> {
+        let here = scene.world.robot_configuration().base;
+        // However often it is asked, there is one place.
+        if offered.has(&here) {
+            *tally = Tally::of_only_place(ELSEWHERE);
+            return Ok(None);
+        }
+        match self.check_where_it_stands(query, scene)? {
+            Ok(()) => Ok(Some(here)),
+            Err(rejection) => {
+                *tally = Tally::of_only_place(rejection.cause);
+                if rejection.is_unseen {
+                    tally.note_unseen();
+                }
+                Ok(None)
+            }
+        }
+    }
+
+    /// Why a base that does not drive stands in no such place, if it does not.
+    fn check_where_it_stands(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+    ) -> Result<Result<(), Rejection>, WorldError> {
+        let here = scene.world.robot_configuration().base;
+        let (imagined, looking) = (&self.imagined, &mut self.looking);
+        let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
+        let found = test.run(&here, Effort::PATIENT, &mut 0)?;
+        let of_bare_place = query.target.item == Item::Point;
+        Ok(found.map_err(|rejection| Rejection {
+            // One of many points of a surface needs no name.
+            cause: match of_bare_place && rejection.is_unseen {
+                true => format!("out of sight {FROM_HERE}"),
+                false => format!("{} {FROM_HERE}", rejection.cause),
+            },
+            ..rejection
+        }))
+    }
+
     /// Why the pose is no such place, if it is none.
     pub(super) fn check(
         &mut self,
@@ -259,6 +314,15 @@ impl BaseSearch {
         base: &Pose,
     ) -> Result<Result<(), String>, WorldError> {
         let t = base.translation;
+        if is_fixed(scene.world) {
+            let here = scene.world.robot_configuration().base;
+            let way = pose::distance_between(base, &here);
+            if way.max(pose::angle_between(base, &here)) > SAME_PLACE {
+                return Ok(Err(ELSEWHERE.to_owned()));
+            }
+            let found = self.check_where_it_stands(query, scene)?;
+            return Ok(found.map_err(|rejection| rejection.cause));
+        }
         if t.z.abs() >= FLOOR {
             return Ok(Err("not on the floor".to_owned()));
         }
@@ -284,6 +348,7 @@ struct Test<'a> {
     checker: BaseChecker<'a>,
     reach: Reach<'a>,
     looking: &'a mut World,
+    is_fixed: bool,
 }
 
 impl<'a> Test<'a> {
@@ -299,6 +364,7 @@ impl<'a> Test<'a> {
             checker: BaseChecker::new(scene.world),
             reach: Reach::new(goal, imagined)?,
             looking,
+            is_fixed: is_fixed(scene.world),
         })
     }
 
@@ -314,7 +380,12 @@ impl<'a> Test<'a> {
         }
         let t = base.translation;
         let place = [t.x, t.y, pose::yaw(base)];
-        if let Some(hit) = self.checker.blocked(&place, MIN_MARGIN) {
+        // A base that does not drive is where it is.
+        let hit = match self.is_fixed {
+            true => None,
+            false => self.checker.blocked(&place, MIN_MARGIN),
+        };
+        if let Some(hit) = hit {
             let cause = format!("in collision with {}", hit.other);
             return Ok(Err(Rejection::of(cause)));
         }
@@ -351,13 +422,25 @@ impl<'a> Test<'a> {
     }
 }
 
+/// Whether the robot's base does not drive.
+fn is_fixed(world: &World) -> bool {
+    world.models().description.base.kind == DriveKind::Fixed
+}
+
 /// Why no base pose will do if the hands have no room.
 fn no_room(query: &BaseQuery) -> String {
     format!("with no room for a hand at {}", query.target.name)
 }
 
 /// The part of the floor (m) that is searched.
-fn limits(query: &BaseQuery) -> [[f64; 2]; 2] {
+fn limits(query: &BaseQuery, world: &World) -> [[f64; 2]; 2] {
+    if is_fixed(world) {
+        let t = world.robot_configuration().base.translation;
+        return [
+            [t.x - AT_BASE, t.y - AT_BASE],
+            [t.x + AT_BASE, t.y + AT_BASE],
+        ];
+    }
     let t = query.target.pose.translation;
     let far = match &query.arms {
         Some(_) => query.distances.reach[1],
@@ -372,7 +455,7 @@ fn between(query: &BaseQuery, world: &World, before: &Walk, draw: &mut Draw) -> 
     query.arms.as_ref()?;
     let factors = factors(query, world);
     before.between(draw, |shift| {
-        let map = Costmap::shifted_product(RESOLUTION, shift, limits(query), &factors);
+        let map = Costmap::shifted_product(RESOLUTION, shift, limits(query, world), &factors);
         map.map_or_else(|_| Vec::new(), |map| map.cells)
     })
 }
@@ -384,6 +467,14 @@ fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
     let distance = move |[x, y]: [f64; 2]| libm::hypot(x - target[0], y - target[1]);
     let name = &query.target.name;
     let mut factors = Vec::new();
+    if is_fixed(world) {
+        // The exact tests decide.
+        factors.push(Factor {
+            key: "where the base stands".to_owned(),
+            value: Box::new(|_| 1.0),
+        });
+        return factors;
+    }
     if query.arms.is_some() {
         factors.push(Factor {
             key: format!("within {} m of {name}", query.distances.reach[1]),

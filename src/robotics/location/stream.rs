@@ -176,6 +176,7 @@ impl Stream {
             n => format!(" {n} have been offered before."),
         };
         match total {
+            1 if self.tally.is_of_only_place() => format!("{}.{more}", self.tally),
             0 => format!("There are no candidates left.{more}"),
             n => format!("{n} of {n} candidates were rejected: {}.{more}", self.tally),
         }

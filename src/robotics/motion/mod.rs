@@ -13,6 +13,7 @@ pub(crate) mod planning;
 pub(crate) mod trajectories;
 
 pub use choosing::carrying_posture::{carries, carrying_posture};
+pub use choosing::fitted_grasps::fit_grasps;
 pub use choosing::grasp_chooser::{
     Candidates, GraspChoice, GraspChooser, GraspQuestion, about_z, needed,
 };

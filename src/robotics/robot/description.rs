@@ -9,7 +9,7 @@ use super::interface::RobotInterface;
 use super::jaw_gap::JawGap;
 use super::{
     Alias, ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId,
-    Side,
+    MountedFrame, Side,
 };
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use spatial::{Pose, trig};
@@ -58,6 +58,8 @@ pub struct Base {
     pub turn: Speed,
     /// The frame in which the base measures its way, if it has a name; here it is the map.
     pub odometry: Option<String>,
+    /// Where its frame is in the map after start-up (m); above the floor only if it does not drive.
+    pub start: Pose,
 }
 
 /// The torso, which a lift may raise.
@@ -172,6 +174,12 @@ impl Arm {
     /// The names of its postures, in the order of the file.
     pub fn posture_names(&self) -> impl Iterator<Item = &str> {
         self.postures.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Where its hand points, in the frame of the wrist and of the tool.
+    pub(crate) fn ahead(&self) -> Vector3<f64> {
+        let ahead = self.tool_at.try_normalize(1e-9);
+        ahead.unwrap_or_else(Vector3::x)
     }
 
     /// The link that the first of its joints moves.
@@ -342,6 +350,8 @@ pub struct RobotDescription {
     pub(crate) idle_joints: Vec<JointId>,
     /// Joints that move as another one does, though the URDF does not say so, each with that one.
     pub(crate) joined: Vec<(JointId, JointId)>,
+    /// Frames that the URDF lacks.
+    pub(crate) frames: Vec<MountedFrame>,
     /// Names by which users call links and joints, besides those in the URDF.
     pub aliases: Vec<Alias>,
     /// By which names it is driven from outside.

@@ -1,18 +1,19 @@
 //! Reading a robot description from s-expressions.
 
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
-
+use super::alias_file::aliases;
 use super::description::{
     Aim, Arm, Base, Camera, DriveKind, Gripper, Jaws, Neck, RobotDescription, Speed, Torso,
 };
+use super::description_values::{
+    base_start, drive_kind, optional_positive, pad_size, rotation, speed,
+};
 use super::interface_file::{INTERFACE_KEYS, interface};
 use super::jaw_gap::{JawGap, JawGapError};
-use super::{
-    Alias, AliasedPart, ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits,
-    LinkId, Side,
-};
+use super::mounted_frame::{MountedFrame, aimed};
+use super::{ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limits, LinkId, Side};
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use closest_name::closest_name;
+use spatial::Pose;
 
 /// The records of a description, each with its keys.
 const RECORDS: &[(&str, &[&str])] = &[
@@ -28,6 +29,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "turn-velocity",
             "turn-acceleration",
             "odometry",
+            "start",
         ],
     ),
     ("torso", &["link", "joint", "start"]),
@@ -39,6 +41,8 @@ const RECORDS: &[(&str, &[&str])] = &[
         "camera",
         &[
             "frame",
+            "at",
+            "looks-at",
             "width",
             "height",
             "vertical-view",
@@ -107,8 +111,12 @@ impl RobotDescription {
         for &(follower, leader) in &followers {
             joined.join(follower, leader);
         }
+        let frames = reader.mounted_frames()?;
+        for frame in &frames {
+            joined.mount(frame);
+        }
         reader.tree = &joined;
-        reader.description(followers)
+        reader.description(followers, frames)
     }
 }
 
@@ -120,7 +128,11 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn description(&self, joined: Vec<(JointId, JointId)>) -> Result<RobotDescription, DataError> {
+    fn description(
+        &self,
+        joined: Vec<(JointId, JointId)>,
+        frames: Vec<MountedFrame>,
+    ) -> Result<RobotDescription, DataError> {
         let robot = self.single("robot")?;
         let cameras: Vec<Camera> = self
             .all("camera")
@@ -141,6 +153,7 @@ impl<'a> Reader<'a> {
             wheels: self.groups("wheels")?.concat(),
             idle_joints: self.idle_joints()?,
             joined,
+            frames,
             aliases: aliases(self.tree, self.all("alias"))?,
             interface: interface(self.all("interface"))?,
             speeds: self.speeds()?,
@@ -236,18 +249,23 @@ impl<'a> Reader<'a> {
     fn base(&self) -> Result<Base, DataError> {
         let record = self.single("base")?;
         let frame = record.required("frame")?;
+        let kind = record
+            .optional("drive")
+            .map_or(Ok(DriveKind::Omnidirectional), drive_kind)?;
         let base = Base {
             frame: self.link(frame)?,
             body: self.link(record.required("body")?)?,
-            kind: record
-                .optional("drive")
-                .map_or(Ok(DriveKind::Omnidirectional), drive_kind)?,
+            kind,
             drive: speed(record, "drive-velocity", "drive-acceleration")?,
             turn: speed(record, "turn-velocity", "turn-acceleration")?,
             odometry: record
                 .optional("odometry")
                 .map(|node| node.symbol().map(str::to_owned))
                 .transpose()?,
+            start: match record.optional("start") {
+                Some(node) => base_start(node, kind)?,
+                None => Pose::identity(),
+            },
         };
         if base.frame != self.tree.root() {
             let root = &self.tree.link(self.tree.root()).name;
@@ -314,6 +332,31 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// The frames of cameras that stand where the URDF has none.
+    fn mounted_frames(&self) -> Result<Vec<MountedFrame>, DataError> {
+        let mut frames: Vec<MountedFrame> = Vec::new();
+        for record in self.all("camera") {
+            let Some(at) = record.optional("at") else {
+                if let Some(node) = record.optional("looks-at") {
+                    return Err(node.expected("no :looks-at without :at, where the camera stands"));
+                }
+                continue;
+            };
+            let thing = record.thing("name")?;
+            let name = MountedFrame::name_of(thing.symbol()?);
+            let is_taken = frames.iter().any(|frame| frame.name == name);
+            if is_taken || self.tree.link_named(&name).is_some() {
+                return Err(thing.error(DataProblem::Repeated(format!("the link {name}"))));
+            }
+            frames.push(MountedFrame {
+                name,
+                parent: self.link(record.required("frame")?)?,
+                at: aimed(at, record.required("looks-at")?)?,
+            });
+        }
+        Ok(frames)
+    }
+
     fn camera(&self, record: &Record<'_>) -> Result<Camera, DataError> {
         let view = record.required("vertical-view")?;
         let vertical_view = view.positive()?;
@@ -321,9 +364,18 @@ impl<'a> Reader<'a> {
             return Err(view.expected("an angle below pi"));
         }
         let far = record.required("far")?;
+        let name = record.thing("name")?.symbol()?.to_owned();
+        let frame = match record.optional("at") {
+            // It has been mounted.
+            Some(node) => {
+                let mounted = self.tree.link_named(&MountedFrame::name_of(&name));
+                mounted.ok_or_else(|| node.expected("a frame that has been mounted"))?
+            }
+            None => self.link(record.required("frame")?)?,
+        };
         let camera = Camera {
-            name: record.thing("name")?.symbol()?.to_owned(),
-            frame: self.link(record.required("frame")?)?,
+            name,
+            frame,
             width: record.required("width")?.count()?,
             height: record.required("height")?.count()?,
             vertical_view,
@@ -515,87 +567,5 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(speeds)
-    }
-}
-
-fn drive_kind(node: Node<'_>) -> Result<DriveKind, DataError> {
-    let name = node.symbol()?;
-    let mut kinds = DriveKind::NAMED.iter();
-    let kind = kinds
-        .find(|(known, _)| *known == name)
-        .map(|(_, kind)| *kind);
-    kind.ok_or_else(|| node.expected("omnidirectional, differential or fixed"))
-}
-
-/// The aliases that records `(alias NAME LINK-OR-JOINT)` give to links and joints of a tree.
-pub(crate) fn aliases<'a>(
-    tree: &KinematicTree,
-    records: impl Iterator<Item = &'a Record<'a>>,
-) -> Result<Vec<Alias>, DataError> {
-    let mut aliases: Vec<Alias> = Vec::new();
-    for record in records {
-        let [name_node, part_node] = record.things() else {
-            return Err(record.node().expected("(alias NAME LINK-OR-JOINT)"));
-        };
-        let (name, part) = (name_node.symbol()?, part_node.symbol()?);
-        let is_alias = aliases.iter().any(|alias| alias.name == name);
-        if is_alias || tree.link_named(name).is_some() || tree.joint_named(name).is_some() {
-            return Err(name_node.error(DataProblem::Repeated(format!("the name {name}"))));
-        }
-        let link = tree.link_named(part).map(AliasedPart::Link);
-        let part = link.or_else(|| tree.joint_named(part).map(AliasedPart::Joint));
-        let part = part.ok_or_else(|| {
-            let links = tree.links().map(|(_, link)| link.name.as_str());
-            let joints = tree.joints().map(|(_, joint)| joint.name.as_str());
-            let wanted = part_node.symbol().unwrap_or_default();
-            part_node.unknown(
-                "link or joint",
-                wanted,
-                closest_name(wanted, links.chain(joints)),
-            )
-        })?;
-        aliases.push(Alias {
-            name: name.to_owned(),
-            part,
-        });
-    }
-    Ok(aliases)
-}
-
-fn optional_positive(record: &Record<'_>, key: &str) -> Result<Option<f64>, DataError> {
-    record.optional(key).map(|node| node.positive()).transpose()
-}
-
-fn speed(record: &Record<'_>, velocity: &str, acceleration: &str) -> Result<Speed, DataError> {
-    Ok(Speed {
-        velocity: record.required(velocity)?.positive()?,
-        acceleration: record.required(acceleration)?.positive()?,
-    })
-}
-
-/// A rotation, given as the rows of its matrix.
-/// A rotation, and its third row.
-fn rotation(node: Node<'_>) -> Result<(UnitQuaternion<f64>, Vector3<f64>), DataError> {
-    let wrong = || node.expected("the three rows of a rotation matrix");
-    let rows = node.list().map_err(|_| wrong())?;
-    let rows: Vec<[f64; 3]> = rows
-        .iter()
-        .map(Node::numbers::<3>)
-        .collect::<Result<_, _>>()?;
-    let [a, b, c] = <[[f64; 3]; 3]>::try_from(rows).map_err(|_| wrong())?;
-    let matrix = Matrix3::from([a, b, c]).transpose();
-    let error = (matrix * matrix.transpose() - Matrix3::identity()).norm();
-    if error > 1e-6 || matrix.determinant() < 0.0 {
-        return Err(wrong());
-    }
-    let rotation = Rotation3::from_matrix_unchecked(matrix);
-    Ok((UnitQuaternion::from_rotation_matrix(&rotation), c.into()))
-}
-
-/// Length and width (m) of a pad.
-fn pad_size(node: Node<'_>) -> Result<[f64; 2], DataError> {
-    match node.list()?.as_slice() {
-        [length, width] => Ok([length.positive()?, width.positive()?]),
-        _ => Err(node.expected("the length and the width of a pad")),
     }
 }

@@ -4,6 +4,7 @@
 //! The same kinematic tree also describes the furniture. Nothing here knows of
 //! time, physics or the plan language; poses are those of [`spatial`].
 
+mod alias_file;
 pub(crate) mod arm_chain;
 pub mod arm_kinematics;
 pub mod arm_plane;
@@ -13,6 +14,7 @@ pub mod closed_form;
 pub mod derive;
 pub mod description;
 mod description_file;
+mod description_values;
 mod elbow_curve;
 pub mod fit;
 pub mod ids;
@@ -22,6 +24,7 @@ pub mod jaw_gap;
 pub mod joint_chain;
 mod joint_positions;
 pub mod miss;
+mod mounted_frame;
 pub mod numeric_kinematics;
 mod polynomial;
 pub(crate) mod shape_extent;
@@ -40,12 +43,13 @@ mod urdf_shapes;
 mod urdf_text;
 mod xml_elements;
 
+pub(crate) use alias_file::aliases;
 pub use arm_kinematics::ArmKinematics;
 pub use arm_plane::ArmPlane;
 pub use arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 pub use derive::{DerivedRobot, TouchTest};
 pub use description::RobotDescription;
-pub(crate) use description_file::aliases;
+
 pub use fit::MissingNames;
 pub use ids::{JointId, LinkId};
 pub use interface::{PartInterface, RobotInterface, RobotPart};
@@ -53,6 +57,7 @@ pub use jaw_gap::{JawGap, JawGapError};
 pub use joint_chain::JointChainError;
 pub use joint_positions::JointPositions;
 pub use miss::Miss;
+pub use mounted_frame::MountedFrame;
 pub use numeric_kinematics::NumericKinematics;
 pub use side::Side;
 pub use srdf::{GroupState, Srdf};

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::ids::{JointId, LinkId};
 use super::joint_positions::JointPositions;
+use super::mounted_frame::MountedFrame;
 use spatial::{PlacedShape, Pose, trig};
 
 /// A rigid part, or a mere frame when it has neither shapes nor mass.
@@ -306,6 +307,42 @@ impl KinematicTree {
                 placed.leader = Some(leader);
             }
         }
+    }
+
+    /// Fixes a frame without a body to a link. It comes after all other links.
+    pub(crate) fn mount(&mut self, frame: &MountedFrame) {
+        let (child, id) = (LinkId(self.links.len()), JointId(self.joints.len()));
+        self.links.push(Link {
+            name: frame.name.clone(),
+            parent_joint: Some(id),
+            children: Vec::new(),
+            collisions: Vec::new(),
+            visuals: Vec::new(),
+            mass: 0.0,
+        });
+        self.joints.push(Joint {
+            name: format!("{}_joint", frame.name),
+            kind: JointKind::Fixed,
+            parent: frame.parent,
+            child,
+            origin: frame.at,
+            axis: Vector3::x_axis(),
+            limits: None,
+            soft_limits: None,
+            max_velocity: None,
+            max_effort: None,
+            mimic: None,
+        });
+        if let Some(parent) = self.links.get_mut(frame.parent.0) {
+            parent.children.push(id);
+        }
+        // Its parent has been placed before.
+        self.order.push(Placement {
+            joint: id,
+            parent: frame.parent,
+            child,
+            leader: None,
+        });
     }
 
     /// Every joint at zero.

@@ -150,6 +150,8 @@ pub struct GraspLibrary {
     order: IndexMap<String, Vec<String>>,
     /// By type, arm and name.
     grasps: IndexMap<(String, Side, String), GraspDefinition>,
+    /// What stands for some of these with the hands of the robot.
+    fitted: IndexMap<(String, Side, String), GraspDefinition>,
     /// Why no hand can grasp objects of a type.
     refusals: IndexMap<String, String>,
 }
@@ -188,6 +190,7 @@ impl GraspLibrary {
             grips: IndexMap::new(),
             order: IndexMap::new(),
             grasps: IndexMap::new(),
+            fitted: IndexMap::new(),
             refusals: IndexMap::new(),
         }
     }
@@ -251,6 +254,7 @@ impl GraspLibrary {
         self.grips.shift_remove(object_type);
         self.refusals.shift_remove(object_type);
         self.grasps.retain(|(of, _, _), _| of != object_type);
+        self.fitted.retain(|(of, _, _), _| of != object_type);
     }
 
     /// Sets how hard to grip objects of a type, and how wide to open beforehand.
@@ -300,7 +304,21 @@ impl GraspLibrary {
     /// The grasp with that name for objects of that type with that arm.
     pub fn get(&self, object_type: &str, arm: Side, grasp: &str) -> Option<&GraspDefinition> {
         let key = (object_type.to_owned(), arm, grasp.to_owned());
-        self.grasps.get(&key)
+        self.fitted.get(&key).or_else(|| self.grasps.get(&key))
+    }
+
+    /// Lets other definitions stand for some of the grasps that are known now; those that did so before do no
+    /// longer. `fitted` is asked for each of them, with its type, its arm and how wide (m) the hand opens.
+    pub(crate) fn fit(
+        &mut self,
+        fitted: impl Fn(&str, Side, &GraspDefinition, f64) -> Option<GraspDefinition>,
+    ) {
+        let all = self.grasps.iter().filter_map(|(key, definition)| {
+            let (kind, side, _) = key;
+            let opening = self.opening(kind, definition);
+            Some((key.clone(), fitted(kind, *side, definition, opening)?))
+        });
+        self.fitted = all.collect();
     }
 
     /// Effort and opening for a type.
@@ -333,6 +351,7 @@ impl GraspLibrary {
         // What somebody says counts more than what the shape seemed to say.
         self.refusals.shift_remove(object_type);
         let key = (object_type.to_owned(), arm, grasp.to_owned());
+        self.fitted.shift_remove(&key);
         self.grasps.insert(key, definition);
         Ok(())
     }

@@ -91,6 +91,9 @@ impl Models {
         for (follower, leader) in &description.joined {
             robot.join(*follower, *leader);
         }
+        for frame in &description.frames {
+            robot.mount(frame);
+        }
         robot.set_aliases(description.aliases.clone());
         kitchen.set_aliases(kitchen_description.aliases.clone());
         let idle = &description.idle_joints;

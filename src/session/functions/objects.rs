@@ -312,7 +312,7 @@ fn object_exists(simulation: &mut Simulation, image: &mut Image, args: &[Value])
 fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let pose = match args.first() {
         Some(pose) => simulation.pose_as_given(image, pose)?,
-        None => Pose::identity(),
+        None => simulation.models.description.base.start,
     };
     simulation
         .world

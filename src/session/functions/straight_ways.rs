@@ -136,7 +136,9 @@ pub(super) fn imagined(world: &World, base: Option<&Pose>, posture: Option<&Post
     let mut robot = world.robot_configuration().clone();
     if let Some(base) = base {
         let t = base.translation;
+        let height = robot.base.translation.z;
         robot.base = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
+        robot.base.translation.z = height;
     }
     if let Some((side, torso, positions)) = posture {
         let description = &world.models().description;

@@ -34,7 +34,9 @@ impl Imagined<'_> {
         robot.joints.set(gripper.joint, fingers);
         if let Some(base) = &self.base_pose {
             let t = base.translation;
+            let height = robot.base.translation.z;
             robot.base = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
+            robot.base.translation.z = height;
         }
         world.teleport_robot(&robot);
         world.detach(self.object)?;

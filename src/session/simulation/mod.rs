@@ -136,8 +136,8 @@ impl Simulation {
             put_for_sweep: Vec::new(),
             robot: None,
             home: Arc::clone(&models),
+            grasps: KnownGrasps::of(&models),
             models,
-            grasps: KnownGrasps::default(),
             meshes: MeshPlaces::default(),
             log_level,
             seed,
@@ -266,6 +266,7 @@ impl Simulation {
     pub(super) fn begin_with(&mut self, models: &Models) {
         let objects = Arc::clone(&self.models.objects);
         self.models = Arc::new(models.with_objects(objects));
+        self.grasps.fit(&self.models);
         self.start = Rc::default();
         self.looks = OnceCell::new();
         self.begun_searches = locations::Searches::default();
@@ -306,7 +307,7 @@ impl Simulation {
 /// The world in which a session with these models begins.
 pub(super) fn starting_world(models: &Arc<Models>) -> World {
     let robot = RobotConfiguration {
-        base: Pose::identity(),
+        base: models.description.base.start,
         joints: models.description.start_positions(&models.robot),
     };
     World::new(models.clone(), robot)

@@ -182,7 +182,8 @@ impl Simulation {
                 "its frame {frame:?}: the numbers count as coordinates of the map"
             ));
         }
-        if goal.translation.z.abs() > OFF_FLOOR {
+        let height = self.base().translation.z;
+        if (goal.translation.z - height).abs() > OFF_FLOOR {
             ignored.push(format!("its height z {} m", goal.translation.z));
         }
         if (goal.rotation * Vector3::z()).z < UPRIGHT {

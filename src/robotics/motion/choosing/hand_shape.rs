@@ -5,7 +5,7 @@ use parry3d_f64::math::{Pose as ParryPose, Vector};
 use parry3d_f64::query::intersection_test;
 use parry3d_f64::shape::Shape;
 
-use crate::robot::Side;
+use crate::robot::{LinkId, Side};
 use crate::world::Models;
 use crate::world::solid::{Solid, from_parry_vector, to_parry};
 use spatial::Pose;
@@ -14,11 +14,25 @@ use spatial::Pose;
 pub(super) struct HandShape {
     /// Each with its pose in the frame of the tool.
     solids: Vec<(Solid, ParryPose)>,
+    /// Where the hand points, in that frame.
+    ahead: Vector,
 }
 
 impl HandShape {
     /// The hand of a side with its pads so far apart (m).
     pub(super) fn new(models: &Models, side: Side, gap: f64) -> Self {
+        let links: Vec<LinkId> = models.description.arm(side).gripper.links().collect();
+        Self::of_links(models, side, gap, &links)
+    }
+
+    /// The palm of a side, which stays as it is when the fingers move.
+    pub(super) fn palm(models: &Models, side: Side) -> Self {
+        let palm = models.description.arm(side).gripper.palm;
+        Self::of_links(models, side, 0.0, &[palm])
+    }
+
+    /// Some links of the hand of a side with its pads so far apart (m).
+    fn of_links(models: &Models, side: Side, gap: f64, links: &[LinkId]) -> Self {
         let arm = models.description.arm(side);
         let gripper = &arm.gripper;
         let mut joints = models.description.start_positions(&models.robot);
@@ -28,7 +42,6 @@ impl HandShape {
         robot.forward_kinematics(&Pose::identity(), &joints, &mut poses);
         let wrist = poses.get(arm.wrist.index()).copied().unwrap_or_default();
         let tool = arm.tool_for_wrist(&wrist).inverse();
-        let links: Vec<_> = gripper.links().collect();
         let parts = models.robot_geometry.solid_links.iter();
         let parts = parts.filter(|part| links.contains(&part.link));
         let solids = parts.flat_map(|part| {
@@ -39,6 +52,10 @@ impl HandShape {
         });
         Self {
             solids: solids.collect(),
+            ahead: {
+                let ahead = arm.ahead();
+                Vector::new(ahead.x, ahead.y, ahead.z)
+            },
         }
     }
 
@@ -59,9 +76,9 @@ impl HandShape {
         -self.farthest(tool, Vector::new(0.0, 0.0, -1.0))
     }
 
-    /// How far (m) it reaches beyond the tool's point, along the axis of the tool.
+    /// How far (m) it reaches beyond the tool's point, where the hand points.
     pub(super) fn ahead(&self) -> f64 {
-        self.farthest(&Pose::identity(), Vector::new(1.0, 0.0, 0.0))
+        self.farthest(&Pose::identity(), self.ahead)
     }
 
     /// How far (m) it reaches in a direction with the tool at a pose.

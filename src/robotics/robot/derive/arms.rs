@@ -113,9 +113,10 @@ pub(super) fn find(
             Some(gripper) => placement(tree, wrist, gripper, remarks),
             None => {
                 remarks.push(format!(
-                    "The arm to {palm} has no gripper that was found: correct :tool-offset and :tool-axes, \
-                     whose rows are, in the frame of {}, across the palm, the third axis, and away from the \
-                     palm.",
+                    "The arm to {palm} has no gripper that was found, and without one it cannot take anything: \
+                     add to the URDF a palm, fixed to {palm}, and two fingers with prismatic joints on it, and \
+                     describe the robot again. Or correct :tool-offset and :tool-axes, whose rows are, in the \
+                     frame of {}, across the palm, the third axis, and away from the palm.",
                     tree.link(wrist).name
                 ));
                 Placement {

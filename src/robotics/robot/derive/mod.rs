@@ -18,6 +18,8 @@ pub use arms::DerivedArm;
 pub use grippers::DerivedGripper;
 pub use wheels::{DerivedDrive, DerivedWheels};
 
+/// How high (m) above what it stands on a robot that does not drive parks its arm, at least.
+const ABOVE_TABLE: f64 = 0.005;
 /// Pairs of links that a remark names.
 const MOST_PAIRS: usize = 4;
 
@@ -100,6 +102,7 @@ impl DerivedRobot {
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
             q.set(joint, arms::start_height(limits));
         }
+        let table = (wheels.drive == DerivedDrive::Fixed).then_some(ABOVE_TABLE);
         for arm in &mut arms {
             let is_expected = |pair: &(LinkId, LinkId)| {
                 let is_built = built.contains(pair) || built.contains(&(pair.1, pair.0));
@@ -113,7 +116,7 @@ impl DerivedRobot {
                 pairs.retain(|pair| !is_expected(pair) && (is_of_arm(pair.0) || is_of_arm(pair.1)));
                 pairs
             };
-            let Some((park, touching)) = parking::find(tree, arm, &q, hits) else {
+            let Some((park, touching)) = parking::find(tree, arm, &q, table, hits) else {
                 continue;
             };
             for (joint, position) in arm.joints.iter().zip(&park) {
@@ -188,8 +191,8 @@ fn cameras(tree: &KinematicTree, arms: &[DerivedArm], remarks: &mut Vec<String>)
     found.sort();
     if found.is_empty() {
         remarks.push(
-            "No frame is named …optical_frame (z forward, x to the right): add one to the URDF where \
-             the camera is, and its (camera …) record."
+            "No frame is named …optical_frame (z forward, x to the right): say where the camera is in a \
+             (camera …) record, as below; without a camera, the robot finds nothing."
                 .to_owned(),
         );
     } else if !some {

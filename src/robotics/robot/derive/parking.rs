@@ -17,11 +17,13 @@ const TRIED: usize = 400;
 const HEIGHT: f64 = 0.4;
 
 /// The posture that keeps the arm nearest to the body, and low, of those in which nothing touches, or else
-/// the least; with what does. `others` are the positions of all other joints.
+/// the least; with what does. `others` are the positions of all other joints; nothing of the arm is below `floor` (m, in the
+/// frame of the root), if that is given, since the robot stands on a table.
 pub(super) fn find(
     tree: &KinematicTree,
     arm: &DerivedArm,
     others: &JointPositions,
+    floor: Option<f64>,
     hits: impl Fn(&JointPositions) -> Vec<(LinkId, LinkId)>,
 ) -> Option<(ArmPositions, Vec<(LinkId, LinkId)>)> {
     let kinematics = NumericKinematics::new(tree, arm.base, arm.wrist).ok()?;
@@ -49,6 +51,10 @@ pub(super) fn find(
         }
         set(arm, &mut q, &posture);
         tree.forward_kinematics(&Pose::identity(), &q, &mut poses);
+        let is_below = |floor: f64| lowest(tree, &moved, &poses) < floor;
+        if floor.is_some_and(is_below) {
+            continue;
+        }
         postures.push((extended(tree, &moved, &poses), posture));
     }
     postures.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -74,6 +80,20 @@ fn set(arm: &DerivedArm, q: &mut JointPositions, posture: &ArmPositions) {
     for (joint, position) in arm.joints.iter().zip(posture) {
         q.set(*joint, *position);
     }
+}
+
+/// How low (m) the links reach.
+fn lowest(tree: &KinematicTree, links: &[LinkId], poses: &[Pose]) -> f64 {
+    let mut least = f64::INFINITY;
+    for link in links {
+        let Some(pose) = poses.get(link.index()) else {
+            continue;
+        };
+        for shape in &tree.link(*link).collisions {
+            least = least.min(extent(shape, pose, &Vector3::z())[0]);
+        }
+    }
+    least
 }
 
 /// How far the links are away from the middle of the robot, and a little of how high they are.

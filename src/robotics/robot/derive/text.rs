@@ -32,10 +32,24 @@ pub(super) fn written(robot: &DerivedRobot, tree: &KinematicTree) -> String {
         DerivedDrive::Differential => "differential",
         DerivedDrive::Fixed => "fixed",
     };
-    comment(&mut text, "Assumed: speeds and accelerations of the base.");
+    let start = match robot.wheels.drive {
+        DerivedDrive::Fixed => {
+            comment(
+                &mut text,
+                "The base does not drive. Say where in the kitchen it stands, by its frame in the map: \
+                 :start ((x y z) (0 0 sin cos)) with sine and cosine of half its heading; z is the height \
+                 of the table that it stands on.",
+            );
+            "\n      :start ((0 0 0) (0 0 0 1))"
+        }
+        _ => {
+            comment(&mut text, "Assumed: speeds and accelerations of the base.");
+            ""
+        }
+    };
     let _ = writeln!(
         text,
-        "(base :frame {} :body {} :drive {drive}\n      :drive-velocity 0.5 :drive-acceleration 1.0 \
+        "(base :frame {} :body {} :drive {drive}{start}\n      :drive-velocity 0.5 :drive-acceleration 1.0 \
          :turn-velocity 0.6 :turn-acceleration 1.2)",
         link(robot.base_frame),
         link(robot.base_body)
@@ -51,7 +65,7 @@ pub(super) fn written(robot: &DerivedRobot, tree: &KinematicTree) -> String {
     }
     neck(&mut text, robot, tree);
     if robot.cameras.is_empty() {
-        text.push_str("; (camera NAME :frame … :width 320 :height 240 :vertical-view 0.8 :near 0.1 :far 10 :visible-share 0.9)\n");
+        missing_camera(&mut text, robot, tree);
     } else {
         comment(
             &mut text,
@@ -110,6 +124,32 @@ pub(super) fn written(robot: &DerivedRobot, tree: &KinematicTree) -> String {
         );
     }
     text
+}
+
+/// A camera to be completed: beside an arm that stands, it sees what is before that arm.
+fn missing_camera(text: &mut String, robot: &DerivedRobot, tree: &KinematicTree) {
+    let length = robot.arms.first().map_or(1.0, |arm| {
+        let origins = arm.joints.iter().map(|joint| tree.joint(*joint).origin);
+        origins.fold(arm.tool_offset, |sum, origin| {
+            sum + origin.translation.vector.norm()
+        })
+    });
+    comment(
+        text,
+        "A camera may also stand where no link is: :at and :looks-at (m) are in the frame of the link :frame. If \
+         the next one is where yours is, take the semicolon away.",
+    );
+    let metres = |share: f64| number((share * length * 100.0).round() / 100.0);
+    let _ = writeln!(
+        text,
+        "; (camera beside :frame {} :at ({} {} {}) :looks-at ({} 0 0) :width 320 :height 240 :vertical-view 0.8 \
+         :near 0.1 :far 10 :visible-share 0.9)",
+        tree.link(robot.base_frame).name,
+        metres(0.4),
+        metres(1.0),
+        metres(0.7),
+        metres(0.4),
+    );
 }
 
 fn neck(text: &mut String, robot: &DerivedRobot, tree: &KinematicTree) {
