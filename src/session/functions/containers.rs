@@ -14,7 +14,7 @@ use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use nalgebra::Translation3;
-use robotics::location::{Container, containers};
+use robotics::location::{Container, container_before, containers};
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
 use robotics::robot::JointKind;
@@ -79,6 +79,13 @@ pub(crate) static PLANS_TABLE: &[Builtin] = &[
             "(pp-plans::container-p :kitchen-island-surface) => NIL",
         ],
         host!(container_p),
+    ),
+    control(
+        "CONTAINER-BEFORE",
+        "container",
+        "The name of the drawer or door that has to be open before one, given by its name or described, can move, as the flap of a dishwasher before its rack; NIL if there is none. What is in its way while everything is shut, and is not once it is open, has to be open.",
+        &["(pp-plans::container-before :iai-fridge-door) => NIL"],
+        host!(container_before_that),
     ),
     control(
         "ASSERT-WAY-IS-FREE",
@@ -203,6 +210,19 @@ fn container_state(
 ) -> Result<Reply> {
     let container = simulation.container(image, &args[0])?;
     done(Value::values(state(simulation, image, &container).to_vec()))
+}
+
+fn container_before_that(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let container = simulation.container(image, &args[0])?;
+    let models = &simulation.models;
+    let before = container_before(models, &container);
+    done(before.map_or(Value::NIL, |before| {
+        furniture_keyword(image, &models.kitchen.link(before.link).name)
+    }))
 }
 
 /// What is asked of a hand that is to bring a container to a position.

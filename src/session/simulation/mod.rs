@@ -43,6 +43,7 @@ use robotics::world::noise::{Noise, NoiseLevels};
 use robotics::world::object_library::ObjectLibrary;
 use robotics::world::{Models, RobotConfiguration, World};
 use spatial::Pose;
+use spatial::pose::from_xy_yaw;
 use sweep::relations::Relations;
 use view::picture::{LocationMap, Looks};
 
@@ -305,8 +306,12 @@ impl Simulation {
 
 /// The world in which a session with these models begins.
 pub(super) fn starting_world(models: &Arc<Models>) -> World {
+    let base = match models.kitchen_description.start {
+        Some([x, y, heading]) => from_xy_yaw(x, y, heading.to_radians()),
+        None => Pose::identity(),
+    };
     let robot = RobotConfiguration {
-        base: Pose::identity(),
+        base,
         joints: models.description.start_positions(&models.robot),
     };
     World::new(models.clone(), robot)
