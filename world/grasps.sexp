@@ -186,6 +186,21 @@
 
 ; Grasps that CRAM does not have, for the shapes of world/objects.sexp.
 
+; The other sides of a bowl's rim, from less high above: 0.2 m above a counter of 0.9 m, a hand that points
+; downwards is out of a PR2's reach.
+(grasp top-front :types (bowl) :arms (left right)
+       :translation (0.07 0 0.01) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (bowl) :arms (left right)
+       :translation (0 0.07 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (bowl) :arms (left right)
+       :translation (0 -0.07 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+
 ; The rims of plates, one finger inside and one outside.
 (grasp top :types (plate) :arms (left right)
        :translation (-0.1155 0 0.0085) :rotation top-across-y

@@ -19,7 +19,7 @@ use super::error::WorldError;
 use super::hash::Hasher;
 use super::knob::Knob;
 use super::moved_part::Part;
-use super::scene::World;
+use super::scene::{World, pose_of};
 use super::solid::{Solid, from_parry_vector, to_parry};
 use super::two_stages::{AT_END, freeing_joint, has_turned};
 use crate::robot::{JointId, JointKind, LinkId, Side};
@@ -49,6 +49,9 @@ const GREATEST_KNOB_SLIP: f64 = 0.1;
 const CRUSHING_FORCE: f64 = 50.0;
 /// Overlap (m) of a part with the robot that stops it.
 const CONTACT: f64 = 0.0005;
+/// Rounds of the search for the position of a joint, and by how much (m or rad) it is moved for a derivative.
+const ROUNDS: u32 = 3;
+const DIFFERENCE: f64 = 1e-4;
 /// How thick (m) a bar may be.
 const THICKEST: f64 = 0.06;
 /// The joint is where it should be if the two differ by less than this (m or rad).
@@ -419,6 +422,7 @@ impl World {
                 let sign = hold.knob.as_ref().map_or(1.0, |knob| knob.sign);
                 now + sign * self.handle_pivot(hold)
             }
+            _ if self.follows(hold) => self.wanted_of_leader(hold, carried),
             JointKind::Prismatic => now + axis.dot(&(carried - real)),
             _ => {
                 // The joint's axis goes through the origin of its child.
@@ -432,6 +436,34 @@ impl World {
             }
         };
         joint.limits.map_or(wanted, |limits| limits.clamp(wanted))
+    }
+
+    /// Whether the handle is also moved by joints that follow the one that the hand moves.
+    fn follows(&self, hold: &HandleHold) -> bool {
+        let kitchen = &self.models.kitchen;
+        let mut joints = kitchen.ancestors(hold.handle);
+        joints.any(|joint| kitchen.joint(joint).mimic.is_some())
+    }
+
+    /// The position (rad or m) at which the held point is nearest to a point (m), for a handle that moves neither
+    /// straight nor on a circle, as that of a front that folds.
+    fn wanted_of_leader(&self, hold: &HandleHold, carried: Point3<f64>) -> f64 {
+        let point = |position: f64| {
+            let (_, poses) = self.kitchen_with(hold.joint, position);
+            pose_of(&poses, hold.handle) * hold.point
+        };
+        let mut position = self.state.kitchen.get(hold.joint);
+        for _ in 0..ROUNDS {
+            let here = point(position);
+            let tangent =
+                (point(position + DIFFERENCE) - point(position - DIFFERENCE)) / (2.0 * DIFFERENCE);
+            let square = tangent.norm_squared();
+            if square <= f64::EPSILON {
+                break;
+            }
+            position += tangent.dot(&(carried - here)) / square;
+        }
+        position
     }
 
     /// Whether something keeps the part from following the hand to a position (rad or m), and what,

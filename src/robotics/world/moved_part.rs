@@ -66,7 +66,7 @@ impl World {
 
     /// The objects that stand in the link, directly or on one another.
     fn riders(&self, link: LinkId, links: &[LinkId]) -> Vec<String> {
-        let Some(extent) = self.furniture_extent(link) else {
+        let Some(extent) = self.assembly_extent(link) else {
             return Vec::new();
         };
         let is_in = |object: &&Object| {

@@ -134,7 +134,8 @@ fn kind_keyword(image: &mut Image, kind: JointKind) -> Value {
 
 fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
     let containers = containers(&simulation.models);
-    let rows = containers.into_iter().map(|container| {
+    let moving = containers.into_iter().filter(|c| simulation.moves(c));
+    let rows = moving.map(|container| {
         let mut row = state(simulation, image, &container).to_vec();
         row.push(pose_stamped(
             "map",
