@@ -564,6 +564,15 @@
        :translation (0 0 0.01) :rotation top-across-x
        :pregrasp (0 0 0.15) :second-pregrasp (0 0 0.15)
        :lift (0 0 0.15) :second-lift (0 0 0.15))
+; The same from less high above, as for bowls.
+(grasp top-around-low :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-y
+       :pregrasp (0 0 0.08) :second-pregrasp (0 0 0.08)
+       :lift (0 0 0.08) :second-lift (0 0 0.08))
+(grasp top-around-left-low :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.08) :second-pregrasp (0 0 0.08)
+       :lift (0 0 0.08) :second-lift (0 0 0.08))
 ; A carton from above a side, over its upper edge: where a hand has no room beside it.
 (grasp back-above :types (milk) :arms (left right)
        :translation (0 0 0.06) :rotation above-back
