@@ -474,7 +474,13 @@ mod tests {
         let library = library();
         assert_eq!(
             library.grasps_from_above("cup"),
-            ["top", "top-around", "top-around-left"]
+            [
+                "top",
+                "top-around",
+                "top-around-left",
+                "top-around-low",
+                "top-around-left-low"
+            ]
         );
         assert_eq!(
             library.grasps_from_above("spoon"),
