@@ -487,7 +487,10 @@ mod tests {
             ["top", "top-back", "top-front"]
         );
         assert_eq!(library.grasps("spoon"), ["top"]);
-        assert_eq!(library.grasps_from_above("bowl"), ["top"]);
+        assert_eq!(
+            library.grasps_from_above("bowl"),
+            ["top", "top-front", "top-left", "top-right"]
+        );
         assert_eq!(
             library.grasps_from_above("milk"),
             [
