@@ -186,6 +186,21 @@
 
 ; Grasps that CRAM does not have, for the shapes of world/objects.sexp.
 
+; The other sides of a bowl's rim, from less high above: 0.2 m above a counter of 0.9 m, a hand that points
+; downwards is out of a PR2's reach.
+(grasp top-front :types (bowl) :arms (left right)
+       :translation (0.07 0 0.01) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (bowl) :arms (left right)
+       :translation (0 0.07 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (bowl) :arms (left right)
+       :translation (0 -0.07 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+
 ; The rims of plates, one finger inside and one outside.
 (grasp top :types (plate) :arms (left right)
        :translation (-0.1155 0 0.0085) :rotation top-across-y
@@ -549,6 +564,15 @@
        :translation (0 0 0.01) :rotation top-across-x
        :pregrasp (0 0 0.15) :second-pregrasp (0 0 0.15)
        :lift (0 0 0.15) :second-lift (0 0 0.15))
+; The same from less high above, as for bowls.
+(grasp top-around-low :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-y
+       :pregrasp (0 0 0.08) :second-pregrasp (0 0 0.08)
+       :lift (0 0 0.08) :second-lift (0 0 0.08))
+(grasp top-around-left-low :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.08) :second-pregrasp (0 0 0.08)
+       :lift (0 0 0.08) :second-lift (0 0 0.08))
 ; A carton from above a side, over its upper edge: where a hand has no room beside it.
 (grasp back-above :types (milk) :arms (left right)
        :translation (0 0 0.06) :rotation above-back

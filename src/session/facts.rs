@@ -203,6 +203,14 @@ fn kitchen(image: &mut Image, kitchen: &KitchenDescription) -> Value {
         Value::list(std::iter::once(name).chain(properties))
     });
     let places = Value::list(places.collect::<Vec<_>>());
+    let start = kitchen
+        .start
+        .map_or(Value::NIL, |start| Value::list(start.map(Value::Double)));
+    let behind = kitchen
+        .behind
+        .iter()
+        .map(|pair| Value::list(pair.each_ref().map(|link| Value::string(link.as_str()))));
+    let behind = Value::list(behind.collect::<Vec<_>>());
     let stores = kitchen.stores.iter().map(|store| {
         Value::list([
             keyword(image, &store.kind),
@@ -219,6 +227,8 @@ fn kitchen(image: &mut Image, kitchen: &KitchenDescription) -> Value {
     let margins = Value::list(margins.collect::<Vec<_>>());
     let entries = [
         ("name", keyword(image, &kitchen.name)),
+        ("start", start),
+        ("behind", behind),
         ("places", places),
         ("usually", rules(image, &kitchen.usually)),
         ("belongs", rules(image, &kitchen.belongs)),

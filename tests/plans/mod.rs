@@ -45,6 +45,7 @@ mod searching;
 mod session_copies;
 mod spawning;
 mod speeds;
+mod strange_kitchens;
 mod surface_chores;
 mod surfaces;
 mod sweeps;

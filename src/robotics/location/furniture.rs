@@ -115,7 +115,8 @@ pub fn containers(models: &Models) -> Vec<Container> {
         .filter_map(|(id, joint)| {
             Some(Container {
                 link: joint.child,
-                joint: id,
+                // What follows another joint is opened by that one.
+                joint: joint.mimic.map_or(id, |mimic| mimic.joint),
                 handle: handle_of(kitchen, joint.child)?,
             })
         })

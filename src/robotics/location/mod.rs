@@ -10,6 +10,7 @@
 mod base_query;
 mod base_search;
 mod base_walk;
+mod behind;
 mod constraint;
 mod costmap;
 mod draw;
@@ -26,6 +27,7 @@ mod support;
 mod tally;
 
 pub use base_query::{BaseQuery, Distances, Item, Target};
+pub use behind::container_before;
 pub use constraint::{Beside, Constraint, Direction, Relation};
 pub use furniture::{Container, UnknownFurniture, container_of, containers, link_named, surfaces};
 pub use orientation::Orientation;

@@ -133,13 +133,14 @@ impl PlaceSearch {
         let (top, bottom) = (self.extent.top(), self.extent.top() - self.extent.size()[2]);
         let Extent { frame, min, max } = &self.extent;
         let share = |i: u32| (f64::from(i) + 0.5) / f64::from(PROBES);
+        let parts = world.assembly(link);
         let mut boards: Vec<(f64, u32)> = Vec::new();
         for (i, j) in (0..PROBES).flat_map(|i| (0..PROBES).map(move |j| (i, j))) {
             let x = min[0] + (max[0] - min[0]) * share(i);
             let y = min[1] + (max[1] - min[1]) * share(j);
             let point = frame * nalgebra::Point3::new(x, y, 0.0);
             let heights = [top - HEADROOM, bottom];
-            for level in room.levels(link, [point.x, point.y], heights) {
+            for level in room.levels(&parts, [point.x, point.y], heights) {
                 match boards
                     .iter_mut()
                     .find(|(h, _)| (h - level).abs() < SLACK / 2.0)

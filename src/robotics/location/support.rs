@@ -29,7 +29,7 @@ impl Support {
                     name: self.name(world),
                     closest: None,
                 };
-                world.furniture_extent(*link).ok_or_else(missing)
+                world.assembly_extent(*link).ok_or_else(missing)
             }
             Self::Object(name) => world.object_extent(name),
         }

@@ -1,11 +1,11 @@
 //! How far furniture and objects extend: boxes in a frame that only turns about the vertical.
 
-use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 
 use super::error::WorldError;
 use super::scene::World;
 use super::solid::to_parry;
-use crate::robot::LinkId;
+use crate::robot::{JointKind, LinkId};
 use spatial::{Pose, pose};
 
 /// A box around a body, upright in the map.
@@ -65,6 +65,47 @@ impl World {
         let geometry = &self.models.kitchen_geometry;
         let solid = geometry.solid_links.iter().find(|l| l.link == link)?;
         Some(Extent::new(&self.furniture_pose(link), &solid.bounds))
+    }
+
+    /// The links that a piece of furniture is made of: its own, or, if that has no shape, those that are fixed to
+    /// it, as the boards of a drawer that is a mere frame.
+    pub fn assembly(&self, link: LinkId) -> Vec<LinkId> {
+        let (kitchen, geometry) = (&self.models.kitchen, &self.models.kitchen_geometry);
+        let solid = geometry.solid_links.iter().map(|solid| solid.link);
+        let is_fixed = |part: &LinkId| {
+            let mut joints = kitchen.ancestors(*part);
+            let mut child = *part;
+            while child != link {
+                match joints.next().map(|joint| kitchen.joint(joint)) {
+                    Some(joint) if joint.kind == JointKind::Fixed => child = joint.parent,
+                    _ => return false,
+                }
+            }
+            true
+        };
+        let parts: Vec<LinkId> = solid.filter(is_fixed).collect();
+        match parts.contains(&link) {
+            true => vec![link],
+            false => parts,
+        }
+    }
+
+    /// The box around all that a piece of furniture is made of; `None` if that has no shape.
+    pub fn assembly_extent(&self, link: LinkId) -> Option<Extent> {
+        let geometry = &self.models.kitchen_geometry;
+        let parts = self.assembly(link);
+        let at = self.furniture_pose(link);
+        let solid = geometry.solid_links.iter();
+        let solid = solid.filter(|solid| parts.contains(&solid.link));
+        let bounds = solid.map(|solid| {
+            let part = at.inverse() * self.furniture_pose(solid.link);
+            match solid.link == link {
+                true => solid.bounds,
+                false => solid.bounds.transform_by(&to_parry(&part)),
+            }
+        });
+        let bounds = bounds.reduce(|all, one| all.merged(&one))?;
+        Some(Extent::new(&at, &bounds))
     }
 
     /// The box around an object.

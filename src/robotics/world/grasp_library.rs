@@ -493,14 +493,23 @@ mod tests {
         let library = library();
         assert_eq!(
             library.grasps_from_above("cup"),
-            ["top", "top-around", "top-around-left"]
+            [
+                "top",
+                "top-around",
+                "top-around-left",
+                "top-around-low",
+                "top-around-left-low"
+            ]
         );
         assert_eq!(
             library.grasps_from_above("spoon"),
             ["top", "top-back", "top-front"]
         );
         assert_eq!(library.grasps("spoon"), ["top"]);
-        assert_eq!(library.grasps_from_above("bowl"), ["top"]);
+        assert_eq!(
+            library.grasps_from_above("bowl"),
+            ["top", "top-front", "top-left", "top-right"]
+        );
         assert_eq!(
             library.grasps_from_above("milk"),
             [

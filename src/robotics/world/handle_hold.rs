@@ -19,8 +19,9 @@ use super::error::WorldError;
 use super::hash::Hasher;
 use super::knob::Knob;
 use super::moved_part::Part;
-use super::scene::World;
+use super::scene::{World, pose_of};
 use super::solid::{Solid, from_parry_vector, to_parry};
+use super::two_stages::{AT_END, freeing_joint, has_turned};
 use crate::robot::{JointId, JointKind, LinkId, Side};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use spatial::{Pose, trig};
@@ -48,6 +49,11 @@ const GREATEST_KNOB_SLIP: f64 = 0.1;
 const CRUSHING_FORCE: f64 = 50.0;
 /// Overlap (m) of a part with the robot that stops it.
 const CONTACT: f64 = 0.0005;
+/// Rounds of the search for the position of a joint, and by how much (m or rad) it is moved for a derivative.
+const ROUNDS: u32 = 3;
+const DIFFERENCE: f64 = 1e-4;
+/// How thick (m) a bar may be.
+const THICKEST: f64 = 0.06;
 /// The joint is where it should be if the two differ by less than this (m or rad).
 const STILL: f64 = 1e-9;
 
@@ -145,6 +151,7 @@ impl World {
         let tool = arm.tool_for_wrist(&self.link_pose(arm.wrist));
         let pose = self.furniture_pose(handle);
         let (bar, _) = self.bar(handle);
+        let middle = self.bar_middle(handle);
         let tool = pose.inverse_transform_point(&Point3::from(tool.translation.vector));
         let grip = palm.inv_mul(&pose);
         let fingers = self.state.robot.joints.get(arm.gripper.joint);
@@ -154,7 +161,7 @@ impl World {
             handle,
             joint,
             grip,
-            point: Point3::from(bar * tool.coords.dot(&bar)),
+            point: Point3::from(middle + bar * (tool.coords - middle).dot(&bar)),
             bar,
             fingers,
             give: give.max(-MAX_GIVE),
@@ -169,13 +176,13 @@ impl World {
         true
     }
 
-    /// The direction of a handle's bar in its frame, along which its first solid is longest, and
+    /// The direction of a handle's bar in its frame, along which its longest solid is longest, and
     /// half of its length (m); of a knob, that of its axis, away from what it is fixed to.
     pub fn bar(&self, handle: LinkId) -> (Vector3<f64>, f64) {
         if let Some(knob) = self.models.knob(handle) {
             return (knob.outward, (knob.ends[1] - knob.ends[0]) / 2.0);
         }
-        let Some(bar) = self.handle_solids(handle).first() else {
+        let Some(bar) = self.bar_solid(handle) else {
             return (Vector3::z(), 0.0);
         };
         let half = bar.bounds.half_extents();
@@ -191,7 +198,7 @@ impl World {
     /// How wide (m) a handle's bar is between the fingers, by the pose of the handle in the frame
     /// of the palm, along whose y axis the fingers close.
     fn width_of_bar(&self, handle: LinkId, grip: &Pose) -> f64 {
-        let Some(bar) = self.handle_solids(handle).first() else {
+        let Some(bar) = self.bar_solid(handle) else {
             return 0.0;
         };
         let (along, _) = self.bar(handle);
@@ -204,15 +211,52 @@ impl World {
         2.0 * bar.shape.compute_aabb(&(turn * bar.pose)).half_extents().y
     }
 
-    /// The mean place (m) of the posts that carry a handle's bar, in its frame; the origin if it
-    /// has none.
+    /// The middle (m) of a handle's bar, in its frame; the origin of a knob.
+    pub(crate) fn bar_middle(&self, handle: LinkId) -> Vector3<f64> {
+        if self.models.knob(handle).is_some() {
+            return Vector3::zeros();
+        }
+        let bar = self.bar_solid(handle);
+        bar.map_or_else(Vector3::zeros, |bar| from_parry_vector(bar.bounds.center()))
+    }
+
+    /// Whether fingers go around the bar of a link: it is thin across its length.
+    pub(crate) fn has_bar(&self, handle: LinkId) -> bool {
+        let half = self.bar_solid(handle).map(|bar| bar.bounds.half_extents());
+        half.is_some_and(|half| {
+            let mut sides = [half.x, half.y, half.z];
+            sides.sort_by(f64::total_cmp);
+            sides[1] <= THICKEST / 2.0
+        })
+    }
+
+    /// The mean place (m) of the posts that carry a handle's bar, from the bar's middle, in the handle's
+    /// frame; zero if it has none.
     pub(crate) fn handle_posts(&self, handle: LinkId) -> Vector3<f64> {
-        let posts = self.handle_solids(handle).iter().skip(1);
+        let solids = self.handle_solids(handle);
+        let Some(bar) = self.bar_solid(handle) else {
+            return Vector3::zeros();
+        };
+        let middle = from_parry_vector(bar.bounds.center());
+        let posts = solids.iter().filter(|solid| !std::ptr::eq(*solid, bar));
         let places: Vec<Vector3<f64>> = posts
-            .map(|post| from_parry_vector(post.bounds.center()))
+            .map(|post| from_parry_vector(post.bounds.center()) - middle)
             .collect();
         let sum: Vector3<f64> = places.iter().sum();
         sum / (places.len().max(1) as f64)
+    }
+
+    /// The bar of a handle: its longest solid, the first of several.
+    fn bar_solid(&self, handle: LinkId) -> Option<&Solid> {
+        let length = |solid: &Solid| {
+            let half = solid.bounds.half_extents();
+            half.x.max(half.y).max(half.z)
+        };
+        let solids = self.handle_solids(handle).iter();
+        solids.reduce(|longest, solid| match length(solid) > length(longest) {
+            true => solid,
+            false => longest,
+        })
     }
 
     fn handle_solids(&self, handle: LinkId) -> &[Solid] {
@@ -278,18 +322,23 @@ impl World {
             if self.state.robot.joints.get(gripper.joint) > hold.fingers + OPENED {
                 continue;
             }
-            let wanted = self.wanted_position(&hold);
             hold.against = None;
-            let now = self.state.kitchen.get(hold.joint);
-            if (wanted - now).abs() > STILL {
-                let direction = if wanted > now { 1 } else { -1 };
-                let part = self.part(hold.joint);
-                let goes_on = hold.direction == direction;
-                match self.stops(&hold, &part, wanted, goes_on) {
-                    Some(stopped) => hold.against = stopped.map(Box::new),
-                    None => self.follow(hold.joint, wanted),
+            for joint in self.joints_of(&hold) {
+                if self.is_locked(&hold, joint) {
+                    continue;
                 }
-                hold.direction = direction;
+                let wanted = self.wanted_position(&hold, joint);
+                let now = self.state.kitchen.get(joint);
+                if (wanted - now).abs() > STILL {
+                    let direction = if wanted > now { 1 } else { -1 };
+                    let part = self.part(joint);
+                    let goes_on = hold.direction == direction;
+                    match self.stops(&hold, &part, wanted, goes_on) {
+                        Some(stopped) => hold.against = stopped.map(Box::new),
+                        None => self.follow(joint, wanted),
+                    }
+                    hold.direction = direction;
+                }
             }
             let carried = self.carried(&hold);
             let real = self.furniture_pose(hold.handle);
@@ -338,11 +387,32 @@ impl World {
         self.state.kitchen_moves = true;
     }
 
-    /// The position (rad or m) of the joint, within its limits, at which the held point of the bar
+    /// The joints that follow the hand: for a door that comes out before it turns, what lets it out, too.
+    fn joints_of(&self, hold: &HandleHold) -> Vec<JointId> {
+        let freeing = freeing_joint(&self.models.kitchen, hold.joint);
+        freeing.into_iter().chain([hold.joint]).collect()
+    }
+
+    /// Whether a joint cannot move: a door does not turn before it has come out, and does not go in before it
+    /// has turned back.
+    fn is_locked(&self, hold: &HandleHold, joint: JointId) -> bool {
+        let kitchen = &self.models.kitchen;
+        let Some(freeing) = freeing_joint(kitchen, hold.joint) else {
+            return false;
+        };
+        if joint == freeing {
+            return has_turned(kitchen, &self.state.kitchen, hold.joint);
+        }
+        let out = self.state.kitchen.get(freeing);
+        let limits = kitchen.joint(freeing).limits;
+        limits.is_some_and(|slide| out < slide.upper - AT_END)
+    }
+
+    /// The position (rad or m) of a joint, within its limits, at which the held point of the bar
     /// is nearest to where the hand carries it.
-    fn wanted_position(&self, hold: &HandleHold) -> f64 {
-        let joint = self.models.kitchen.joint(hold.joint);
-        let now = self.state.kitchen.get(hold.joint);
+    fn wanted_position(&self, hold: &HandleHold, joint: JointId) -> f64 {
+        let now = self.state.kitchen.get(joint);
+        let joint = self.models.kitchen.joint(joint);
         let child = self.furniture_pose(joint.child);
         let axis = child.rotation * joint.axis.into_inner();
         let real = self.furniture_pose(hold.handle) * hold.point;
@@ -352,6 +422,7 @@ impl World {
                 let sign = hold.knob.as_ref().map_or(1.0, |knob| knob.sign);
                 now + sign * self.handle_pivot(hold)
             }
+            _ if self.follows(hold) => self.wanted_of_leader(hold, carried),
             JointKind::Prismatic => now + axis.dot(&(carried - real)),
             _ => {
                 // The joint's axis goes through the origin of its child.
@@ -365,6 +436,34 @@ impl World {
             }
         };
         joint.limits.map_or(wanted, |limits| limits.clamp(wanted))
+    }
+
+    /// Whether the handle is also moved by joints that follow the one that the hand moves.
+    fn follows(&self, hold: &HandleHold) -> bool {
+        let kitchen = &self.models.kitchen;
+        let mut joints = kitchen.ancestors(hold.handle);
+        joints.any(|joint| kitchen.joint(joint).mimic.is_some())
+    }
+
+    /// The position (rad or m) at which the held point is nearest to a point (m), for a handle that moves neither
+    /// straight nor on a circle, as that of a front that folds.
+    fn wanted_of_leader(&self, hold: &HandleHold, carried: Point3<f64>) -> f64 {
+        let point = |position: f64| {
+            let (_, poses) = self.kitchen_with(hold.joint, position);
+            pose_of(&poses, hold.handle) * hold.point
+        };
+        let mut position = self.state.kitchen.get(hold.joint);
+        for _ in 0..ROUNDS {
+            let here = point(position);
+            let tangent =
+                (point(position + DIFFERENCE) - point(position - DIFFERENCE)) / (2.0 * DIFFERENCE);
+            let square = tangent.norm_squared();
+            if square <= f64::EPSILON {
+                break;
+            }
+            position += tangent.dot(&(carried - here)) / square;
+        }
+        position
     }
 
     /// Whether something keeps the part from following the hand to a position (rad or m), and what,

@@ -23,6 +23,10 @@ pub struct KitchenDescription {
     pub urdf_name: String,
     /// The joint that is meant where none is named.
     pub usual_joint: Option<JointId>,
+    /// Where the robot starts: x and y (m) and heading (degrees) in the map.
+    pub start: Option<[f64; 3]>,
+    /// Links of the kitchen that are behind a drawer or door, and the link of that.
+    pub behind: Vec<[String; 2]>,
     /// Places by name.
     pub places: Vec<(String, Vec<PlaceProperty>)>,
     /// Where things usually are; the first rule that fits counts.

@@ -11,6 +11,8 @@ use closest_name::closest_name;
 const RECORDS: &[(&str, &[&str])] = &[
     ("kitchen", &["urdf-name", "usual-joint"]),
     ("alias", &[]),
+    ("start", &["heading"]),
+    ("behind", &[]),
     ("place", PLACE_KEYS),
     ("usually", &["contexts", "types"]),
     ("belongs", &["contexts", "types"]),
@@ -99,6 +101,13 @@ impl<'a> Reader<'a> {
                 Some(Err(_)) if self.fit == Fit::WhatIsThere => None,
                 other => other.transpose()?,
             },
+            start: self.start()?,
+            behind: self.each("behind", |record| {
+                let [door, inside] = record.things() else {
+                    return Err(record.node().expected("(behind DOOR LINK)"));
+                };
+                Ok([self.link(*door)?, self.link(*inside)?])
+            })?,
             usually: self.each("usually", rule)?,
             belongs: self.each("belongs", rule)?,
             stores: self.each("store", |record| self.store(record))?,
@@ -113,6 +122,24 @@ impl<'a> Reader<'a> {
             },
             places,
         })
+    }
+
+    /// Where the robot starts: x and y (m) and heading (degrees).
+    fn start(&self) -> Result<Option<[f64; 3]>, DataError> {
+        let mut starts = self.all("start");
+        let Some(record) = starts.next() else {
+            return Ok(None);
+        };
+        if let Some(again) = starts.next() {
+            let problem = DataProblem::Repeated("(start …)".to_owned());
+            return Err(again.node().error(problem));
+        }
+        let [x, y] = record.things() else {
+            return Err(record.node().expected("(start X Y :heading DEGREES)"));
+        };
+        let heading = record.optional("heading").map(|node| node.number());
+        let heading = heading.transpose()?.unwrap_or(0.0);
+        Ok(Some([x.number()?, y.number()?, heading]))
     }
 
     fn all(&self, head: &'static str) -> impl Iterator<Item = &'a Record<'a>> + use<'a> {

@@ -6,6 +6,7 @@ use super::collision::CollisionHit;
 use super::error::WorldError;
 use super::obstacles::Obstacles;
 use super::scene::{World, pose_of};
+use super::two_stages::freeing_joint;
 use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
 use closest_name::closest_name;
 use spatial::Pose;
@@ -116,6 +117,12 @@ impl World {
         }
         let limits = self.models.kitchen.joint(joint).limits;
         let position = limits.map_or(position, |l| l.clamp(position));
+        if let Some(freeing) = freeing_joint(&self.models.kitchen, joint)
+            && let Some(slide) = self.models.kitchen.joint(freeing).limits
+        {
+            // A door that has not turned is in.
+            self.set_joint(freeing, slide.lower);
+        }
         self.set_joint(joint, position);
         Ok(position)
     }

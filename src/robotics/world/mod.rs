@@ -7,6 +7,7 @@
 //! Nothing here knows of motions or of the plan language.
 
 pub(crate) mod allowed_pairs;
+mod at_rest;
 pub mod body_name;
 mod carrying;
 pub mod cavity;
@@ -58,6 +59,7 @@ pub mod self_touching;
 mod separation;
 mod settling;
 mod shaking;
+mod shut_kitchen;
 pub mod snapshot;
 pub mod solid;
 pub mod spawn;
@@ -67,6 +69,7 @@ pub(crate) mod standing_room;
 pub mod tilt;
 mod touches;
 mod touching;
+mod two_stages;
 
 pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;
@@ -93,9 +96,11 @@ pub use object::Object;
 pub use part_key::PartKey;
 pub use robot_configuration::RobotConfiguration;
 pub use scene::World;
+pub use shut_kitchen::ShutKitchen;
 pub use snapshot::Snapshot;
 pub use spawn::SpawnReport;
 pub use standing::StandTrial;
 pub use standing_room::{Ground, Load, NoRoom, StandingRoom};
 pub use tilt::Tilt;
 pub use touches::Touches;
+pub use two_stages::freeing_joint;

@@ -1,8 +1,10 @@
 //! Everything about a world that never changes: the trees of robot and kitchen, the robot's
 //! description and the kinds of objects, with the geometry prepared for queries.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
+use super::at_rest::{PairsAtRest, pair, pairs_at_rest};
 use super::body_name::BodyName;
 use super::kitchen_description::KitchenDescription;
 use super::link_geometry::TreeGeometry;
@@ -12,10 +14,13 @@ use super::object_library::{OBJECTS, ObjectLibrary};
 use super::part_key::PartKey;
 use super::physics::Surface;
 use crate::robot::description::Arm;
-use crate::robot::{KinematicTree, LinkId, RobotDescription, Side, UrdfError, UrdfRemark};
+use crate::robot::{JointId, KinematicTree, LinkId, RobotDescription, Side, UrdfError, UrdfRemark};
 use crate::sexp::DataError;
 use descriptions::{KITCHEN_DESCRIPTION, KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF};
 use thiserror::Error;
+
+/// For each joint of the kitchen whose part is behind another one, the joint of that.
+type Orders = BTreeMap<JointId, JointId>;
 
 /// The models that worlds are built from; shared by a world and its copies. A clone shares all parts.
 #[derive(Clone)]
@@ -34,6 +39,10 @@ pub struct Models {
     pub remarks: Vec<UrdfRemark>,
     pub(crate) robot_geometry: Arc<TreeGeometry>,
     pub(crate) kitchen_geometry: Arc<TreeGeometry>,
+    /// The pairs of furniture that overlap as their file has them, once somebody has asked.
+    pairs_at_rest: Arc<OnceLock<PairsAtRest>>,
+    /// Which drawers and doors are behind which, once somebody has asked.
+    orders: Arc<OnceLock<Orders>>,
     /// The floor that the robot can drive on.
     pub map: MapArea,
     /// Pairs of the robot's solid links that must not touch.
@@ -151,6 +160,8 @@ impl Models {
             remarks: Vec::new(),
             robot_geometry: Arc::new(robot_geometry),
             kitchen_geometry: Arc::new(kitchen_geometry),
+            pairs_at_rest: Arc::default(),
+            orders: Arc::default(),
             map,
             self_pairs: Arc::new(LinkPairs::new(self_pairs)),
             hand_of,
@@ -184,6 +195,8 @@ impl Models {
             kitchen: Arc::clone(&self.kitchen),
             kitchen_description: Arc::clone(furnishing),
             kitchen_geometry: Arc::clone(&self.kitchen_geometry),
+            pairs_at_rest: Arc::clone(&self.pairs_at_rest),
+            orders: Arc::clone(&self.orders),
             objects: Arc::clone(objects),
             ..new
         }
@@ -203,6 +216,8 @@ impl Models {
             kitchen: Arc::new(kitchen),
             kitchen_description: Arc::new(kitchen_description),
             kitchen_geometry: Arc::new(geometry),
+            pairs_at_rest: Arc::default(),
+            orders: Arc::default(),
             remarks: Vec::new(),
             ..self.clone()
         }
@@ -216,6 +231,8 @@ impl Models {
             kitchen: Arc::clone(&other.kitchen),
             kitchen_description: Arc::clone(&other.kitchen_description),
             kitchen_geometry: Arc::clone(&other.kitchen_geometry),
+            pairs_at_rest: Arc::clone(&other.pairs_at_rest),
+            orders: Arc::clone(&other.orders),
             ..self.clone()
         }
     }
@@ -240,6 +257,20 @@ impl Models {
     pub(crate) fn furniture_body(&self, link: LinkId) -> BodyName {
         let name = self.kitchen_geometry.names.get(link.index());
         name.map_or(BodyName::Floor, |name| BodyName::Furniture(name.clone()))
+    }
+
+    /// Whether two links of the kitchen overlap by more than `slack` (m) as their file has them, with every
+    /// drawer and door shut. The first question decides about the slack.
+    pub(super) fn overlap_at_rest(&self, a: PartKey, b: PartKey, slack: f64) -> bool {
+        let pairs = self
+            .pairs_at_rest
+            .get_or_init(|| pairs_at_rest(&self.kitchen, &self.kitchen_geometry, slack));
+        pairs.contains(&pair(a, b))
+    }
+
+    /// Where it is kept which drawers and doors are behind which.
+    pub(crate) fn kept_orders(&self) -> &OnceLock<Orders> {
+        &self.orders
     }
 
     /// Whether both links are part of the same hand.

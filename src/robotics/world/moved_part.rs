@@ -17,14 +17,17 @@ use super::physics::BodyHandle;
 use super::scene::{World, pose_of};
 use super::separation::separation;
 use super::solid::{Solid, from_parry_vector, to_parry};
-use crate::robot::{JointId, JointPositions, LinkId};
-use parry3d_f64::math::Pose as ParryPose;
+use super::two_stages::come_out;
+use crate::robot::{JointId, JointKind, JointPositions, LinkId};
+use parry3d_f64::math::{Pose as ParryPose, Vector};
 use spatial::Pose;
 
 /// Things closer to each other than this (m) touch, so that one may carry the other.
 const TOUCHING: f64 = 0.003;
 /// Overlap (m) with its surroundings that a part may have: rounding, not contact.
-const SLACK: f64 = 0.001;
+pub(super) const SLACK: f64 = 0.001;
+/// How far (m) from its axis a door may overlap its surroundings: what is there is its hinge.
+const HINGE: f64 = 0.03;
 
 /// What a joint of the kitchen moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +66,7 @@ impl World {
 
     /// The objects that stand in the link, directly or on one another.
     fn riders(&self, link: LinkId, links: &[LinkId]) -> Vec<String> {
-        let Some(extent) = self.furniture_extent(link) else {
+        let Some(extent) = self.assembly_extent(link) else {
             return Vec::new();
         };
         let is_in = |object: &&Object| {
@@ -116,6 +119,12 @@ impl World {
     pub fn kitchen_with(&self, joint: JointId, position: f64) -> (JointPositions, Vec<Pose>) {
         let mut positions = self.state.kitchen.clone();
         positions.set(joint, position);
+        come_out(&self.models.kitchen, &mut positions, joint);
+        self.placed_kitchen(positions)
+    }
+
+    /// Poses of all links of the kitchen in the map frame with those positions of its joints (rad or m).
+    fn placed_kitchen(&self, positions: JointPositions) -> (JointPositions, Vec<Pose>) {
         let mut poses = Vec::new();
         self.models
             .kitchen
@@ -126,6 +135,20 @@ impl World {
     /// The part as it would be with its joint at a position (rad or m).
     pub fn moved(&self, part: &Part, position: f64) -> MovedPart<'_> {
         let (_, poses) = self.kitchen_with(part.joint, position);
+        self.moved_to(part, poses)
+    }
+
+    /// The part as it would be with several joints at positions (rad or m).
+    pub(crate) fn moved_by(&self, part: &Part, joints: &[(JointId, f64)]) -> MovedPart<'_> {
+        let mut positions = self.state.kitchen.clone();
+        for (joint, position) in joints {
+            positions.set(*joint, *position);
+        }
+        let (_, poses) = self.placed_kitchen(positions);
+        self.moved_to(part, poses)
+    }
+
+    fn moved_to(&self, part: &Part, poses: Vec<Pose>) -> MovedPart<'_> {
         let furniture = Obstacles::new(&self.models.kitchen_geometry, &poses);
         MovedPart {
             world: self,
@@ -343,11 +366,30 @@ impl MovedPart<'_> {
             if is_of(&self.part.links, other.key) {
                 continue;
             }
-            if let Some(hit) = separation(pose, solid, &other.placed.pose, &other.solid, -SLACK) {
+            if let Some(hit) = separation(pose, solid, &other.placed.pose, &other.solid, -SLACK)
+                && !self.were_built_so(key, other.key)
+                && !self.is_at_hinge(key, hit.point)
+            {
                 return self.report(key, other.key, (hit.distance, from_parry_vector(hit.point)));
             }
         }
         None
+    }
+
+    /// Whether a link of the part is in another one as their file has it.
+    fn were_built_so(&self, own: PartKey, other: PartKey) -> bool {
+        matches!(own, PartKey::Furniture(_)) && self.world.models.overlap_at_rest(own, other, SLACK)
+    }
+
+    /// Whether a point of a link of the part is at the hinge by which the part turns.
+    fn is_at_hinge(&self, own: PartKey, point: Vector) -> bool {
+        let joint = self.world.models.kitchen.joint(self.part.joint);
+        let turns = matches!(joint.kind, JointKind::Revolute);
+        let child = self.pose(joint.child);
+        let axis = child.rotation * joint.axis.into_inner();
+        let from_axis = from_parry_vector(point) - child.translation.vector;
+        let across = from_axis - axis * axis.dot(&from_axis);
+        turns && matches!(own, PartKey::Furniture(_)) && across.norm() <= HINGE
     }
 
     fn report(

@@ -257,10 +257,14 @@ impl<'w> StandingRoom<'w> {
         Ok(top)
     }
 
-    /// The heights (m) at which a link of the kitchen could carry something at a point (m) of the
+    /// The heights (m) at which one of some links of the kitchen could carry something at a point (m) of the
     /// map, from above, between two heights (m).
-    pub fn levels(&self, link: LinkId, [x, y]: [f64; 2], [top, bottom]: [f64; 2]) -> Vec<f64> {
-        let own = PartKey::Furniture(index(link));
+    pub fn levels(&self, links: &[LinkId], [x, y]: [f64; 2], [top, bottom]: [f64; 2]) -> Vec<f64> {
+        let is_own = |key| {
+            links
+                .iter()
+                .any(|link| PartKey::Furniture(index(*link)) == key)
+        };
         let mut levels = Vec::new();
         let mut height = top;
         while height > bottom {
@@ -270,7 +274,7 @@ impl<'w> StandingRoom<'w> {
                 // Inside something.
                 Some((level, _)) if level >= height => height -= INSIDE_STEP,
                 Some((level, key)) => {
-                    if key == own {
+                    if is_own(key) {
                         levels.push(level);
                     }
                     height = level - INSIDE_STEP;

@@ -14,7 +14,7 @@ use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
 use nalgebra::Translation3;
-use robotics::location::{Container, containers};
+use robotics::location::{Container, container_before, containers};
 use robotics::motion::interruption::interruptible;
 use robotics::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
 use robotics::robot::JointKind;
@@ -81,6 +81,13 @@ pub(crate) static PLANS_TABLE: &[Builtin] = &[
         host!(container_p),
     ),
     control(
+        "CONTAINER-BEFORE",
+        "container",
+        "The name of the drawer or door that has to be open before one, given by its name or described, can move, as the flap of a dishwasher before its rack; NIL if there is none. What is in its way while everything is shut, and is not once it is open, has to be open.",
+        &["(pp-plans::container-before :iai-fridge-door) => NIL"],
+        host!(container_before_that),
+    ),
+    control(
         "ASSERT-WAY-IS-FREE",
         "container distance",
         "Fails with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if other things are in the way of a drawer or door, or of what is in it, to a position (m or rad).",
@@ -127,7 +134,8 @@ fn kind_keyword(image: &mut Image, kind: JointKind) -> Value {
 
 fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
     let containers = containers(&simulation.models);
-    let rows = containers.into_iter().map(|container| {
+    let moving = containers.into_iter().filter(|c| simulation.moves(c));
+    let rows = moving.map(|container| {
         let mut row = state(simulation, image, &container).to_vec();
         row.push(pose_stamped(
             "map",
@@ -203,6 +211,19 @@ fn container_state(
 ) -> Result<Reply> {
     let container = simulation.container(image, &args[0])?;
     done(Value::values(state(simulation, image, &container).to_vec()))
+}
+
+fn container_before_that(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let container = simulation.container(image, &args[0])?;
+    let models = &simulation.models;
+    let before = container_before(models, &container);
+    done(before.map_or(Value::NIL, |before| {
+        furniture_keyword(image, &models.kitchen.link(before.link).name)
+    }))
 }
 
 /// What is asked of a hand that is to bring a container to a position.

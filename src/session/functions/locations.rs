@@ -157,7 +157,7 @@ fn furniture_extent(
     args: &[Value],
 ) -> Result<Reply> {
     let extent = simulation.furniture_of(image, &args[0]);
-    let extent = extent.and_then(|link| simulation.world.furniture_extent(link));
+    let extent = extent.and_then(|link| simulation.world.assembly_extent(link));
     done(extent.map_or(Value::NIL, |extent| {
         let [min, max] = [extent.min, extent.max];
         Value::list([min[0], max[0], min[1], max[1]].map(Value::Double))

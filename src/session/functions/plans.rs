@@ -57,7 +57,9 @@ pub(super) static TABLE: &[Builtin] = &[
         "GRASPS-FROM-ABOVE",
         "type",
         "The grasps of a type by which a hand comes from above, straight or at up to 45 degrees, also those that LIST-DEFINED-GRASPS does not list: they are tried only if they are asked for.",
-        &["(pp-plans::grasps-from-above :cup) => (:TOP :TOP-AROUND :TOP-AROUND-LEFT)"],
+        &[
+            "(pp-plans::grasps-from-above :cup) => (:TOP :TOP-AROUND :TOP-AROUND-LEFT :TOP-AROUND-LOW :TOP-AROUND-LEFT-LOW)",
+        ],
         host!(grasps_from_above),
     ),
     control(

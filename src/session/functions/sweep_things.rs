@@ -260,7 +260,7 @@ impl Simulation {
         let top = extent.top();
         let (level, lower) = match surface {
             Support::Furniture(link) => {
-                let levels = room.levels(*link, [x, y], [top + ABOVE, top - ABOVE]);
+                let levels = room.levels(&[*link], [x, y], [top + ABOVE, top - ABOVE]);
                 (levels.first().copied(), LEVEL)
             }
             // In a bowl or on a tray, things stand lower than its rim.

@@ -55,7 +55,7 @@ impl Simulation {
                 "it is no drawer or door with a handle; (list-containers) tells which there are.",
             )
         })?;
-        if self.travel(&found).upper - self.travel(&found).lower <= FIXED {
+        if !self.moves(&found) {
             return Err(refused("its joint is fixed."));
         }
         Ok(found)
@@ -124,6 +124,12 @@ impl Simulation {
     /// Whether a designator describes furniture rather than an object.
     pub(crate) fn describes_furniture(&self, image: &Image, object: &Value) -> bool {
         as_designator(object).is_some() && property(image, object, "URDF-NAME").is_some()
+    }
+
+    /// Whether the joint of a container can move: some files have joints from 0 to 0.
+    pub(crate) fn moves(&self, container: &Container) -> bool {
+        let limits = self.travel(container);
+        limits.upper - limits.lower > FIXED
     }
 
     /// The limits (rad or m) of a container's joint.

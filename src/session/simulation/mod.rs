@@ -43,6 +43,7 @@ use robotics::world::noise::{Noise, NoiseLevels};
 use robotics::world::object_library::ObjectLibrary;
 use robotics::world::{Models, RobotConfiguration, World};
 use spatial::Pose;
+use spatial::pose::from_xy_yaw;
 use sweep::relations::Relations;
 use view::picture::{LocationMap, Looks};
 
@@ -306,8 +307,16 @@ impl Simulation {
 
 /// The world in which a session with these models begins.
 pub(super) fn starting_world(models: &Arc<Models>) -> World {
+    // A robot that says where it stands is not moved by what the kitchen says.
+    let own = models.description.base.start;
+    let base = match models.kitchen_description.start {
+        Some([x, y, heading]) if own == Pose::identity() => {
+            from_xy_yaw(x, y, heading.to_radians())
+        }
+        _ => own,
+    };
     let robot = RobotConfiguration {
-        base: models.description.base.start,
+        base,
         joints: models.description.start_positions(&models.robot),
     };
     World::new(models.clone(), robot)

@@ -450,6 +450,7 @@ fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
         return grasps_of_knob(world, question, &knob);
     }
     let (bar, half) = world.bar(handle);
+    let middle = world.bar_middle(handle);
     let out = outward(world, handle, &bar);
     let is_upright = (world.furniture_pose(handle).rotation * bar).z.abs() > 0.7;
     let mut all = Vec::new();
@@ -475,7 +476,7 @@ fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
                 let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
                 let facing =
                     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-                let point = Point3::from(bar * shift);
+                let point = Point3::from(middle + bar * shift);
                 let tool =
                     Pose::from_parts(Translation3::from(point.coords), turn(&bar, tilt) * facing);
                 all.push(Grasp {
@@ -540,7 +541,7 @@ fn grasps_of_knob(world: &World, question: &HandleQuestion, knob: &Knob) -> Vec<
 }
 
 /// The direction from the furniture to the bar, in the frame of the handle: away from the posts, or
-/// else along a drawer's axis.
+/// else where the bar goes when its joint begins to move.
 fn outward(world: &World, handle: LinkId, bar: &Vector3<f64>) -> Vector3<f64> {
     let across = |v: Vector3<f64>| v - bar * v.dot(bar);
     let posts = world.handle_posts(handle);
@@ -548,11 +549,15 @@ fn outward(world: &World, handle: LinkId, bar: &Vector3<f64>) -> Vector3<f64> {
     let along = kitchen
         .ancestors(handle)
         .map(|joint| kitchen.joint(joint))
-        .find(|joint| joint.kind == JointKind::Prismatic)
+        .find(|joint| joint.is_actuated())
         .map_or_else(Vector3::x, |joint| {
-            let turned = world.furniture_pose(handle).rotation.inverse()
-                * world.furniture_pose(joint.child).rotation;
-            turned * joint.axis.into_inner()
+            let here = world.furniture_pose(handle);
+            let child = here.inverse() * world.furniture_pose(joint.child);
+            let axis = child.rotation * joint.axis.into_inner();
+            match joint.kind {
+                JointKind::Prismatic => axis,
+                _ => axis.cross(&(world.bar_middle(handle) - child.translation.vector)),
+            }
         });
     across(-posts)
         .try_normalize(1e-3)

@@ -140,9 +140,13 @@ fn is_between(world: &World, side: Side, handle: LinkId) -> bool {
         let aside = (tool.coords - knob.outward * along).norm();
         return (knob.ends[0]..=knob.ends[1] + BAR_DEPTH).contains(&along) && aside <= KNOB_ASIDE;
     }
+    if !world.has_bar(handle) {
+        return false;
+    }
     let (bar, half) = world.bar(handle);
-    let along = tool.coords.dot(&bar);
-    along.abs() <= half && (tool.coords - bar * along).norm() <= BAR_DEPTH
+    let tool = tool.coords - world.bar_middle(handle);
+    let along = tool.dot(&bar);
+    along.abs() <= half && (tool - bar * along).norm() <= BAR_DEPTH
 }
 
 /// How far (m) a hand opens to let go of what it holds.

@@ -156,7 +156,9 @@ impl JointGoal for PullGoal {
             Err(failure) => return Arrival::Failed(failure),
         };
         let position = world.kitchen_positions().get(hold.joint);
-        if (position - self.position).abs() <= MISSED {
+        let left = world.stages(hold.joint, [position, self.position]);
+        let is_there = |(_, [now, end]): &(_, [f64; 2])| (now - end).abs() <= MISSED;
+        if left.iter().all(is_there) {
             return Arrival::Done(MotionOutcome::Arrived);
         }
         Arrival::Failed(MotionFailure::ArmTooShort(Box::new(ShortArm {

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::cartesian_path::wrist_in_arm_base;
-use crate::robot::{ArmPositions, JointKind, LinkId, Side};
+use crate::robot::{ArmPositions, JointId, JointKind, LinkId, Side};
 use crate::world::{HandleHold, Models, MovedPart, Part, RobotConfiguration, World};
 use spatial::{Pose, pose, trig};
 
@@ -76,14 +76,27 @@ impl<'w> PartWay<'w> {
         step: Option<(f64, f64)>,
     ) -> Self {
         let (metres, radians) = step.unwrap_or(STEP);
-        let step = match world.models().kitchen.joint(part.joint).kind {
-            JointKind::Prismatic => metres,
-            _ => radians,
-        };
-        let count = ((to - from).abs() / step).ceil().max(1.0) as u32;
-        let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(count);
-        let positions: Vec<f64> = (0..=count).map(at).collect();
-        let parts = positions.iter().map(|q| world.moved(part, *q)).collect();
+        let stages = world.stages(part.joint, [from, to]);
+        let mut positions = Vec::new();
+        let mut parts = Vec::new();
+        // Where the joints of the stages are.
+        let mut joints: Vec<(JointId, f64)> =
+            stages.iter().map(|(j, [from, _])| (*j, *from)).collect();
+        for (stage, (joint, [from, to])) in stages.iter().enumerate() {
+            let step = match world.models().kitchen.joint(*joint).kind {
+                JointKind::Prismatic => metres,
+                _ => radians,
+            };
+            let count = ((to - from).abs() / step).ceil().max(1.0) as u32;
+            let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(count);
+            // A stage begins where the one before has ended.
+            for position in (u32::from(stage > 0)..=count).map(at) {
+                joints[stage].1 = position;
+                let own = joints.iter().find(|(joint, _)| *joint == part.joint);
+                positions.push(own.map_or(position, |(_, position)| *position));
+                parts.push(world.moved_by(part, &joints));
+            }
+        }
         Self { positions, parts }
     }
 

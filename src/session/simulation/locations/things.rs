@@ -48,7 +48,7 @@ impl Simulation {
             return Some([size[0], size[1]]);
         }
         if let Some(link) = self.furniture_of(image, &value) {
-            let size = self.world.furniture_extent(link)?.size();
+            let size = self.world.assembly_extent(link)?.size();
             return Some([size[0], size[1]]);
         }
         let kind = match as_designator(&value) {
