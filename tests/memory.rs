@@ -417,3 +417,29 @@ fn references_of_symbolic_locations_leave_nothing_behind() {
         "{after} B before 400 references, {most} B after them"
     );
 }
+
+#[test]
+fn locations_that_a_program_keeps_do_not_keep_copies_of_the_world() {
+    let _alone = MEMORY.lock();
+    let mut session = Session::new(&limited(1 << 30)).unwrap();
+    let mut run = |text: &str| {
+        let outcome = session.evaluate("test", text, &mut |_| {});
+        assert_eq!(outcome, Outcome::Finished, "{text}");
+        HEAP.allocated()
+    };
+    run("(in-package :pp-tut)
+         (defvar *kept* '())
+         (defun keep (n)
+           (dotimes (i n)
+             (let* ((?p (make-pose \"map\" '((-1.4 -0.9 0.8) (0 0 0 1))))
+                    (?place (a location (reachable-for pr2)
+                                        (location (a location (pose ?p))))))
+               (desig:reference ?place)
+               (push ?place *kept*))))");
+    let before = run("(keep 10) (tg:gc :full t)");
+    let after = run("(keep 40) (tg:gc :full t)");
+    assert!(
+        after < before + (2 << 20),
+        "{before} B with 10 locations, {after} B with 50"
+    );
+}

@@ -106,6 +106,28 @@ fn solutions_do_not_repeat_and_follow_the_world() {
 }
 
 #[test]
+fn a_search_that_others_have_set_aside_goes_on_without_repeating_itself() {
+    let mut cook = Cook::new();
+    let shown = cook.done(&format!(
+        "(defun places (n l)
+           (loop for next = l then (next-solution next) repeat n
+                 collect (reference next)))
+         (defun near-p (a b)
+           (and (< (cl-transforms:v-dist (cl-transforms:origin a) (cl-transforms:origin b)) 0.01)
+                (< (cl-transforms:angle-between-quaternions (cl-transforms:orientation a)
+                                                            (cl-transforms:orientation b))
+                   0.1)))
+         (defparameter *l* (a location {TABLE} (for (an object (type cup)))))
+         (defparameter *before* (places 10 *l*))
+         (loop repeat 20 do (reference (a location {TABLE} (for (an object (type bowl))))))
+         (let ((all (append *before* (rest (places 20 (desig:current-desig *l*))))))
+           (list (length all)
+                 (length (remove-duplicates all :test #'near-p))))"
+    ));
+    assert!(shown.ends_with("(29 29)\n"), "{shown}");
+}
+
+#[test]
 fn a_location_that_cannot_be_says_why() {
     let mut cook = Cook::new();
     let both = format!("(a location {ISLAND} (side left) (side right) (range-invert 0.3))");

@@ -294,7 +294,8 @@ impl BaseSearch {
         let here = scene.world.robot_configuration().base;
         let (imagined, looking) = (&self.imagined, &mut self.looking);
         let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
-        let found = test.run(&here, Effort::PATIENT, &mut 0)?;
+        // There is no other place to try.
+        let found = test.run(&here, Effort::THOROUGH, &mut 0)?;
         let of_bare_place = query.target.item == Item::Point;
         Ok(found.map_err(|rejection| Rejection {
             // One of many points of a surface needs no name.

@@ -62,3 +62,38 @@ pub(super) fn aimed(at: Node<'_>, looks_at: Node<'_>) -> Result<Pose, DataError>
         UnitQuaternion::from_rotation_matrix(&axes),
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sexp::DataFile;
+
+    fn looking(from: &str, to: &str) -> Result<Pose, String> {
+        let file = DataFile::read(&format!("{from} {to}"), "f.sexp").map_err(|e| e.to_string())?;
+        let nodes: Vec<Node<'_>> = file.nodes().collect();
+        aimed(nodes[0], nodes[1]).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_camera_looks_at_its_point_with_the_sky_above() {
+        let pose = looking("(1 2 3)", "(1 3 2.5)").unwrap();
+        let seen = pose.inverse_transform_point(&Point3::new(1.0, 3.0, 2.5));
+        assert!(
+            seen.x.abs() < 1e-12 && seen.y.abs() < 1e-12 && seen.z > 1.0,
+            "{seen}"
+        );
+        // To its right is what is to the right of somebody who looks along y; up is minus y.
+        assert!(pose.inverse_transform_point(&Point3::new(2.0, 2.0, 3.0)).x > 0.99);
+        assert!(pose.inverse_transform_point(&Point3::new(1.0, 2.0, 4.0)).y < -0.8);
+        assert!((pose.rotation * Vector3::x()).z.abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_that_looks_straight_down_has_a_picture_too() {
+        let pose = looking("(0 0 2)", "(0 0 0)").unwrap();
+        assert!(pose.rotation.into_inner().norm() > 0.999);
+        assert!((pose.rotation * Vector3::z() + Vector3::z()).norm() < 1e-12);
+        let nowhere = looking("(0 0 2)", "(0 0 2)").unwrap_err();
+        assert!(nowhere.contains("another point than :at"), "{nowhere}");
+    }
+}

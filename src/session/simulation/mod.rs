@@ -310,9 +310,7 @@ pub(super) fn starting_world(models: &Arc<Models>) -> World {
     // A robot that says where it stands is not moved by what the kitchen says.
     let own = models.description.base.start;
     let base = match models.kitchen_description.start {
-        Some([x, y, heading]) if own == Pose::identity() => {
-            from_xy_yaw(x, y, heading.to_radians())
-        }
+        Some([x, y, heading]) if own == Pose::identity() => from_xy_yaw(x, y, heading.to_radians()),
         _ => own,
     };
     let robot = RobotConfiguration {

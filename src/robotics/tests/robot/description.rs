@@ -185,3 +185,32 @@ fn numbers_are_read_to_the_last_digit() {
     assert_eq!(park[4], 16.99646118944817);
     assert_eq!(pr2.camera().vertical_view, 50.0_f64.to_radians());
 }
+
+#[test]
+fn a_camera_that_the_urdf_lacks_stands_where_the_description_says() {
+    let aimed = |at: &str| {
+        error(
+            "(camera narrow-stereo\n        :frame narrow_stereo_optical_frame",
+            &format!("(camera stand :frame base_footprint {at}"),
+        )
+    };
+    assert_eq!(aimed(":at (1 0 2) :looks-at (1 0 1)"), "no error");
+    let nowhere = aimed(":at (1 0 2) :looks-at (1 0 2)");
+    assert!(nowhere.contains("another point than :at"), "{nowhere}");
+    let without = aimed(":looks-at (1 0 1)");
+    assert!(without.contains("no :looks-at without :at"), "{without}");
+    let blind = aimed(":at (1 0 2)");
+    assert!(blind.contains("has no :looks-at; add it"), "{blind}");
+}
+
+#[test]
+fn a_base_starts_upright_and_on_the_floor_if_it_drives() {
+    let started = |at: &str| error(":body base_link", &format!(":body base_link :start {at}"));
+    assert_eq!(started("((1 2 0) (0 0 1 0))"), "no error");
+    let high = started("((1 2 0.7) (0 0 0 1))");
+    assert!(high.contains("with z 0, for a base that drives"), "{high}");
+    let leaning = started("((1 2 0) (1 0 0 1))");
+    assert!(leaning.contains("an upright pose"), "{leaning}");
+    let short = started("(1 2 0)");
+    assert!(short.contains("a point and a quaternion"), "{short}");
+}
