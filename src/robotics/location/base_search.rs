@@ -394,7 +394,7 @@ impl<'a> Test<'a> {
         if let Err(cause) = self.reach.test(base, effort) {
             return Ok(Err(Rejection {
                 cause: self.cause(&cause),
-                may_pass: cause == NoReach::InTheWay,
+                may_pass: matches!(cause, NoReach::InTheWay | NoReach::NoFit),
                 is_unseen: false,
             }));
         }
@@ -418,6 +418,7 @@ impl<'a> Test<'a> {
             NoReach::NoGrasp => format!("without a known grasp of {name}"),
             NoReach::TooHeavy => format!("with {name} too heavy for the fingers by any grasp"),
             NoReach::TooFar => format!("out of reach of {name}"),
+            NoReach::NoFit => format!("with no grasp by which the hand fits around {name}"),
             NoReach::InTheWay => format!("with something in the way to {name}"),
         }
     }

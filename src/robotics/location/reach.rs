@@ -24,6 +24,8 @@ pub(super) enum NoReach {
     TooHeavy,
     /// Too far away, or at an impossible angle.
     TooFar,
+    /// The hand itself would be in the target by every grasp that is near enough.
+    NoFit,
     /// Something is in the way.
     InTheWay,
 }
@@ -202,8 +204,10 @@ impl<'a> Reach<'a> {
                 let found = chooser.with_base_at(base, effort).map(|_| ());
                 found.map_err(|nothing| {
                     let mut obstacles = nothing.tried.iter().map(|tried| &tried.obstacle);
+                    let mut near = obstacles.clone().filter(|obstacle| !is_far(obstacle));
                     match obstacles.all(is_far) {
                         true => NoReach::TooFar,
+                        false if near.all(is_too_large) => NoReach::NoFit,
                         false => NoReach::InTheWay,
                     }
                 })
@@ -229,6 +233,10 @@ impl<'a> Reach<'a> {
 
 fn is_far(obstacle: &GraspObstacle) -> bool {
     matches!(obstacle, GraspObstacle::OutOfReach { .. })
+}
+
+fn is_too_large(obstacle: &GraspObstacle) -> bool {
+    matches!(obstacle, GraspObstacle::NoFit { .. })
 }
 
 fn cause(obstacle: &GraspObstacle) -> NoReach {
