@@ -11,6 +11,9 @@ const FLAGS = [
   '--disable-sync', '--disable-dev-shm-usage', '--hide-scrollbars', '--mute-audio', '--remote-debugging-pipe',
 ];
 
+/** What the protocol says of a page that has been left while it was asked. */
+const LEFT = /navigated or closed|Cannot find (default execution )?context/;
+
 export const sleep = (seconds) => new Promise((done) => setTimeout(done, seconds * 1000));
 
 /** A browser with a profile of its own; `close` ends it and deletes the profile. */
@@ -106,11 +109,13 @@ export class Tab {
     return result.value;
   }
 
-  /** Waits until an expression is true. */
+  /** Waits until an expression is true. A page that is being loaded anew has no value meanwhile. */
   async until(expression, seconds = 20) {
     const end = Date.now() + seconds * 1000;
     while (Date.now() < end) {
-      const value = await this.value(expression);
+      const value = await this.value(expression).catch((error) => {
+        if (!LEFT.test(error.message)) throw error;
+      });
       if (value) return value;
       await sleep(0.05);
     }
