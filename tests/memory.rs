@@ -42,6 +42,13 @@ fn resident_after(session: &mut Session, text: &str) -> u64 {
     resident()
 }
 
+/// Bytes that are allocated after an evaluation.
+fn allocated_after(session: &mut Session, text: &str) -> usize {
+    let outcome = session.evaluate("test", text, &mut |_| {});
+    assert_eq!(outcome, Outcome::Finished, "{text}");
+    HEAP.allocated()
+}
+
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
     let _alone = MEMORY.lock();
@@ -105,11 +112,7 @@ fn limited(bytes: usize) -> SessionOptions {
 fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
     let _alone = MEMORY.lock();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
-    let mut run = |text: &str| {
-        let outcome = session.evaluate("test", text, &mut |_| {});
-        assert_eq!(outcome, Outcome::Finished, "{text}");
-        HEAP.allocated()
-    };
+    let mut run = |text: &str| allocated_after(&mut session, text);
     run(
         "(defstruct node next) (defclass thing () ((part :accessor part)))
          (defgeneric visit (x))
@@ -393,11 +396,7 @@ fn a_thread_that_had_a_session_gives_everything_back() {
 fn references_of_symbolic_locations_leave_nothing_behind() {
     let _alone = MEMORY.lock();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
-    let mut run = |text: &str| {
-        let outcome = session.evaluate("test", text, &mut |_| {});
-        assert_eq!(outcome, Outcome::Finished, "{text}");
-        HEAP.allocated()
-    };
+    let mut run = |text: &str| allocated_after(&mut session, text);
     run("(in-package :pp-tut)
          (defun references (n)
            (dotimes (i n)
@@ -422,11 +421,7 @@ fn references_of_symbolic_locations_leave_nothing_behind() {
 fn locations_that_a_program_keeps_do_not_keep_copies_of_the_world() {
     let _alone = MEMORY.lock();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
-    let mut run = |text: &str| {
-        let outcome = session.evaluate("test", text, &mut |_| {});
-        assert_eq!(outcome, Outcome::Finished, "{text}");
-        HEAP.allocated()
-    };
+    let mut run = |text: &str| allocated_after(&mut session, text);
     run("(in-package :pp-tut)
          (defvar *kept* '())
          (defun keep (n)

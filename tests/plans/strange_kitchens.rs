@@ -254,4 +254,6 @@ fn a_description_with_two_starts_or_without_one_is_an_error() {
     assert!(nothing.contains("(behind DOOR LINK)"), "{nothing}");
     let stranger = refused("(kitchen k) (behind flap niche_shelff)");
     assert!(stranger.contains("did you mean niche_shelf?"), "{stranger}");
+    let board = refused("(kitchen k) (behind niche_shelf flap)");
+    assert!(board.contains("the link of a drawer or door"), "{board}");
 }

@@ -25,7 +25,7 @@ pub struct KitchenDescription {
     pub usual_joint: Option<JointId>,
     /// Where the robot starts: x and y (m) and heading (degrees) in the map.
     pub start: Option<[f64; 3]>,
-    /// Links of the kitchen that are behind a drawer or door, and the link of that.
+    /// The link of a drawer or door of the kitchen, with one that is behind it.
     pub behind: Vec<[String; 2]>,
     /// Places by name.
     pub places: Vec<(String, Vec<PlaceProperty>)>,

@@ -3,7 +3,7 @@
 use super::kitchen_description::{
     CLOSE_UPS, CloseUp, KitchenDescription, PlaceProperty, PlaceRule, PlaceValue, Store,
 };
-use crate::robot::{KinematicTree, aliases};
+use crate::robot::{JointKind, KinematicTree, aliases};
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use closest_name::closest_name;
 
@@ -106,7 +106,7 @@ impl<'a> Reader<'a> {
                 let [door, inside] = record.things() else {
                     return Err(record.node().expected("(behind DOOR LINK)"));
                 };
-                Ok([self.link(*door)?, self.link(*inside)?])
+                Ok([self.door(*door)?, self.link(*inside)?])
             })?,
             usually: self.each("usually", rule)?,
             belongs: self.each("belongs", rule)?,
@@ -168,6 +168,19 @@ impl<'a> Reader<'a> {
         match links().find(|link| *link == name) {
             Some(name) => Ok(name.to_owned()),
             None => Err(node.unknown("link", name, closest_name(name, links()))),
+        }
+    }
+
+    /// The link of a drawer or door: a joint moves it.
+    fn door(&self, node: Node<'_>) -> Result<String, DataError> {
+        let name = self.link(node)?;
+        let mut joints = self.tree.joints();
+        let is_moved = joints.any(|(_, joint)| {
+            joint.kind != JointKind::Fixed && self.tree.link(joint.child).name == name
+        });
+        match is_moved {
+            true => Ok(name),
+            false => Err(node.expected("the link of a drawer or door, which a joint moves")),
         }
     }
 
