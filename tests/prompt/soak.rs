@@ -139,7 +139,7 @@ const HOUSEHOLD: [&str; 5] = [
     "(defun set-and-clean ()
        (let ((ends (list (bring :bowl :table-setting) (bring :milk :table-setting)
                          (bring :milk :table-cleaning) (bring :bowl :table-cleaning))))
-         (values (count-if #'stringp ends) ends)))",
+         (values (count-if #'stringp ends) (format nil \"~{~a~^; ~}\" ends))))",
 ];
 
 #[test]

@@ -33,6 +33,9 @@ const MAX_AGAIN: usize = 1000;
 /// of the time goes there, about 10 µs for each. Where there is a place, hundreds are enough most of the
 /// time; a cup in a corner with boxes in front of it takes 6,000 and then 28,000.
 const MAX_POSTURES: [u32; 3] = [15_000, 36_000, 8_000];
+/// The same for the first part of a search in which nothing is gained by examining base poses again: a door is followed
+/// in vain from a base pose with some 4,000, so that 15,000 end after four of dozens.
+const MAX_POSTURES_AT_ONCE: u32 = 30_000;
 /// A search also ends when the target has been in reach from so many base poses, but out of sight from all of them:
 /// looking takes a millisecond, and whoever asks may do without sight.
 const MAX_UNSEEN: u32 = 400;
@@ -179,7 +182,11 @@ impl BaseSearch {
             };
             postures[part as usize] += count - counted;
             counted = count;
-            if postures[part as usize] >= MAX_POSTURES[part as usize] {
+            let most = match part {
+                Part::First if !test.reach.gains_by_effort() => MAX_POSTURES_AT_ONCE,
+                part => MAX_POSTURES[part as usize],
+            };
+            if postures[part as usize] >= most {
                 tally.give_up();
                 match part {
                     Part::First => *is_second_look = true,
@@ -394,7 +401,8 @@ impl<'a> Test<'a> {
         if let Err(cause) = self.reach.test(base, effort) {
             return Ok(Err(Rejection {
                 cause: self.cause(&cause),
-                may_pass: matches!(cause, NoReach::InTheWay | NoReach::NoFit),
+                may_pass: self.reach.gains_by_effort()
+                    && matches!(cause, NoReach::InTheWay | NoReach::NoFit),
                 is_unseen: false,
             }));
         }

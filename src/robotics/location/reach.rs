@@ -186,6 +186,12 @@ impl<'a> Reach<'a> {
         }
     }
 
+    /// Whether a second test of a base pose may find what a first one has not, with more effort. The ways of drawers
+    /// and doors are followed from as many postures in every test.
+    pub(super) fn gains_by_effort(&self) -> bool {
+        !matches!(self, Self::Open(_))
+    }
+
     /// Number of postures of the arms that have been checked.
     pub(super) fn postures(&self) -> u32 {
         match self {
