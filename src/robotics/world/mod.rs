@@ -21,6 +21,7 @@ pub mod error;
 mod explored_floor;
 mod extent;
 mod frame;
+mod grasp_definition;
 pub mod grasp_library;
 pub mod handle_hold;
 pub mod hash;
