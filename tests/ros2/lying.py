@@ -46,6 +46,17 @@ class Liar:
         self.feedback = write(f"rt/{inner}feedback", self.kind["feedback"])
         self.status = write(f"rt/{inner}status", GoalStatusArray, ros.latched())
 
+    def meet(self):
+        """Waits until the plan and this server have found each other."""
+        end = time.monotonic() + 20
+        ways = (self.goals, self.asked, self.cancels), (self.accepting, self.results, self.cancelling)
+        while not (
+            all(reader.get_matched_publications() for reader in ways[0])
+            and all(writer.get_matched_subscriptions() for writer in ways[1])
+        ):
+            check(time.monotonic() < end, "the plan and a server do not find each other")
+            time.sleep(0.01)
+
     def wait(self, reader, seconds=20):
         """The next request."""
         end = time.monotonic() + seconds
@@ -169,6 +180,8 @@ try:
     failure("no server", "NAVIGATION-LOW-LEVEL-FAILURE", "nobody serves /lying_base (waited 3 s)")
 
     liar, other = Liar(), Liar()
+    liar.meet()
+    other.meet()
     drive()
     failure("two servers", "NAVIGATION-LOW-LEVEL-FAILURE", "2 servers serve /lying_base: end all but one (waited 3 s)")
     check(liar.wait(liar.goals, 0.1) is None, "a goal is sent to two servers")

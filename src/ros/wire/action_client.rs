@@ -33,6 +33,8 @@ pub struct ActionClient {
     feedback: TopicReader,
     status: TopicReader,
     sent: Vec<Sent>,
+    /// How many servers there were when they were last counted, and since when.
+    counted: (usize, Duration),
     /// Answers that nobody has asked for.
     oddities: u64,
 }
@@ -61,6 +63,7 @@ impl ActionClient {
                 TopicQos::latched(),
             )?,
             sent: Vec::new(),
+            counted: (0, Duration::ZERO),
             oddities: 0,
         })
     }
@@ -78,13 +81,19 @@ impl ActionClient {
     }
 
     /// How many servers there are, with all that a goal needs.
-    pub fn servers(&self) -> usize {
+    fn servers(&self) -> usize {
         let services = [&self.send_goal, &self.cancel_goal, &self.get_result];
         let servers = services.map(ServiceClient::servers);
         match servers.contains(&0) {
             true => 0,
             false => servers.into_iter().max().unwrap_or(0),
         }
+    }
+
+    /// How many servers there were when it was last polled, and since when. Servers that were there before this client
+    /// are found one after the other.
+    pub fn counted(&self) -> (usize, Duration) {
+        self.counted
     }
 
     /// Whether the server has accepted a goal, or it has ended already.
@@ -133,7 +142,11 @@ impl ActionClient {
     /// Hears what has been answered, and asks what is to be asked.
     pub fn poll(&mut self, now: Duration) {
         self.hear(now);
-        let is_served = self.is_served();
+        let servers = self.servers();
+        if servers != self.counted.0 {
+            self.counted = (servers, now);
+        }
+        let is_served = servers > 0;
         for sent in &mut self.sent {
             sent.goal.server(is_served, now);
             for ask in sent.goal.next(now) {

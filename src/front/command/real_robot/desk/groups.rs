@@ -15,6 +15,9 @@ const TOGETHER: Duration = Duration::from_millis(500);
 /// How long before that it is decided whether they have: a cancellation takes its time, too.
 const CANCELLING: Duration = Duration::from_millis(150);
 
+/// How long one server has to be the only one before it gets a goal: others may be found after it.
+const ALONE: Duration = Duration::from_secs(1);
+
 /// Goals that wait for their servers.
 pub(super) struct Waiting {
     pub(super) goals: Vec<Wanted>,
@@ -50,13 +53,15 @@ impl Desk {
                 continue;
             };
             let mut trouble = None;
+            let mut is_alone = true;
             let waited = now.saturating_sub(waiting.since).as_secs_f64();
             for part in places.iter().filter_map(|place| self.parts.get(*place)) {
                 let name = part.interface.name.clone();
-                match part.client.servers() {
-                    1 => {}
+                let (servers, since) = part.client.counted();
+                match servers {
+                    1 => is_alone &= now.saturating_sub(since) >= ALONE,
                     0 => trouble = Some(RobotTrouble::Unserved { name, waited }),
-                    servers => {
+                    _ => {
                         trouble = Some(RobotTrouble::Contested {
                             name,
                             servers,
@@ -66,6 +71,7 @@ impl Desk {
                 }
             }
             match trouble {
+                None if !is_alone => self.waiting.push(waiting),
                 None => self.send(waiting.goals, &places, now),
                 Some(_) if waited < self.interface.server_time_out => self.waiting.push(waiting),
                 trouble => self.give_up(waiting, trouble),
