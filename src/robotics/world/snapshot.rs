@@ -11,6 +11,13 @@ pub struct Snapshot {
     pub(super) state: State,
 }
 
+impl Snapshot {
+    /// How much memory (bytes) it takes, roughly.
+    pub fn bytes(&self) -> usize {
+        self.physics.bytes()
+    }
+}
+
 impl World {
     /// The current state.
     pub fn snapshot(&self) -> Snapshot {

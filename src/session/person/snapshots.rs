@@ -21,6 +21,10 @@ use robotics::world::{self, Models};
 const MAX_FORMS: usize = 100;
 /// Maximum number of motions of the running form that have snapshots.
 const MAX_MOTIONS: usize = 64;
+/// The memory (bytes) that snapshots before forms may take, and those before motions, where that is fewer of them.
+const MAX_BYTES: usize = 16 << 20;
+/// How many there are whatever memory they take.
+const MIN_SNAPSHOTS: usize = 8;
 
 /// The state at one time.
 #[derive(Clone)]
@@ -77,6 +81,12 @@ impl Snapshot {
             axes: simulation.axes.clone(),
             searches: simulation.searches,
         }))
+    }
+
+    /// How many like this one may be kept, of a number that takes little memory.
+    pub(super) fn how_many(&self, most: usize, bytes: usize) -> usize {
+        let fit = bytes / self.0.world.bytes().max(1);
+        fit.clamp(MIN_SNAPSHOTS.min(most), most)
     }
 
     /// Restores the state; ongoing motions end.
@@ -183,16 +193,14 @@ impl Snapshots {
         if self.forms.back().is_some_and(|last| last.hash == hash) {
             self.forms.pop_back();
         }
-        if self.forms.len() == MAX_FORMS {
-            self.forms.pop_front();
-        }
         self.is_touched = false;
-        let before = BeforeForm {
+        let snapshot = Snapshot::take(simulation);
+        leave_room(&mut self.forms, snapshot.how_many(MAX_FORMS, MAX_BYTES));
+        self.forms.push_back(BeforeForm {
             form: form.clone(),
-            snapshot: Snapshot::take(simulation),
+            snapshot,
             hash,
-        };
-        self.forms.push_back(before);
+        });
     }
 
     /// Whether the world differs from before the last form at top level.
@@ -218,10 +226,8 @@ impl Snapshots {
         if !self.keeps_motions {
             return;
         }
-        if self.motions.len() == MAX_MOTIONS {
-            self.motions.pop_front();
-        }
         let snapshot = Snapshot::take(simulation);
+        leave_room(&mut self.motions, snapshot.how_many(MAX_MOTIONS, MAX_BYTES));
         self.motions.push_back((simulation.jobs.begun, snapshot));
     }
 
@@ -347,6 +353,13 @@ impl Snapshots {
     /// The names of the named snapshots.
     pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
+    }
+}
+
+/// Forgets the oldest, so that with one more there are not more than so many.
+fn leave_room<T>(kept: &mut VecDeque<T>, most: usize) {
+    while kept.len() >= most.max(1) {
+        kept.pop_front();
     }
 }
 

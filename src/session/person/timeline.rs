@@ -6,9 +6,11 @@ use std::collections::VecDeque;
 use super::snapshots::Snapshot;
 use crate::simulation::Simulation;
 
-/// Maximum number of moments that are kept, about 400 kB each. Then every other one of the older half is
-/// forgotten, so that the past gets coarser with age.
+/// Maximum number of moments that are kept, about 500 kB each in the usual kitchen. Then every other one of the older half
+/// is forgotten, so that the past gets coarser with age.
 const MAX_MOMENTS: usize = 64;
+/// The memory (bytes) that they may take in a larger kitchen, where that is fewer of them.
+const MAX_BYTES: usize = 40 << 20;
 
 /// The simulated time (s) between two moments while something moves.
 const INTERVAL: f64 = 2.0;
@@ -61,14 +63,15 @@ impl Timeline {
         if self.moments.back().is_some_and(|moment| moment.time >= now) {
             self.moments.pop_back();
         }
-        if self.moments.len() == MAX_MOMENTS {
+        let snapshot = Snapshot::take(simulation);
+        while self.moments.len() >= snapshot.how_many(MAX_MOMENTS, MAX_BYTES) {
             self.thin_out();
         }
         self.noted += 1;
         self.moments.push_back(Moment {
             time: now,
             serial: self.noted,
-            snapshot: Snapshot::take(simulation),
+            snapshot,
         });
     }
 
