@@ -125,7 +125,8 @@ async function tutorial(tab) {
   check(await tab.value('document.querySelectorAll(".step.done").length') === 2, 'a step is taken by a click, and marked');
   await tab.until(IDLE, 20);
   await sleep(1);
-  await tab.picture(join(pictures, 'page.png'));
+  const picture = join(pictures, 'page.png'), share = await tab.browser.difference(await tab.picture(picture), 'docs/pictures/page.png');
+  check(share < 0.05, `docs/pictures/page.png shows the page as it is, but for ${(share * 100).toFixed(1)} % (otherwise copy ${picture})`);
 }
 
 async function isKept(browser, tab) {
@@ -271,11 +272,11 @@ async function fromServer(browser) {
   const address = `http://127.0.0.1:${server.address().port}/`;
   const tab = await browser.open(address);
   await tab.until(IDLE, 60);
-  check(['/index.html', '/planwright.wasm.gz', '/library.gz'].every((name) => served.includes(name)) && served.length === 3, `from a server it takes three files: ${served.join(' ')}`);
+  check(['/index.html', '/page.xz', '/program.xz', '/library.xz'].every((name) => served.includes(name)) && served.length === 4, `from a server it takes four files: ${served.join(' ')}`);
   // Where nothing can be suspended, memory is shared; where neither can be, the worker is ended.
   for (const [way, before] of [['shared memory', 'delete WebAssembly.Suspending;'], ['a new worker', 'delete WebAssembly.Suspending;']]) {
     await tab.value(`(async () => {
-      planwright.engine.source = URL.createObjectURL(new Blob([${text(before)} + document.getElementById('worker').textContent], { type: 'text/javascript' }));
+      planwright.engine.sources.worker = URL.createObjectURL(new Blob([${text(before)} + document.getElementById('worker').textContent], { type: 'text/javascript' }));
       ${way === 'a new worker' ? "Object.defineProperty(self, 'crossOriginIsolated', { value: false });" : ''}
       await planwright.engine.begin();
       await planwright.engine.run({ text: '(defparameter *kept* 17)' });
