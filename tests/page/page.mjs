@@ -70,6 +70,13 @@ async function walk(tab) {
   await type(tab, '2)');
   await tab.until(`/\\(\\+ 1\\n\\s*2\\)\\s*3/.test(${LINES})`);
   check(true, 'Enter continues an input that is not whole');
+  // The session is asked at each Enter; the next lines are there before it has answered.
+  const pressed = { type: 'keyDown', key: 'Enter', code: 'Enter', windowsVirtualKeyCode: 13, text: '\r' };
+  await Promise.all(['(list 1', '2', '3)', '(list 4', '5)'].flatMap((text) => [
+    tab.send('Input.insertText', { text }), tab.send('Input.dispatchKeyEvent', pressed), tab.send('Input.dispatchKeyEvent', { ...pressed, type: 'keyUp', text: undefined }),
+  ]));
+  await tab.until(`/\\(list 1\\n\\s*2\\n\\s*3\\)\\s*\\(1 2 3\\)[^]*\\(list 4\\n\\s*5\\)\\s*\\(4 5\\)/.test(${LINES})`);
+  check(true, 'however fast lines are typed, each ends where Enter was pressed');
   await tab.send('Input.insertText', { text: '(park-a' });
   await tab.until('document.querySelector(".cm-tooltip-autocomplete li")', 10);
   const offered = await tab.value('document.querySelector(".cm-tooltip-autocomplete").innerText');

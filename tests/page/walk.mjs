@@ -62,7 +62,7 @@ async function inPage(browser) {
   const given = async (how, input) => {
     counts[how] += 1;
     inputs.push(input);
-    await tab.until(`planwright.engine.inputs.length === ${inputs.length} && !planwright.engine.isBusy`, 120);
+    await tab.until(`planwright.engine.inputs.length === ${inputs.length} && !planwright.engine.isBusy`, 60);
   };
   for (let chapter = 1; chapter <= Number(last); chapter += 1) {
     await tab.press('#chapter-on');
@@ -73,9 +73,13 @@ async function inPage(browser) {
     for (const [at, { input, prompt, shown: expected }] of steps.entries()) {
       // What stopped before is left by its last restart, unless the tutorial goes on there.
       if (!/\]>$/.test(prompt) && await tab.value('document.querySelectorAll(".restart:enabled").length')) {
-        await tab.value(`[...document.querySelectorAll('.restart:enabled')].at(-1).id = 'leave'`);
-        const number = await tab.value(`document.querySelector('#leave').innerText.split(':')[0]`);
-        await click(tab, '#leave');
+        const restart = `restart-${inputs.length}`;
+        const number = await tab.value(`(() => {
+          const button = [...document.querySelectorAll('.restart:enabled')].at(-1);
+          button.id = '${restart}';
+          return button.innerText.split(':')[0];
+        })()`);
+        await click(tab, `#${restart}`);
         await given('clicked', number);
       }
       if (at % 2) {
