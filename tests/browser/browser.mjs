@@ -1,7 +1,7 @@
 // Drives a headless Chromium over the DevTools protocol, through pipes; needs no packages.
 
 import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -68,6 +68,40 @@ export class Browser {
     });
     await tab.send('Page.navigate', { url: address });
     return tab;
+  }
+
+  /**
+   * The share of two pictures that looks different, from 0 to 1, and 1 if their sizes differ: of squares of 16
+   * pixels, those whose mean colour differs by more than a tenth. So letters drawn by another font, or a number that
+   * differs, count little; what is absent, moved or of another colour counts.
+   */
+  async difference(file, other) {
+    const tab = await this.open('about:blank');
+    const sources = [file, other].map((name) => `data:image/png;base64,${readFileSync(name).toString('base64')}`);
+    const share = await tab.value(`(async () => {
+      const [a, b] = await Promise.all(${JSON.stringify(sources)}.map(async (source) => {
+        const image = await createImageBitmap(await (await fetch(source)).blob());
+        const canvas = new OffscreenCanvas(image.width, image.height);
+        const context = canvas.getContext('2d');
+        context.drawImage(image, 0, 0);
+        return context.getImageData(0, 0, image.width, image.height);
+      }));
+      if (a.width !== b.width || a.height !== b.height) return 1;
+      const columns = Math.floor(a.width / 16), rows = Math.floor(a.height / 16);
+      let different = 0;
+      for (let square = 0; square < columns * rows; square += 1) {
+        const sums = [0, 0, 0];
+        for (let pixel = 0; pixel < 256; pixel += 1) {
+          const row = Math.floor(square / columns) * 16 + (pixel >> 4);
+          const at = (row * a.width + (square % columns) * 16 + (pixel & 15)) * 4;
+          for (let colour = 0; colour < 3; colour += 1) sums[colour] += a.data[at + colour] - b.data[at + colour];
+        }
+        if (sums.some((sum) => Math.abs(sum) > 25.5 * 256)) different += 1;
+      }
+      return different / (columns * rows);
+    })()`);
+    await this.send('Target.closeTarget', { targetId: tab.target });
+    return share;
   }
 
   async close() {
@@ -153,9 +187,10 @@ export class Tab {
 
   wheel(x, y, deltaY) { return this.mouse('mouseWheel', x, y, { deltaX: 0, deltaY }); }
 
-  /** Saves a screenshot of the tab as a PNG file. */
+  /** Saves a screenshot of the tab as a PNG file, and returns the file's name. */
   async picture(file) {
     const { data } = await this.send('Page.captureScreenshot', { format: 'png' });
     writeFileSync(file, Buffer.from(data, 'base64'));
+    return file;
   }
 }

@@ -77,7 +77,8 @@ async function screen({ browser, check, pictures, folder, file }) {
   check(/picking-up/.test(card) && /grasp\s+LEFT-SIDE/.test(card) && /move-bottle\.plan:\d+/.test(card) && /BOTTLE-1/.test(card), `a click goes to a task and tells about it: ${card.replaceAll(/\s+/g, ' ').slice(0, 90)} …`);
   const used = await get(tab, '[...page.marked.ids].map((id) => scene.nodes.get(id).name)');
   check(used.includes('BOTTLE-1') && used.includes('r_gripper_palm_link') && !used.some((name) => /^l_/.test(name) || name === 'base_link'), `what the task used is marked, and nothing else: ${used.length} things`);
-  await tab.picture(join(pictures, 'task.png'));
+  const picture = join(pictures, 'task.png'), share = await browser.difference(await tab.picture(picture), 'docs/pictures/live-view.png');
+  check(share < 0.05, `docs/pictures/live-view.png shows the page as it is, but for ${(share * 100).toFixed(1)} % (otherwise copy ${picture})`);
 
   // A part of the time.
   const all = await get(tab, 'past.span[1]');

@@ -70,6 +70,13 @@ async function walk(tab) {
   await type(tab, '2)');
   await tab.until(`/\\(\\+ 1\\n\\s*2\\)\\s*3/.test(${LINES})`);
   check(true, 'Enter continues an input that is not whole');
+  // The session is asked at each Enter; the next lines are there before it has answered.
+  const pressed = { type: 'keyDown', key: 'Enter', code: 'Enter', windowsVirtualKeyCode: 13, text: '\r' };
+  await Promise.all(['(list 1', '2', '3)', '(list 4', '5)'].flatMap((text) => [
+    tab.send('Input.insertText', { text }), tab.send('Input.dispatchKeyEvent', pressed), tab.send('Input.dispatchKeyEvent', { ...pressed, type: 'keyUp', text: undefined }),
+  ]));
+  await tab.until(`/\\(list 1\\n\\s*2\\n\\s*3\\)\\s*\\(1 2 3\\)[^]*\\(list 4\\n\\s*5\\)\\s*\\(4 5\\)/.test(${LINES})`);
+  check(true, 'however fast lines are typed, each ends where Enter was pressed');
   await tab.send('Input.insertText', { text: '(park-a' });
   await tab.until('document.querySelector(".cm-tooltip-autocomplete li")', 10);
   const offered = await tab.value('document.querySelector(".cm-tooltip-autocomplete").innerText');
@@ -125,7 +132,8 @@ async function tutorial(tab) {
   check(await tab.value('document.querySelectorAll(".step.done").length') === 2, 'a step is taken by a click, and marked');
   await tab.until(IDLE, 20);
   await sleep(1);
-  await tab.picture(join(pictures, 'page.png'));
+  const picture = join(pictures, 'page.png'), share = await tab.browser.difference(await tab.picture(picture), 'docs/pictures/page.png');
+  check(share < 0.05, `docs/pictures/page.png shows the page as it is, but for ${(share * 100).toFixed(1)} % (otherwise copy ${picture})`);
 }
 
 async function isKept(browser, tab) {
@@ -271,11 +279,11 @@ async function fromServer(browser) {
   const address = `http://127.0.0.1:${server.address().port}/`;
   const tab = await browser.open(address);
   await tab.until(IDLE, 60);
-  check(['/index.html', '/planwright.wasm.gz', '/library.gz'].every((name) => served.includes(name)) && served.length === 3, `from a server it takes three files: ${served.join(' ')}`);
+  check(['/index.html', '/page.xz', '/program.xz', '/library.xz'].every((name) => served.includes(name)) && served.length === 4, `from a server it takes four files: ${served.join(' ')}`);
   // Where nothing can be suspended, memory is shared; where neither can be, the worker is ended.
   for (const [way, before] of [['shared memory', 'delete WebAssembly.Suspending;'], ['a new worker', 'delete WebAssembly.Suspending;']]) {
     await tab.value(`(async () => {
-      planwright.engine.source = URL.createObjectURL(new Blob([${text(before)} + document.getElementById('worker').textContent], { type: 'text/javascript' }));
+      planwright.engine.sources.worker = URL.createObjectURL(new Blob([${text(before)} + document.getElementById('worker').textContent], { type: 'text/javascript' }));
       ${way === 'a new worker' ? "Object.defineProperty(self, 'crossOriginIsolated', { value: false });" : ''}
       await planwright.engine.begin();
       await planwright.engine.run({ text: '(defparameter *kept* 17)' });

@@ -25,6 +25,8 @@ export class Console {
     this.progress = root.querySelector('#progress');
     this.stop = root.querySelector('#stop');
     this.past = [];
+    // Lines at whose end Enter was pressed, until it is known what it does.
+    this.entered = [];
     this.at = 0;
     this.draft = '';
     this.last = null;
@@ -42,7 +44,7 @@ export class Console {
       { key: 'Ctrl-l', run: () => this.clear() },
     ];
     this.editor = makeEditor({
-      parent: root.querySelector('#typed'), engine, label: 'Next input', keys: engineKeys, onChange: () => this.showHint(),
+      parent: root.querySelector('#typed'), engine, label: 'Next input', keys: engineKeys, onChange: (update) => { this.keepPlaces(update); this.showHint(); },
     });
     this.stop.addEventListener('click', () => { this.interrupt(); this.editor.focus(); });
     this.lines.addEventListener('click', (event) => {
@@ -80,7 +82,7 @@ export class Console {
 
   interrupt() {
     if (this.engine.isBusy) this.engine.interrupt();
-    else if (textOf(this.editor)) setText(this.editor, '');
+    else if (textOf(this.editor)) this.replace('');
     return true;
   }
 
@@ -88,32 +90,47 @@ export class Console {
   // keys that are pressed before it has answered lose nothing.
   enter() {
     if (completionStatus(this.editor.state) === 'active' || !this.editor.state.selection.main.empty) return false;
-    this.entering = (this.entering ?? Promise.resolve()).then(() => this.enterNow());
+    const { head } = this.editor.state.selection.main;
+    const line = { end: head, rest: head };
+    this.entered.push(line);
+    this.entering = (this.entering ?? Promise.resolve()).then(() => this.enterNow(line));
     return true;
   }
 
-  async enterNow() {
-    const text = textOf(this.editor);
-    const { head } = this.editor.state.selection.main;
-    const { whole } = await this.engine.ask('enter', { text }, true);
-    // What has been typed meanwhile comes after the line's end, or after the input.
-    const [before, after] = [text.slice(0, head), text.slice(head)];
-    const now = textOf(this.editor);
-    if (!now.startsWith(before) || !now.endsWith(after) || now.length < text.length) return;
-    const more = now.slice(before.length, now.length - after.length);
-    if (whole || !text.trim()) {
-      this.submit(text);
-      if (more) setText(this.editor, more);
-      return;
+  // What is typed after Enter, while it is being found out whether the input is whole, is between `end` and `rest`: it
+  // comes after the line's end, or after the input. More than one Enter may wait.
+  keepPlaces({ changes }) {
+    for (const line of this.entered) {
+      line.end = changes.mapPos(line.end, -1);
+      line.rest = changes.mapPos(line.rest, 1);
     }
-    this.editor.dispatch({ selection: { anchor: before.length } });
-    insertNewlineAndIndent(this.editor);
-    if (more) this.editor.dispatch({ selection: { anchor: this.editor.state.selection.main.head + more.length } });
   }
 
-  submit(text) {
-    setText(this.editor, '');
-    this.add(text);
+  async enterNow(line) {
+    const textNow = () => {
+      const text = textOf(this.editor);
+      return text.slice(0, line.end) + text.slice(line.rest);
+    };
+    const { whole } = await this.engine.ask('enter', { text: textNow() }, true);
+    // The text may have been replaced by another one.
+    if (!this.entered.includes(line)) return;
+    const text = textNow(), { doc, selection: { main: { head } } } = this.editor.state;
+    if (whole || !text.trim()) {
+      this.editor.dispatch({ changes: [{ from: 0, to: line.end }, { from: line.rest, to: doc.length }] });
+      this.add(text);
+    } else {
+      const isBehind = head > line.end;
+      this.editor.dispatch({ selection: { anchor: line.end } });
+      insertNewlineAndIndent(this.editor);
+      if (isBehind) this.editor.dispatch({ selection: { anchor: head + this.editor.state.doc.length - doc.length } });
+    }
+    this.entered = this.entered.filter((other) => other !== line);
+  }
+
+  // Another text takes the place of what is typed.
+  replace(text) {
+    this.entered = [];
+    setText(this.editor, text);
   }
 
   // Evaluates an input as if it had been typed.
@@ -133,7 +150,7 @@ export class Console {
     if (at < 0 || at > this.past.length) return true;
     if (this.at === this.past.length) this.draft = textOf(this.editor);
     this.at = at;
-    setText(this.editor, at === this.past.length ? this.draft : this.past[at]);
+    this.replace(at === this.past.length ? this.draft : this.past[at]);
     return true;
   }
 
@@ -256,7 +273,7 @@ export class Console {
     this.flush();
     this.prompt.textContent = `${prompt}>`;
     this.progress.textContent = '';
-    if (draft && !input.again) setText(this.editor, draft);
+    if (draft && !input.again) this.replace(draft);
     if (outcome === 'quit') this.remark('The session has ended. “New session” begins another one.');
   }
 

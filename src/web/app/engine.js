@@ -1,20 +1,8 @@
 // The session: starts the worker, sends requests, and brings a session back by its inputs.
 
-import { fromText } from './base85.js';
+import { partText, placeOf } from './parts.js';
 
 const PACES = { pause: -1, go: -2, 'speed max': -3 };
-
-// Text and bytes of the page's own parts.
-export const partText = (id) => document.getElementById(id).textContent.trim();
-
-// A part is in the page, or, where the page is a folder, in a file beside it.
-async function partBytes(id, file) {
-  const isHere = document.getElementById(id);
-  const packed = isHere
-    ? new Blob([fromText(partText(id))])
-    : await fetch(file).then((answer) => answer.blob());
-  return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
-}
 
 export class Engine extends EventTarget {
   constructor(files) {
@@ -29,18 +17,30 @@ export class Engine extends EventTarget {
     this.answers = new Map();
     this.current = null;
     this.queue = [];
+    // Where the scripts of workers are.
+    this.sources = {};
+    // It takes the longest: a failure is reported when a session begins.
+    this.parts().catch(() => {});
   }
 
   // The program, and the code from which sessions start.
   parts() {
-    this.module ??= partBytes('wasm', 'planwright.wasm.gz').then((bytes) => WebAssembly.compile(bytes));
-    this.code ??= partBytes('code', 'library.gz');
-    return Promise.all([this.module, this.code]);
+    this.unpacked ??= new Promise((go, fail) => {
+      const worker = this.makeWorker('unpack');
+      worker.onerror = (event) => fail(new Error(event.message));
+      worker.onmessage = ({ data: { parts, failed } }) => {
+        worker.terminate();
+        if (parts) go(parts);
+        else fail(new Error(`The program cannot be loaded (${failed}).`));
+      };
+      worker.postMessage({ program: placeOf('program'), library: placeOf('library') });
+    });
+    return this.unpacked;
   }
 
-  makeWorker() {
-    this.source ??= URL.createObjectURL(new Blob([partText('worker')], { type: 'text/javascript' }));
-    return new Worker(this.source);
+  makeWorker(id = 'worker') {
+    this.sources[id] ??= URL.createObjectURL(new Blob([partText(id)], { type: 'text/javascript' }));
+    return new Worker(this.sources[id]);
   }
 
   // Begins a session. Inputs are evaluated without waiting, as those of a session that comes back.
@@ -54,7 +54,11 @@ export class Engine extends EventTarget {
     this.queue = [];
     for (const give of this.answers.values()) give({});
     this.answers.clear();
-    const [module, code] = await this.parts();
+    const [module, code] = await this.parts().catch((error) => {
+      this.tell('message', { failed: error.message });
+      return [];
+    });
+    if (!module) return;
     const worker = this.makeWorker();
     this.worker = worker;
     worker.onmessage = ({ data }) => { if (worker === this.worker) this.hear(data); };

@@ -1,6 +1,6 @@
 // The live view: a page of its own in a frame, which gets from here what its server would send.
 
-import { partText } from './engine.js';
+import { partText } from './parts.js';
 
 export class LiveView {
   constructor(engine, frame) {
