@@ -14,7 +14,7 @@ use super::outside::Outside;
 use lisp::guard::heap::HeapLimit;
 use robotics::mesh::MeshLibrary;
 use robotics::robot::{
-    DerivedRobot, KinematicTree, MissingNames, PostureSample, RobotDescription, UrdfReading,
+    DerivedRobot, KinematicTree, MissingNames, PostureSample, RobotDescription, Srdf, UrdfReading,
     UrdfUse,
 };
 use robotics::sexp::DataError;
@@ -232,11 +232,30 @@ impl SessionOptions {
     ///
     /// If the URDF cannot be read.
     pub fn derived_description(&self) -> Result<String, SessionError> {
+        self.derived_with(&Srdf::default())
+    }
+
+    /// Like [`Self::derived_description`], with what an SRDF of a name and a text says: which links may touch, and
+    /// postures.
+    ///
+    /// # Errors
+    ///
+    /// If the URDF or the SRDF cannot be read.
+    pub fn derived_description_with_srdf(
+        &self,
+        name: &str,
+        text: &str,
+    ) -> Result<String, SessionError> {
+        let srdf = Srdf::read(text, name);
+        self.derived_with(&srdf.map_err(|error| SessionError::Models(error.to_string()))?)
+    }
+
+    fn derived_with(&self, srdf: &Srdf) -> Result<String, SessionError> {
         let tree = self
             .tree(&self.robot, [PR2_URDF, "pr2.urdf"], UrdfUse::Robot)?
             .tree;
         let touching = SelfTouching::new(&tree, PostureSample::default());
-        Ok(DerivedRobot::of(&tree, &touching).text(&tree))
+        Ok(DerivedRobot::of(&tree, &touching, srdf).text(&tree))
     }
 
     /// Reads the tree in a URDF that is given as its name and text, or in the one that is built in.

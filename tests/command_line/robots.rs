@@ -73,6 +73,67 @@ fn a_robot_fetches_with_nothing_but_what_was_derived_from_its_urdf() {
 }
 
 #[test]
+fn an_srdf_says_what_may_touch_and_how_the_arm_is_parked() {
+    let folder = Folder::new("srdf");
+    let urdf = Path::new("world/fetch.urdf");
+    let joints = [
+        ("shoulder_pan_joint", "1.32"),
+        ("shoulder_lift_joint", "1.4"),
+        ("upperarm_roll_joint", "-0.2"),
+        ("elbow_flex_joint", "1.72"),
+        ("forearm_roll_joint", "0.0"),
+        ("wrist_flex_joint", "1.66"),
+        ("wrist_roll_joint", "0.0"),
+    ];
+    let joints: String = joints
+        .iter()
+        .map(|(name, value)| format!("<joint name=\"{name}\" value=\"{value}\"/>"))
+        .collect();
+    let srdf = format!(
+        "<robot name=\"fetch\">
+           <group_state name=\"Straight up\" group=\"arm\"><joint name=\"elbow_flex_joint\" value=\"0\"/></group_state>
+           <group_state name=\"tucked\" group=\"arm\">{joints}</group_state>
+           <disable_collisions link1=\"forearm_roll_link\" link2=\"base_link\" reason=\"User\"/>
+           <disable_collisions link1=\"elbow_flex_link\" link2=\"base_link\" reason=\"Never\"/>
+           <disable_collisions link1=\"laser\" link2=\"base_link\" reason=\"Adjacent\"/>
+         </robot>"
+    );
+    let srdf = folder.file("fetch.srdf", srdf.as_bytes());
+    let option = Path::new("--srdf");
+    let derived = planwright(&[Path::new("describe-robot"), urdf, option, &srdf]);
+    assert!(derived.status.success(), "{}", text(&derived.stderr));
+    let said = text(&derived.stdout);
+    assert!(
+        said.contains("(tucked 1.32 1.4 -0.2 1.72 0 1.66 0)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("(park 1.32 1.4 -0.2 1.72 0 1.66 0)"),
+        "{said}"
+    );
+    assert!(!said.contains("straight-up"), "{said}");
+    assert!(
+        said.contains("which is no fault if they are parts that this robot is"),
+        "{said}"
+    );
+    let may_touch = |one: &str| {
+        let mut groups = said.lines().filter(|line| line.starts_with("(touching"));
+        groups.any(|group| group.contains("base_link") && group.contains(one))
+    };
+    assert!(may_touch("forearm_roll_link"), "{said}");
+    assert!(!may_touch("elbow_flex_link"), "{said}");
+
+    let broken = folder.file("broken.srdf", b"<robot><group_state></robot>");
+    let refused = planwright(&[Path::new("describe-robot"), urdf, option, &broken]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        text(&refused.stderr).contains("broken.srdf:1:"),
+        "{}",
+        text(&refused.stderr)
+    );
+}
+
+#[test]
 fn what_cannot_be_derived_is_refused_or_said() {
     let none = planwright(&[Path::new("describe-robot"), Path::new("no-such.urdf")]);
     assert_eq!(none.status.code(), Some(2));

@@ -20,7 +20,8 @@ pub struct GroupState {
 /// The facts of an SRDF that have a use here.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Srdf {
-    /// Pairs of different links that are not checked, in the order of the file.
+    /// Pairs of different links that are not checked although they may touch, in the order of the file: what its author
+    /// has found never to touch is not among them.
     pub pairs: Vec<(String, String)>,
     /// Links that are never checked.
     pub links: Vec<String>,
@@ -49,8 +50,12 @@ impl Srdf {
             match element.name {
                 "disable_collisions" | "disable_self_collision" => {
                     let ends = (value(element, "link1"), value(element, "link2"));
+                    let never = element
+                        .attribute("reason")
+                        .is_some_and(|r| r.value == "Never");
                     if let (Some(one), Some(other)) = ends
                         && one != other
+                        && !never
                     {
                         srdf.pairs.push((one, other));
                     }
@@ -92,6 +97,7 @@ mod tests {
             <disable_collisions link1="a" link2="b" reason="Adjacent"/>
             <disable_self_collision link1="b" link2="c"/>
             <disable_self_collision link1="c" link2="c"/>
+            <disable_collisions link1="a" link2="c" reason="Never"/>
             <disable_all_collisions link="d"/>
             <disable_collisions link1="a"/>
             <group_state name="ready" group="arm"><joint name="j" value=" -0.5"/><joint name="k" value="x"/></group_state>

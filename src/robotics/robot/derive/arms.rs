@@ -37,6 +37,8 @@ pub struct DerivedArm {
     pub gripper: Option<DerivedGripper>,
     /// A posture in which it is close to the body.
     pub park: Option<ArmPositions>,
+    /// Further named postures.
+    pub postures: Vec<(String, ArmPositions)>,
 }
 
 /// Height after start-up of a torso with those limits.
@@ -138,6 +140,7 @@ pub(super) fn find(
             joints,
             gripper,
             park: None,
+            postures: Vec::new(),
         };
         arms.push((y, arm));
     }

@@ -7,10 +7,12 @@
 mod arms;
 mod grippers;
 mod parking;
+mod said;
 mod text;
 mod wheels;
 
-use super::{JointId, JointKind, JointPositions, KinematicTree, LinkId, TouchingPairs};
+use super::arm_positions::ArmPositions;
+use super::{JointId, JointKind, JointPositions, KinematicTree, LinkId, Srdf, TouchingPairs};
 use nalgebra::Vector3;
 use spatial::Pose;
 
@@ -61,8 +63,8 @@ pub trait TouchTest {
 }
 
 impl DerivedRobot {
-    /// Looks at the tree of a robot.
-    pub fn of(tree: &KinematicTree, touch: &dyn TouchTest) -> Self {
+    /// Looks at the tree of a robot, and at what an SRDF says of it.
+    pub fn of(tree: &KinematicTree, touch: &dyn TouchTest, srdf: &Srdf) -> Self {
         let mut remarks = Vec::new();
         let wheels = wheels::find(tree, &mut remarks);
         let grippers = grippers::find(tree, &mut remarks);
@@ -97,6 +99,7 @@ impl DerivedRobot {
             .by_construction()
             .filter(|(a, b)| !rolls(a) && !rolls(b))
             .chain(grippers.flat_map(DerivedGripper::pad_pairs))
+            .chain(said::pairs(tree, srdf, &mut remarks))
             .collect();
         let mut q = tree.zero_positions();
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
@@ -104,6 +107,7 @@ impl DerivedRobot {
         }
         let table = (wheels.drive == DerivedDrive::Fixed).then_some(ABOVE_TABLE);
         for arm in &mut arms {
+            arm.postures = said::postures(tree, arm, srdf);
             let is_expected = |pair: &(LinkId, LinkId)| {
                 let is_built = built.contains(pair) || built.contains(&(pair.1, pair.0));
                 is_built || rolls(&pair.0) || rolls(&pair.1)
@@ -116,7 +120,17 @@ impl DerivedRobot {
                 pairs.retain(|pair| !is_expected(pair) && (is_of_arm(pair.0) || is_of_arm(pair.1)));
                 pairs
             };
-            let Some((park, touching)) = parking::find(tree, arm, &q, table, hits) else {
+            let is_free = |posture: &ArmPositions| {
+                let above = |floor| parking::is_above(tree, arm, &q, posture, floor);
+                let mut q = q.clone();
+                parking::set(arm, &mut q, posture);
+                table.is_none_or(above) && hits(&q).is_empty()
+            };
+            let found = match said::park(arm).filter(is_free) {
+                Some(park) => Some((park, Vec::new())),
+                None => parking::find(tree, arm, &q, table, hits),
+            };
+            let Some((park, touching)) = found else {
                 continue;
             };
             for (joint, position) in arm.joints.iter().zip(&park) {

@@ -27,12 +27,7 @@ pub(super) fn find(
     hits: impl Fn(&JointPositions) -> Vec<(LinkId, LinkId)>,
 ) -> Option<(ArmPositions, Vec<(LinkId, LinkId)>)> {
     let kinematics = NumericKinematics::new(tree, arm.base, arm.wrist).ok()?;
-    let first = *arm.joints.first()?;
-    let moved: Vec<LinkId> = (tree.links())
-        .filter(|(_, link)| !link.collisions.is_empty())
-        .map(|(id, _)| id)
-        .filter(|id| tree.carries(tree.joint(first).child, *id))
-        .collect();
+    let moved = moved(tree, arm);
     let mut random = Pcg64::seed_from_u64(1);
     let mut share = || f64::from(random.next_u32()) / f64::from(u32::MAX);
     let mut postures: Vec<(f64, ArmPositions)> = Vec::new();
@@ -76,7 +71,33 @@ pub(super) fn find(
     best
 }
 
-fn set(arm: &DerivedArm, q: &mut JointPositions, posture: &ArmPositions) {
+/// Whether nothing of the arm is below `floor` (m, in the frame of the root) in a posture.
+pub(super) fn is_above(
+    tree: &KinematicTree,
+    arm: &DerivedArm,
+    others: &JointPositions,
+    posture: &ArmPositions,
+    floor: f64,
+) -> bool {
+    let mut q = others.clone();
+    set(arm, &mut q, posture);
+    let mut poses = Vec::new();
+    tree.forward_kinematics(&Pose::identity(), &q, &mut poses);
+    lowest(tree, &moved(tree, arm), &poses) >= floor
+}
+
+/// The links with shapes that the arm moves.
+fn moved(tree: &KinematicTree, arm: &DerivedArm) -> Vec<LinkId> {
+    let Some(first) = arm.joints.first().map(|joint| tree.joint(*joint).child) else {
+        return Vec::new();
+    };
+    let solid = tree.links().filter(|(_, link)| !link.collisions.is_empty());
+    let solid = solid.map(|(id, _)| id);
+    solid.filter(|id| tree.carries(first, *id)).collect()
+}
+
+/// Takes up a posture.
+pub(super) fn set(arm: &DerivedArm, q: &mut JointPositions, posture: &ArmPositions) {
     for (joint, position) in arm.joints.iter().zip(posture) {
         q.set(*joint, *position);
     }

@@ -202,11 +202,20 @@ fn arm(text: &mut String, arm: &DerivedArm, tree: &KinematicTree) {
         Some(park) => park.iter().map(|position| number(*position)).collect(),
         None => arm.joints.iter().map(|_| "0".to_owned()).collect(),
     };
-    let _ = writeln!(
+    let _ = write!(
         text,
-        "     :start park :postures ((park {})))",
+        "     :start park :postures ((park {})",
         park.join(" ")
     );
+    for (name, posture) in arm.postures.iter().filter(|(name, _)| name != "park") {
+        let positions: Vec<String> = posture.iter().map(|position| number(*position)).collect();
+        let _ = write!(
+            text,
+            "\n                            ({name} {})",
+            positions.join(" ")
+        );
+    }
+    text.push_str("))\n");
     match &arm.gripper {
         Some(gripper) => write_gripper(text, arm, gripper, tree),
         None => {
@@ -273,7 +282,7 @@ fn number(x: f64) -> String {
 }
 
 /// A name as one symbol.
-fn symbol(name: &str) -> String {
+pub(super) fn symbol(name: &str) -> String {
     let is_part = |c: char| c.is_alphanumeric() || "-_.".contains(c);
     let name: String = name
         .chars()

@@ -1,6 +1,6 @@
 //! Descriptions that are derived from a URDF are read as they are.
 
-use crate::robot::{DerivedRobot, KinematicTree, PostureSample, RobotDescription};
+use crate::robot::{DerivedRobot, KinematicTree, PostureSample, RobotDescription, Srdf};
 use crate::world::self_touching::SelfTouching;
 use descriptions::{FETCH_URDF, PR2_URDF};
 
@@ -28,7 +28,7 @@ fn derived_descriptions_are_read_and_say_what_the_robot_is() {
             count: 1000,
             seed: 0,
         };
-        let robot = DerivedRobot::of(&tree, &SelfTouching::new(&tree, sample));
+        let robot = DerivedRobot::of(&tree, &SelfTouching::new(&tree, sample), &Srdf::default());
         let text = robot.text(&tree);
         assert_eq!(robot.arms.len(), arms);
         assert_eq!(
