@@ -108,12 +108,17 @@ fn what_is_taken_not_to_be_there_is_in_no_hand_s_way() {
         let mut hand = HandReach::new(world, robot.clone(), side, &absent);
         let mut other = HandReach::new(&without, robot.clone(), side, &[]);
         let base = robot.base.inverse();
-        for step in 0..40 {
-            let x = -1.6 + 0.01 * f64::from(step);
-            let tool = base * from_xyz_rpy([x, -0.85, 0.9], [0.0, 1.5, 0.0]);
+        for step in 0..180 {
+            let (x, z, pitch) = (step % 20, step / 20 % 3, step / 60);
+            let place = [
+                -1.68 + 0.02 * f64::from(x),
+                -0.85,
+                0.74 + 0.04 * f64::from(z),
+            ];
+            let tool = base * from_xyz_rpy(place, [0.0, 0.75 * f64::from(pitch), -1.5]);
             let way = [(tool, CollisionMode::AvoidAll)];
             let told = hand.reaches(&way, None);
-            assert_eq!(told, other.reaches(&way, None), "{side:?} {x}");
+            assert_eq!(told, other.reaches(&way, None), "{side:?} {place:?}");
             changed += usize::from(told != with.reaches(&way, None));
         }
     }
