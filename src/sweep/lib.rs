@@ -6,6 +6,7 @@
 //! a draw that is added changes no other.
 
 mod beta;
+mod column_index;
 mod division;
 pub mod draw;
 mod feature;

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::column_index::ColumnIndex;
 use super::line::Line;
 
 /// A value in a row.
@@ -42,6 +43,8 @@ pub struct Relation {
     rows: Vec<Vec<Cell>>,
     /// For each value of the first column that is a whole number, the rows that have it.
     by_first: BTreeMap<i64, Vec<usize>>,
+    /// For each column, what finds rows by its values.
+    indices: Vec<ColumnIndex>,
 }
 
 impl Relation {
@@ -76,18 +79,69 @@ impl Relation {
                 .iter()
                 .all(|(column, value)| row.get(*column).is_some_and(|cell| cell.is(value)))
         };
-        let first = given.iter().find_map(|(column, value)| match value {
-            Cell::Int(number) if *column == 0 => Some(*number),
-            _ => None,
-        });
-        match first {
-            Some(number) => {
-                let numbers = self.by_first.get(&number).into_iter().flatten();
-                let rows = numbers.filter_map(|number| self.rows.get(*number));
+        match self.candidates(given) {
+            Some(numbers) => {
+                let rows = numbers.iter().filter_map(|number| self.rows.get(*number));
                 Box::new(rows.filter(fits).map(Vec::as_slice))
             }
             None => Box::new(self.rows.iter().filter(fits).map(Vec::as_slice)),
         }
+    }
+
+    /// The numbers of rows, in their order, among which are all that have the values; `None` for all rows.
+    fn candidates(&self, given: &[(usize, Cell)]) -> Option<&[usize]> {
+        let first = given.iter().find_map(|(column, value)| match value {
+            Cell::Int(number) if *column == 0 => Some(*number),
+            _ => None,
+        });
+        let mut best = first.map(|number| {
+            let numbers = self.by_first.get(&number);
+            numbers.map_or(&[][..], Vec::as_slice)
+        });
+        let by_column = given.iter().filter_map(|(column, value)| {
+            let index = self.indices.get(*column)?;
+            Some((*column, index, value))
+        });
+        for (_, index, value) in by_column.clone() {
+            let found = index.get(value);
+            if found.is_some_and(|found| best.is_none_or(|best| found.len() < best.len())) {
+                best = found;
+            }
+        }
+        let count = best.map_or(self.rows.len(), <[usize]>::len);
+        for (column, index, _) in by_column {
+            if column > 0 || first.is_none() {
+                index.note(count, &self.rows, column);
+            }
+        }
+        best
+    }
+
+    /// Adds a row with a value for each of the columns, which are all that the relation has, if it has any.
+    fn push(&mut self, columns: &[&str], row: Vec<Cell>) {
+        if self.columns.is_empty() {
+            self.set_columns(columns.iter().map(|name| (*name).to_owned()).collect());
+        }
+        match self.columns.iter().eq(columns.iter()) {
+            true => self.push_row(row),
+            false => self.add(columns.iter().copied().zip(row)),
+        }
+    }
+
+    fn set_columns(&mut self, columns: Vec<String>) {
+        self.indices.clear();
+        self.indices
+            .resize_with(columns.len(), ColumnIndex::default);
+        self.columns = columns;
+    }
+
+    fn push_row(&mut self, row: Vec<Cell>) {
+        self.indices.iter_mut().for_each(ColumnIndex::forget);
+        if let Some(Cell::Int(number)) = row.first() {
+            let of_number = self.by_first.entry(*number).or_default();
+            of_number.push(self.rows.len());
+        }
+        self.rows.push(row);
     }
 
     /// Adds a row; columns that it does not name are empty in it, and new ones in those before.
@@ -108,6 +162,7 @@ impl Relation {
                 }
                 None => {
                     self.columns.push(name.to_owned());
+                    self.indices.push(ColumnIndex::default());
                     for row in &mut self.rows {
                         row.push(Cell::Null);
                     }
@@ -115,11 +170,7 @@ impl Relation {
                 }
             }
         }
-        if let Some(Cell::Int(number)) = row.first() {
-            let of_number = self.by_first.entry(*number).or_default();
-            of_number.push(self.rows.len());
-        }
-        self.rows.push(row);
+        self.push_row(row);
     }
 }
 
@@ -173,6 +224,18 @@ impl Relations {
             });
         }
         Ok(count)
+    }
+
+    /// Adds rows of a relation, each with a value for each of the columns.
+    pub fn add_rows(
+        &mut self,
+        relation: &str,
+        columns: &[&str],
+        rows: impl Iterator<Item = Vec<Cell>>,
+    ) {
+        for row in rows {
+            self.relation(relation).push(columns, row);
+        }
     }
 
     fn relation(&mut self, name: &str) -> &mut Relation {
@@ -233,5 +296,71 @@ mod tests {
         let error = relations.add("task", "{\"task\":1}\n[1]\n").unwrap_err();
         assert_eq!(error.line, 2);
         assert!(relations.iter().next().is_none());
+    }
+
+    #[test]
+    fn rows_that_an_index_finds_are_those_of_a_search_in_their_order() {
+        let columns = ["run", "task", "type", "ended"];
+        let mut relations = Relations::default();
+        let row = |n: usize| {
+            vec![
+                Cell::Int((n / 9) as i64),
+                Cell::Int((n % 9) as i64),
+                Cell::Text(["Going", "PLACING", "going", "looking"][n % 4].into()),
+                match n % 5 {
+                    0 => Cell::Null,
+                    k => Cell::Number(k as f64),
+                },
+            ]
+        };
+        let all: Vec<Vec<Cell>> = (0..900).map(row).collect();
+        relations.add_rows("task", &columns, all.iter().cloned());
+        let questions: [&[(usize, Cell)]; 7] = [
+            &[(2, Cell::Text("GOING".into()))],
+            &[(1, Cell::Int(4))],
+            &[(1, Cell::Number(4.0)), (2, Cell::Text("looking".into()))],
+            &[(3, Cell::Bool(false))],
+            &[(3, Cell::Int(2)), (0, Cell::Int(7))],
+            &[(0, Cell::Number(7.0))],
+            &[(2, Cell::Text("falling".into()))],
+        ];
+        let searched = |all: &[Vec<Cell>], given: &[(usize, Cell)]| -> Vec<Vec<Cell>> {
+            let fits = |row: &&Vec<Cell>| given.iter().all(|(at, value)| row[*at].is(value));
+            all.iter().filter(fits).cloned().collect()
+        };
+        let found = |relations: &Relations, given: &[(usize, Cell)]| -> Vec<Vec<Cell>> {
+            let relation = relations.get("task").unwrap();
+            relation.rows(given).map(<[Cell]>::to_vec).collect()
+        };
+        for _ in 0..20 {
+            for given in questions {
+                assert_eq!(found(&relations, given), searched(&all, given), "{given:?}");
+            }
+        }
+        let task = relations.get("task").unwrap();
+        let is_made = |column: usize| task.indices[column].get(&Cell::Null).is_some();
+        assert!(is_made(1) && is_made(2) && is_made(3));
+        // An index knows of what comes later, too.
+        let mut all = all;
+        all.extend((900..950).map(row));
+        relations.add_rows("task", &columns, (900..950).map(row));
+        for given in questions {
+            assert_eq!(found(&relations, given), searched(&all, given), "{given:?}");
+        }
+    }
+
+    #[test]
+    fn rows_with_values_for_other_columns_extend_a_relation() {
+        let mut relations = Relations::default();
+        relations
+            .add("task", "{\"task\":1,\"type\":\"going\"}\n")
+            .unwrap();
+        let row = vec![Cell::Number(2.5), Cell::Int(2)];
+        relations.add_rows("task", &["ended", "task"], [row].into_iter());
+        let task = relations.get("task").unwrap();
+        assert_eq!(task.columns(), ["task", "type", "ended"]);
+        let given = [(0, Cell::Int(2))];
+        let found: Vec<_> = task.rows(&given).collect();
+        assert_eq!(found, [[Cell::Int(2), Cell::Null, Cell::Number(2.5)]]);
     }
 }

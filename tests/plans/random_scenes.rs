@@ -374,6 +374,129 @@ fn what_is_reachable_is_reached_by_a_grid_of_inverse_kinematics() {
     reaches_agree(12, [5, 100]);
 }
 
+/// What is stable is where it was after five seconds in which nothing is done, while a ball falls, rolls and comes to
+/// rest: also in the moment in which the hand lets go of it, at which nothing moves yet.
+#[test]
+fn what_is_stable_stays_while_something_falls_and_rolls() {
+    let mut session = Session::new(&SessionOptions::default()).expect("a session starts");
+    said(
+        &mut session,
+        "(in-package :btr)
+         (pp-tut:init-projection)
+         (btr-utils:spawn-object 'plate-1 :plate :pose '((-0.9 1.2 0.9) (0 0 0 1)))
+         (btr-utils:spawn-object 'cup-1 :cup :pose '((-0.9 1.2 1.0) (0 0 0 1)))
+         (btr-utils:spawn-object 'bottle-1 :bottle :pose '((-0.9 1.6 1.0) (0 0 0 1)))
+         (%spawn-shape 'ball-1 :sphere '(0.04) '((-0.75 1.9 0.95) (0 0 0 1)) 0.2 nil)
+         (prolog-?w '(assert (attached ?w :robot \"l_gripper_tool_frame\" ball-1 :top)))
+         (prolog-?w '(assert (object-pose ?w :robot ((0.12 0 0) (0 0 0 1)))))
+         (%set-joint :robot \"torso_lift_joint\" 0.3)
+         (defun stable-now ()
+           (sort (mapcar (lambda (answer) (cut:var-value '?o answer))
+                         (cut:force-ll (prolog-?w '(stable ?w ?o))))
+                 #'string<))
+         (defun staying ()
+           (let ((before (mapcar #'btr-utils:object-pose (pw::%objects-of-world))))
+             (with-trial
+               (%let-pass 5)
+               (sort (loop for object in (pw::%objects-of-world)
+                           for pose in before
+                           for now = (btr-utils:object-pose object)
+                           when (and (<= (cl-transforms:v-dist (cl-transforms:origin pose)
+                                                               (cl-transforms:origin now))
+                                         0.005)
+                                     (<= (cl-transforms:angle-between-quaternions
+                                          (cl-transforms:orientation pose)
+                                          (cl-transforms:orientation now))
+                                         0.15))
+                             collect object)
+                     #'string<))))",
+    );
+    let told = |session: &mut Session, form: &str| {
+        let printed = said_and_printed(session, &format!("(format t \"~a\" {form})"));
+        printed.trim_end_matches("NIL").to_owned()
+    };
+    assert_eq!(
+        told(&mut session, "(stable-now)"),
+        "(BALL-1 BOTTLE-1 CUP-1 PLATE-1)"
+    );
+    said(&mut session, "(%take-from-hand 'ball-1)");
+    assert_eq!(
+        told(&mut session, "(stable-now)"),
+        "(BOTTLE-1 CUP-1 PLATE-1)"
+    );
+    said(&mut session, "(%begin-trial)");
+    let (mut rolls, mut rests) = (0, 0);
+    for _ in 0..14 {
+        said(&mut session, "(%let-pass 0.2)");
+        let stable = told(&mut session, "(stable-now)");
+        assert_eq!(stable, told(&mut session, "(staying)"));
+        match stable.contains("BALL-1") {
+            true => rests += 1,
+            false => rolls += 1,
+        }
+    }
+    assert!(rolls > 3 && rests > 1, "{rolls} {rests}");
+    // What stood on something that is taken away falls.
+    said(&mut session, "(btr-utils:kill-object 'plate-1)");
+    let stable = told(&mut session, "(stable-now)");
+    assert!(!stable.contains("CUP-1"), "{stable}");
+}
+
+/// One question about all objects answers like one for each grasp, and one as if others were not there like one in a
+/// trial in which they are gone; also while a hand holds something.
+#[test]
+fn one_question_about_all_objects_answers_like_many() {
+    let mut scene = Scene::new();
+    said(
+        &mut scene.session,
+        "(defun one-by-one (item side grasp)
+           (pp-tut:grasp-reachable-p item side grasp))
+         (defun rows-one-by-one ()
+           (loop for item in (pw::%objects-of-world)
+                 append (loop for side in '(:left :right)
+                              append (loop for grasp in (%grasps-of (pw::%type-of-object item) side)
+                                           when (one-by-one item side grasp)
+                                             collect (list item side grasp)))))
+         (defun any-without-p (item others)
+           (with-trial
+             (mapc #'btr-utils:kill-object others)
+             (loop for side in '(:left :right)
+                   thereis (some (lambda (grasp) (one-by-one item side grasp))
+                                 (%grasps-of (pw::%type-of-object item) side)))))
+         (defun blocking-one-by-one ()
+           (loop for item in (pw::%objects-of-world)
+                 unless (any-without-p item '())
+                   append (loop for other in (remove item (pw::%objects-of-world))
+                                when (any-without-p item (list other))
+                                  collect (list item other))))",
+    );
+    let (mut reached, mut blocking) = (0, 0);
+    for seed in 0..10 {
+        scene.arrange(seed);
+        if seed % 3 == 0 {
+            said(
+                &mut scene.session,
+                "(%put-in-hand (first (pw::%objects-of-world)) :left :top)",
+            );
+        }
+        let told = |scene: &mut Scene, form: &str| {
+            said_and_printed(&mut scene.session, &format!("(format t \"~(~a~)\" {form})"))
+        };
+        let all = told(
+            &mut scene,
+            "(rows-of '(?o ?s ?g) '(reachable ?w ?r ?o ?s ?g))",
+        );
+        let each = told(&mut scene, "(rows-one-by-one)");
+        assert_eq!(all, each, "scene {seed}");
+        reached += all.matches(") (").count();
+        let all = told(&mut scene, "(rows-of '(?o ?x) '(blocking ?w ?r ?o ?x))");
+        let each = told(&mut scene, "(blocking-one-by-one)");
+        assert_eq!(all, each, "scene {seed}");
+        blocking += all.matches(") (").count();
+    }
+    assert!(reached > 10 && blocking > 1, "{reached} {blocking}");
+}
+
 #[test]
 #[ignore = "takes minutes"]
 fn questions_agree_in_200_scenes() {

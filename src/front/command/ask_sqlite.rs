@@ -8,6 +8,7 @@ use std::process;
 use super::failure::{CommandError, Status};
 use super::outputs::Outputs;
 use super::watching::INTERRUPTED;
+use sweep::relations::Relations;
 use sweep::sqlite::{Sqlite, SqliteError};
 use view::watch::recording::{Wanted, read_episode};
 
@@ -214,12 +215,9 @@ fn add_recording(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), C
             text.replace("{}", &input.display().to_string())
         );
     }
-    for (relation, text) in &episode.relations {
-        for (number, line) in text.lines().enumerate() {
-            facts
-                .add_line(relation, line)
-                .map_err(|error| of_facts(output, input, number + 1, error))?;
-        }
-    }
-    Ok(())
+    let mut relations = Relations::default();
+    session::functions::add_episode(&mut relations, episode);
+    facts
+        .add_relations(&relations)
+        .map_err(|error| of_facts(output, input, 0, error))
 }

@@ -19,6 +19,7 @@ pub use choosing::grasp_chooser::{
 };
 pub(crate) use choosing::grasp_reach::GraspReach;
 pub use choosing::grasp_reach::{Effort, Station};
+pub use choosing::hand_reach::HandReach;
 pub use choosing::handle_chooser::{HandleChooser, HandleQuestion};
 pub use choosing::overhead::Overhead;
 pub use choosing::put_reach::{HeldGrip, PutReach};

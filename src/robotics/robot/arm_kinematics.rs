@@ -117,6 +117,14 @@ impl ArmKinematics {
         }
     }
 
+    /// Whether the wrist is farther away than the arm is long; said only of arms of which that is known.
+    pub(crate) fn is_too_far(&self, wrist: &Pose) -> bool {
+        match &self.solver {
+            Solver::ClosedForm(solver) => solver.is_too_far(wrist),
+            Solver::Numeric(_) => false,
+        }
+    }
+
     /// A solution near `seed`: continuous joints are within half a turn of the seed. If there is no
     /// solution, or none was found, the error says why.
     pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {

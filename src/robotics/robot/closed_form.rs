@@ -117,8 +117,13 @@ impl ClosedForm {
 
     /// Whether there is a solution at all; faster than finding one.
     pub fn reaches(&self, wrist: &Pose) -> bool {
+        !self.is_too_far(wrist) && !ElbowCurve::new(&self.chain, wrist).stretches().is_empty()
+    }
+
+    /// Whether the wrist is farther away than the arm is long.
+    pub(super) fn is_too_far(&self, wrist: &Pose) -> bool {
         let away = (wrist.translation.vector - self.chain.shoulder).norm();
-        away <= self.chain.length() && !ElbowCurve::new(&self.chain, wrist).stretches().is_empty()
+        away > self.chain.length() || away.is_nan()
     }
 
     /// A solution near `seed`: continuous joints are within half a turn of the seed.

@@ -46,8 +46,7 @@ pub struct Reach {
 #[derive(Clone, Debug)]
 pub struct TorsoSearch<'a> {
     arm: &'a Arm,
-    limits: Limits,
-    current: f64,
+    heights: Vec<f64>,
     seed: ArmPositions,
     /// Pose of the arm's base with the torso at height 0, in the robot's frame on the floor.
     lowest: Pose,
@@ -85,8 +84,7 @@ impl<'a> TorsoSearch<'a> {
         let lowest = base_at(0.0);
         Self {
             arm,
-            limits: torso.limits,
-            current: torso.height(q),
+            heights: torso_heights(torso.height(q), torso.limits),
             seed: arm.positions(q),
             lowest,
             rise: base_at(1.0).translation.vector - lowest.translation.vector,
@@ -102,8 +100,8 @@ impl<'a> TorsoSearch<'a> {
     }
 
     /// All heights (m) that are tried, in order.
-    pub fn heights(&self) -> Vec<f64> {
-        torso_heights(self.current, self.limits)
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
     }
 
     /// The reach with the torso at `height` (m), or why there is none; `wrist` is given in
@@ -116,7 +114,7 @@ impl<'a> TorsoSearch<'a> {
 
     /// As [`Self::reach`], without a reason if there is none, which takes much longer to find.
     pub fn any_reach(&self, wrist: &Pose) -> Option<Reach> {
-        let mut heights = self.heights().into_iter();
+        let mut heights = self.heights.iter().copied();
         heights.find_map(|height| {
             let is_missed = self
                 .arm
@@ -129,6 +127,22 @@ impl<'a> TorsoSearch<'a> {
         })
     }
 
+    /// Whether [`Self::any_reach`] finds the wrist's pose for a tool in the robot's frame on the floor.
+    pub fn reaches_tool(&self, tool: &Pose) -> bool {
+        self.any_reach(&self.arm.wrist_for_tool(tool)).is_some()
+    }
+
+    /// Whether a tool in the robot's frame on the floor is farther than the arm is long, at every height.
+    pub fn is_too_far(&self, tool: &Pose) -> bool {
+        let wrist = self.arm.wrist_for_tool(tool);
+        let mut heights = self.heights.iter();
+        heights.all(|height| {
+            self.arm
+                .kinematics
+                .is_too_far(&self.in_arm_base(&wrist, *height))
+        })
+    }
+
     /// The reach whose height is nearest to the current one; `wrist` is given in the
     /// robot's frame on the floor. If no height works, the reason is that of the height
     /// that comes nearest to reaching it.
@@ -137,7 +151,7 @@ impl<'a> TorsoSearch<'a> {
             return Ok(reach);
         }
         let mut nearest: Option<Unreachable> = None;
-        for height in self.heights() {
+        for &height in &self.heights {
             match self.reach_at(wrist, height) {
                 Ok(reach) => return Ok(reach),
                 Err(reason) => {

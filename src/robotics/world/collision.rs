@@ -21,10 +21,12 @@ use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
 use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted, in_order};
 use super::link_pairs::LinkPairs;
+use super::models::Models;
 use super::moving_parts::{MovingParts, Pairs};
 use super::part_key::{PartKey, index};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::from_parry_vector;
+use crate::robot::LinkId;
 use spatial::Pose;
 
 /// Two bodies that are closer together than a query allows.
@@ -69,6 +71,8 @@ pub struct CollisionChecker<'w> {
     pairs: Pairs,
     /// The pairs of bodies that a query is about, if not all.
     only: Option<Keys>,
+    /// The links that a query is about, if not all.
+    links: Option<Rc<[PartKey]>>,
     /// The keys of pairs that were passed in.
     known: Vec<(AllowedPairs, Keys)>,
 }
@@ -78,6 +82,32 @@ type Keys = Rc<[(PartKey, PartKey)]>;
 
 /// How many lists of pairs are remembered by a checker: callers use the same few again and again.
 const MAX_KNOWN: usize = 4;
+
+/// Some links of the robot.
+#[derive(Clone, Debug)]
+pub(crate) struct SomeLinks {
+    keys: Rc<[PartKey]>,
+    /// For each link of the robot, whether it is one of them.
+    are_some: Vec<bool>,
+}
+
+impl SomeLinks {
+    /// Of a robot with that number of links.
+    pub(crate) fn new(links: impl Iterator<Item = LinkId>, count: usize) -> Self {
+        let mut are_some = vec![false; count];
+        let mut keys = Vec::new();
+        for link in links {
+            if let Some(is_one) = are_some.get_mut(link.index()) {
+                *is_one = true;
+                keys.push(PartKey::Robot(index(link)));
+            }
+        }
+        Self {
+            keys: keys.into(),
+            are_some,
+        }
+    }
+}
 
 impl<'w> CollisionChecker<'w> {
     pub fn new(surroundings: Surroundings<'w>) -> Self {
@@ -92,14 +122,27 @@ impl<'w> CollisionChecker<'w> {
             changing: None,
             pairs: Pairs::All,
             only: None,
+            links: None,
             known: Vec::new(),
         }
+    }
+
+    /// The models of the world.
+    pub(crate) fn models(&self) -> &'w Models {
+        self.surroundings.models
     }
 
     /// A checker that knows where the links are in a configuration.
     pub(crate) fn knowing(mut self, robot: &RobotConfiguration, link_poses: &[Pose]) -> Self {
         self.last = Some(robot.clone());
         self.poses = link_poses.to_vec();
+        self
+    }
+
+    /// A checker for which the lying objects of some names are not there.
+    pub(crate) fn without(mut self, absent: &[String]) -> Self {
+        let objects = &mut self.surroundings.objects;
+        objects.retain(|object| !absent.iter().any(|name| name == object.name));
         self
     }
 
@@ -171,6 +214,42 @@ impl<'w> CollisionChecker<'w> {
     ) -> Option<CollisionHit> {
         self.last = None;
         self.first(link_poses, allowed, Wanted::HowMuchToOthers, margin)
+    }
+
+    /// Whether one of some links is closer than `margin` (m), which is positive, to what is no part of the robot and
+    /// not allowed.
+    pub(crate) fn links_touch(
+        &mut self,
+        robot: &RobotConfiguration,
+        links: &SomeLinks,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> bool {
+        self.links = Some(Rc::clone(&links.keys));
+        let is_free = self.is_free(robot, allowed, margin);
+        self.links = None;
+        !is_free
+    }
+
+    /// As [`Self::links_touch`], with the links at poses in the map frame; those of other links do not matter.
+    pub(crate) fn links_touch_at(
+        &mut self,
+        link_poses: &[Pose],
+        links: &SomeLinks,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> bool {
+        self.last = None;
+        self.moved.clone_from(&links.are_some);
+        self.is_update = true;
+        self.links = Some(Rc::clone(&links.keys));
+        let mut touches = false;
+        self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
+            touches = true;
+            ControlFlow::Break(())
+        });
+        self.links = None;
+        touches
     }
 
     fn first(
@@ -294,6 +373,7 @@ impl<'w> CollisionChecker<'w> {
         let question = Question {
             allowed: &allowed,
             only: self.only.as_deref(),
+            links: self.links.as_deref(),
             moving: self.moving.as_ref(),
             pairs: self.pairs,
             self_pairs: match (self.pairs, &self.changing) {

@@ -84,6 +84,8 @@ pub struct Question<'q> {
     pub allowed: &'q [(PartKey, PartKey)],
     /// The pairs that matter, likewise, if not all.
     pub only: Option<&'q [(PartKey, PartKey)]>,
+    /// The links that matter, and only with what is no part of the robot, if not all.
+    pub links: Option<&'q [PartKey]>,
     /// What moves.
     pub moving: Option<&'q MovingParts>,
     /// Which pairs matter, by what moves.
@@ -199,7 +201,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             let movers = self.scratch.movers.len();
             let block_places = block * BLOCK..((block + 1) * BLOCK).min(movers);
             let mut asked = block_places.clone();
-            if asked.any(|place| self.asks_of_world(self.scratch.movers[place].link)) {
+            if asked.any(|place| self.asks_of_mover(&self.scratch.movers[place])) {
                 self.find_furniture_near(block);
                 for place in block_places {
                     if self.may_matter(place) {
@@ -208,7 +210,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
                 }
             }
         }
-        if self.question.wanted == Wanted::HowMuchToOthers {
+        if self.question.wanted == Wanted::HowMuchToOthers || self.question.links.is_some() {
             return ControlFlow::Continue(());
         }
         match self.question.only {
@@ -352,6 +354,12 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         }
     }
 
+    /// Whether the question is about a link or a held object and what does not belong to the robot.
+    fn asks_of_mover(&self, mover: &Mover) -> bool {
+        let links = self.question.links;
+        links.is_none_or(|links| links.contains(&mover.key)) && self.asks_of_world(mover.link)
+    }
+
     /// Whether the question is about the link and what does not belong to the robot.
     fn asks_of_world(&self, link: LinkId) -> bool {
         match (self.question.pairs, self.question.moving) {
@@ -373,7 +381,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     /// Finds the furniture near any of the movers.
     fn find_furniture(&mut self) {
         let movers = self.scratch.movers.iter().zip(&self.scratch.bounds);
-        let asked = movers.filter(|(mover, _)| self.asks_of_world(mover.link));
+        let asked = movers.filter(|(mover, _)| self.asks_of_mover(mover));
         let bounds = asked.map(|(_, bounds)| *bounds);
         let Some(bounds) = bounds.reduce(|a, b| a.merged(&b)) else {
             return;
@@ -408,7 +416,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         else {
             return ControlFlow::Continue(());
         };
-        if !self.asks_of_world(mover.link) {
+        if !self.asks_of_mover(mover) {
             return ControlFlow::Continue(());
         }
         let (key, lowest) = (mover.key, own.mins.z);

@@ -16,14 +16,21 @@ const OVERLAP: f64 = 0.002;
 impl World {
     /// How far (m) an object could rise from a pose in the map frame until it meets something that
     /// stands there; infinite if nothing is above. The robot and what its hands hold do not count.
-    pub(crate) fn headroom(&self, name: &str, at: &Pose) -> Result<f64, WorldError> {
+    pub(crate) fn headroom(
+        &self,
+        name: &str,
+        at: &Pose,
+        absent: &[String],
+    ) -> Result<f64, WorldError> {
         let object = self.object(name)?;
         let place = to_parry(at);
         let mut bounds = Aabb::new_invalid();
         for solid in object.solids.iter() {
             bounds.merge(&solid.shape.compute_aabb(&(place * solid.pose)));
         }
-        let held = self.objects().filter(|o| o.attachment().is_some());
+        let held = self
+            .objects()
+            .filter(|o| o.attachment().is_some() || absent.iter().any(|name| name == o.name()));
         let held: Vec<PartKey> = held.map(|o| o.key()).collect();
         let mut above = self.neighbours(Some(object.key()), &bounds);
         above.retain(|other| {

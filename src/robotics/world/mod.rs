@@ -76,6 +76,7 @@ pub use allowed_pairs::AllowedPairs;
 pub use body_name::BodyName;
 pub use cavity::Cavity;
 pub use closing::Closing;
+pub(crate) use collision::SomeLinks;
 pub use collision::{CollisionChecker, CollisionHit};
 pub use contacts::ContactForce;
 pub use content::Content;

@@ -247,6 +247,13 @@ impl World {
         self.moving_objects().next().is_none()
     }
 
+    /// Whether every object that no hand holds sleeps: nothing moves any of them unless something else does. One that
+    /// has just lost its support is at rest, but awake.
+    pub fn sleeps(&self) -> bool {
+        let mut objects = self.state.objects.values();
+        objects.all(|object| object.attachment.is_some() || !self.physics.is_awake(object.body))
+    }
+
     /// The objects that no hand holds and that are not at rest.
     pub fn moving_objects(&self) -> impl Iterator<Item = &Object> {
         let free = self.state.objects.values();

@@ -1,5 +1,6 @@
 //! What questions about the world are made of.
 
+use super::reached::reached;
 use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
@@ -104,6 +105,15 @@ pub(super) static TABLE: &[Builtin] = &[
             "(progn (pp-tut:init-projection) (btr::%hand-reaches '((5 0 1) (0 0 0 1)) :left)) => NIL",
         ],
         host!(hand_reaches),
+    ),
+    control(
+        "%REACHED-GRASPS",
+        "names sides each &optional absent",
+        "By which grasps hands reach objects from where the robot stands, as lists (object side grasp): all grasps if EACH is :GRASP, the first of each hand if :SIDE, the first of all if :OBJECT; as if the objects ABSENT were not there.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%reached-grasps '(bottle-1) '(:left :right) :grasp)) => NIL",
+        ],
+        host!(reached),
     ),
     control(
         "%POINT-HEAD",
@@ -300,10 +310,14 @@ fn set_joint(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
 }
 
 fn settled(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply> {
-    let mut world = simulation.world.clone();
-    if !world.is_at_rest() {
-        world.settle(seconds(&args[0])?);
-    }
+    let seconds = seconds(&args[0])?;
+    // A copy takes longer than the answer.
+    let copy = (!simulation.world.sleeps()).then(|| {
+        let mut world = simulation.world.clone();
+        world.settle(seconds);
+        world
+    });
+    let world = copy.as_ref().unwrap_or(&simulation.world);
     let mut poses = Vec::new();
     for object in simulation.world.objects() {
         let pose = world.object_pose(object.name()).map_err(raise)?;
@@ -342,7 +356,11 @@ fn look<'s>(
 }
 
 /// The names of the objects that are in a list.
-fn names_in(simulation: &Simulation, image: &mut Image, list: &Value) -> Result<Vec<String>> {
+pub(super) fn names_in(
+    simulation: &Simulation,
+    image: &mut Image,
+    list: &Value,
+) -> Result<Vec<String>> {
     let names = list.iter_list();
     names
         .map(|name| simulation.object_named(image, &name))

@@ -22,6 +22,7 @@ mod picture_request;
 mod pictures;
 mod plans;
 mod prompt;
+mod reached;
 mod reaching;
 mod real_robot;
 mod robot_macros;
@@ -46,4 +47,5 @@ mod watching;
 
 pub(super) use prompt::install_topics;
 pub(super) use ros::name_system_folders;
+pub use run_facts::add_episode;
 pub(super) use tables::install;

@@ -15,9 +15,9 @@ use lisp::value::Value;
 use lisp::value::equality::equal;
 use lisp::value::known;
 use lisp::value::raise::Raise;
-use sweep::relations::{Cell, Relation};
+use sweep::relations::{Cell, Relation, Relations};
 use sweep::sqlite::{Sqlite, SqliteError};
-use view::watch::recording::{Wanted, read_episode};
+use view::watch::recording::{Datum, Episode, Wanted, read_episode};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -67,8 +67,8 @@ pub(super) static TABLE: &[Builtin] = &[
     ),
     control(
         "%FACT-BINDINGS",
-        "relation given wanted variables",
-        "The bindings of variables to what %FACTS returns, a list for each row; T if there is no such relation. A variable that is there twice must be equal to itself.",
+        "relation columns",
+        "The bindings of the variables in a plist of columns, a list for each row in which the others have their values; T if there is no such relation, or that is no plist. A variable that is there twice must be equal to itself.",
         &[],
         host!(fact_bindings),
     ),
@@ -132,15 +132,24 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     };
     let episode = read_episode(&bytes, wanted).map_err(|error| Raise::simple(error.to_string()))?;
     let facts = Rc::make_mut(&mut simulation.facts);
-    for (relation, text) in &episode.relations {
-        facts.add(relation, text).map_err(|wrong| {
-            Raise::simple(format!(
-                "{relation}, line {}: {}",
-                wrong.line, wrong.problem
-            ))
-        })?;
+    let is_cut_off = episode.is_cut_off;
+    add_episode(facts, episode);
+    done(Value::bool(!is_cut_off))
+}
+
+/// Adds the relations of a recording.
+pub fn add_episode(facts: &mut Relations, episode: Episode) {
+    let cell = |datum| match datum {
+        Datum::Null => Cell::Null,
+        Datum::Int(int) => Cell::Int(int),
+        Datum::Number(number) => Cell::Number(number),
+        Datum::Text(text) => Cell::Text(text),
+    };
+    for (relation, rows) in episode.relations {
+        let all = rows.rows.into_iter();
+        let all = all.map(|row| row.into_iter().map(cell).collect());
+        facts.add_rows(relation, rows.columns, all);
     }
-    done(Value::bool(!episode.is_cut_off))
 }
 
 fn forget_facts(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
@@ -163,20 +172,45 @@ fn fact_relations(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -
 }
 
 fn facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let rows = rows(simulation, image, args)?.unwrap_or_default();
+    let given: Vec<Value> = args[1].iter_list().collect();
+    let wanted: Vec<Value> = args[2].iter_list().collect();
+    let rows = rows(simulation, image, &args[0], &given, &wanted)?.unwrap_or_default();
     done(Value::list(
         rows.into_iter().map(Value::list).collect::<Vec<_>>(),
     ))
 }
 
 fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let Some(rows) = rows(simulation, image, args)? else {
+    let columns: Vec<Value> = args[1].iter_list().collect();
+    let is_keyword = |column: &Value| {
+        let symbol = column.as_symbol();
+        symbol.is_some_and(|symbol| image.is_keyword(symbol))
+    };
+    let (mut given, mut wanted, mut variables) = (Vec::new(), Vec::new(), Vec::new());
+    for pair in columns.chunks(2) {
+        let [column, value] = pair else {
+            return done(Value::T);
+        };
+        if !is_keyword(column) {
+            return done(Value::T);
+        }
+        match is_variable(image, value) {
+            true => {
+                wanted.push(column.clone());
+                variables.push(value.clone());
+            }
+            false => given.extend([column.clone(), value.clone()]),
+        }
+    }
+    if is_variable(image, &args[0]) {
+        return done(Value::T);
+    }
+    let Some(rows) = rows(simulation, image, &args[0], &given, &wanted)? else {
         return done(Value::T);
     };
-    let variables: Vec<Value> = args[3].iter_list().collect();
     let former = |at: usize| {
         let mut before = variables.iter().take(at);
-        before.position(|other| other.is_eq(&variables[at]))
+        before.position(|other: &Value| other.is_eq(&variables[at]))
     };
     let former: Vec<Option<usize>> = (0..variables.len()).map(former).collect();
     let mut all = Vec::with_capacity(rows.len());
@@ -199,18 +233,25 @@ fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     done(Value::list(all))
 }
 
+/// Is it a variable of a goal?
+fn is_variable(image: &Image, value: &Value) -> bool {
+    let symbol = value.as_symbol();
+    symbol.is_some_and(|symbol| image.name(symbol).starts_with('?'))
+}
+
 /// What [`facts`] returns; `None` if there is no such relation.
 fn rows(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
+    relation: &Value,
+    given: &[Value],
+    wanted: &[Value],
 ) -> Result<Option<Vec<Vec<Value>>>> {
     let facts = Rc::clone(&simulation.facts);
-    let name = name_of(image, &args[0]);
+    let name = name_of(image, relation);
     let Some(relation) = facts.get(&name) else {
         return Ok(None);
     };
-    let given: Vec<Value> = args[1].iter_list().collect();
     let given: Vec<(usize, Cell)> = given
         .chunks(2)
         .filter_map(|pair| Some((pair.first()?, pair.get(1)?)))
@@ -221,8 +262,8 @@ fn rows(
             ))
         })
         .collect::<Result<_>>()?;
-    let wanted = args[2].iter_list();
-    let wanted = wanted.map(|column| column_of(image, relation, &name, &column));
+    let wanted = wanted.iter();
+    let wanted = wanted.map(|column| column_of(image, relation, &name, column));
     let wanted: Vec<usize> = wanted.collect::<Result<_>>()?;
     let is_name: Vec<bool> = relation
         .columns()

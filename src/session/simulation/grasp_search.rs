@@ -15,11 +15,11 @@ use lisp::value::raise::Raise;
 use robotics::motion::interruption::interruptible;
 use robotics::motion::plan_drive;
 use robotics::motion::{
-    Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, Overhead, can_reach,
+    Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, HandReach, Overhead,
 };
 use robotics::robot::Side;
-use robotics::world::WorldError;
-use robotics::world::grasp_library::GraspDefinition;
+use robotics::world::grasp_library::{GraspDefinition, ToolPoses};
+use robotics::world::{World, WorldError};
 use spatial::{Pose, pose, trig};
 
 /// Distances (m) of the base's axis from the object, the most comfortable ones first.
@@ -43,6 +43,17 @@ pub(crate) struct Wanted {
     pub arm: Option<Side>,
     /// The requested grasp, if any.
     pub grasp: Option<String>,
+}
+
+/// The poses of the tool in which an object is picked up, as in the plans for picking up and placing: the hand
+/// approaches without contact, and may touch the object from then on.
+pub(super) fn picking_way(poses: &ToolPoses) -> [(Pose, CollisionMode); 4] {
+    [
+        (poses.second_pregrasp, CollisionMode::AvoidAll),
+        (poses.grasp, CollisionMode::AllowHand),
+        (poses.lift, CollisionMode::AllowHand),
+        (poses.pregrasp, CollisionMode::AvoidAll),
+    ]
 }
 
 impl Simulation {
@@ -107,38 +118,49 @@ impl Simulation {
         imagined: &Imagined<'_>,
         grasp: &GraspDefinition,
     ) -> Result<bool, Box<Raise>> {
+        self.lets_grasp_in(&self.world, imagined, grasp)
+    }
+
+    /// As [`Self::lets_grasp`], in a world in which the robot is as it is here.
+    pub(super) fn lets_grasp_in(
+        &self,
+        now: &World,
+        imagined: &Imagined<'_>,
+        grasp: &GraspDefinition,
+    ) -> Result<bool, Box<Raise>> {
         let raise = |error: WorldError| Raise::reporting(error);
         let side = imagined.side;
         let axes = &self.models.description.arm(side).tool_axes;
         if imagined.object_pose.is_none() && imagined.base_pose.is_none() {
             // Most grasps are out of the arm's reach, which is known without a copy of the world.
-            let base = self.world.robot_configuration().base;
-            let object = self.world.object_pose(imagined.object).map_err(raise)?;
+            let base = now.robot_configuration().base;
+            let object = now.object_pose(imagined.object).map_err(raise)?;
             let poses = grasp.tool_poses(&(base.inverse() * object), axes);
             let poses = poses.map_err(Raise::reporting)?;
             if !self.is_reachable(side, &[poses.second_pregrasp, poses.grasp]) {
                 return Ok(false);
             }
         }
-        let Some(world) = imagined.world(&self.world).map_err(raise)? else {
-            return Ok(false);
+        // A copy of the world takes longer than the answer.
+        let copy = match imagined.is_only_robot(now).map_err(raise)? {
+            true => None,
+            false => match imagined.world(now).map_err(raise)? {
+                Some(world) => Some(world),
+                None => return Ok(false),
+            },
         };
-        let base = world.robot_configuration().base;
-        let object = base.inverse() * world.object_pose(imagined.object).map_err(raise)?;
-        let poses = grasp.tool_poses(&object, axes).map_err(Raise::reporting)?;
-        let overhead = Overhead::of(&world, imagined.object, &(base * object)).map_err(raise)?;
-        let poses = overhead.picking(&base, poses);
-        // As in the plans for picking up and placing: the hand approaches without contact, and
-        // may touch the object from then on.
-        let way = [
-            (poses.second_pregrasp, CollisionMode::AvoidAll),
-            (poses.grasp, CollisionMode::AllowHand),
-            (poses.lift, CollisionMode::AllowHand),
-            (poses.pregrasp, CollisionMode::AvoidAll),
-        ];
-        Ok(way
-            .iter()
-            .all(|(tool, mode)| can_reach(&world, side, tool, *mode, Some(imagined.object))))
+        let world = copy.as_ref().unwrap_or(now);
+        let robot = imagined.robot(now);
+        let base = robot.base;
+        let at = world.object_pose(imagined.object).map_err(raise)?;
+        let poses = grasp.tool_poses(&(base.inverse() * at), axes);
+        let poses = poses.map_err(Raise::reporting)?;
+        // As the product of both, which is what the plans have.
+        let at = base * (base.inverse() * at);
+        let overhead = Overhead::of(world, imagined.object, &at).map_err(raise)?;
+        let way = picking_way(&overhead.picking(&base, poses));
+        let mut hand = HandReach::new(world, robot, side, &[]);
+        Ok(hand.reaches(&way, Some(imagined.object)))
     }
 
     /// Arms and grasps by which the object of a picking-up action can be reached from the

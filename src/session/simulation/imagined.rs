@@ -2,7 +2,7 @@
 //! done there. The world itself is not changed.
 
 use robotics::robot::Side;
-use robotics::world::{World, WorldError};
+use robotics::world::{RobotConfiguration, World, WorldError};
 use spatial::{Pose, pose};
 
 /// How far (m) a surface may be above the requested height: users give heights roughly, and
@@ -28,6 +28,19 @@ impl Imagined<'_> {
     /// would be.
     pub(crate) fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
         let mut world = now.clone();
+        world.teleport_robot(&self.robot(now));
+        world.detach(self.object)?;
+        if let Some(pose) = &self.object_pose {
+            let report = world.move_object(self.object, pose)?;
+            if report.shifted > 0.0 || report.lifted > HIGHEST_LIFT {
+                return Ok(None);
+            }
+        }
+        Ok(Some(world))
+    }
+
+    /// The robot in that world.
+    pub(crate) fn robot(&self, now: &World) -> RobotConfiguration {
         let gripper = &now.models().description.arm(self.side).gripper;
         let mut robot = now.robot_configuration().clone();
         let fingers = gripper.position_for_opening(self.opening);
@@ -38,14 +51,14 @@ impl Imagined<'_> {
             robot.base = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
             robot.base.translation.z = height;
         }
-        world.teleport_robot(&robot);
-        world.detach(self.object)?;
-        if let Some(pose) = &self.object_pose {
-            let report = world.move_object(self.object, pose)?;
-            if report.shifted > 0.0 || report.lifted > HIGHEST_LIFT {
-                return Ok(None);
-            }
-        }
-        Ok(Some(world))
+        robot
+    }
+
+    /// Whether the robot alone differs from what it is now: the object stays where it is, and no hand holds any that
+    /// goes with it.
+    pub(crate) fn is_only_robot(&self, now: &World) -> Result<bool, WorldError> {
+        let stays = self.object_pose.is_none() && now.object(self.object)?.attachment().is_none();
+        let mut objects = now.objects();
+        Ok(stays && objects.all(|object| object.attachments().count() < 2))
     }
 }

@@ -19,6 +19,7 @@ pub(super) mod obstacle;
 pub(super) mod outcome;
 mod pose_argument;
 pub(super) mod properties;
+pub(super) mod reached_grasps;
 pub(super) mod real;
 pub(super) mod seen;
 mod sweep_world;

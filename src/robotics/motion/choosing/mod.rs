@@ -7,6 +7,7 @@ pub(crate) mod fitted_grasps;
 pub(crate) mod grasp_chooser;
 pub(crate) mod grasp_reach;
 mod hand_directions;
+pub(crate) mod hand_reach;
 mod hand_shape;
 pub(crate) mod handle_chooser;
 mod lone_hand;

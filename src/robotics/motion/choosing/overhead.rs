@@ -60,6 +60,8 @@ fn as_far_up(from: &Pose, to: &Pose) -> Pose {
 pub struct Overhead<'w> {
     world: &'w World,
     object: &'w str,
+    /// Names of objects that are taken not to be there.
+    absent: &'w [String],
     /// The place, in the map frame.
     at: Pose,
     /// How far (m) the object could rise there.
@@ -71,15 +73,35 @@ pub struct Overhead<'w> {
 impl<'w> Overhead<'w> {
     /// For an object of the world at a pose in the map frame.
     pub fn of(world: &'w World, object: &'w str, at: &Pose) -> Result<Self, WorldError> {
-        let headroom = world.headroom(object, at)?;
+        Self::without(world, object, at, &[])
+    }
+
+    /// As [`Self::of`], as if the objects of some names were not there.
+    pub fn without(
+        world: &'w World,
+        object: &'w str,
+        at: &Pose,
+        absent: &'w [String],
+    ) -> Result<Self, WorldError> {
+        let headroom = world.headroom(object, at, absent)?;
         let at = *at;
         Ok(Self {
             world,
             object,
+            absent,
             at,
             headroom,
             ways: RefCell::default(),
         })
+    }
+
+    /// The same, of which no direction has been looked at.
+    #[must_use]
+    pub fn anew(&self) -> Self {
+        Self {
+            ways: RefCell::default(),
+            ..*self
+        }
     }
 
     /// The poses of the tool (in the frame of the base, which is at a pose in the map) for grasping the
@@ -141,7 +163,7 @@ impl<'w> Overhead<'w> {
         }
         let is_out = |way: f64| {
             let there = Translation3::from(direction * way) * self.at;
-            let headroom = self.world.headroom(self.object, &there);
+            let headroom = self.world.headroom(self.object, &there, self.absent);
             headroom.is_ok_and(|headroom| headroom > self.headroom + UP)
         };
         let steps = (BACK / STEP).round() as u32;

@@ -20,6 +20,8 @@ pub(crate) struct TouchingPairs {
     relaxed: AllowedPairs,
     /// Overlap (m) that any close pair may have.
     depth: f64,
+    /// Whether every close pair may stay as it is.
+    are_all: bool,
 }
 
 impl TouchingPairs {
@@ -45,8 +47,20 @@ impl TouchingPairs {
         depth: f64,
         counts: impl Fn(&CollisionHit) -> bool,
     ) -> Self {
-        let mut hits = checker.all_hits(robot, &contacts.allowed, margin);
+        let hits = checker.all_hits(robot, &contacts.allowed, margin);
+        Self::of_hits(hits, contacts, depth, counts)
+    }
+
+    /// As [`Self::some`], of the close pairs that the motion does not declare.
+    pub(crate) fn of_hits(
+        mut hits: Vec<CollisionHit>,
+        contacts: &ExpectedContacts,
+        depth: f64,
+        counts: impl Fn(&CollisionHit) -> bool,
+    ) -> Self {
+        let count = hits.len();
         hits.retain(|hit| hit.depth < GREATEST_LAG && counts(hit));
+        let are_all = hits.len() == count;
         let relaxed = hits.iter().fold(contacts.allowed.clone(), |all, hit| {
             all.and(hit.moving.clone(), hit.other.clone())
         });
@@ -57,7 +71,13 @@ impl TouchingPairs {
             allowed: contacts.allowed.clone(),
             relaxed,
             depth,
+            are_all,
         }
+    }
+
+    /// Whether [`Self::first_hit`] finds nothing where the pairs were found.
+    pub(crate) fn are_free_at_start(&self) -> bool {
+        self.are_all
     }
 
     /// Also allows contact for pairs that touch, but do not overlap, in the configuration.

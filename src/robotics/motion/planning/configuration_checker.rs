@@ -7,13 +7,13 @@ use crate::motion::contact::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, RobotConfiguration,
-    Tilt, World,
+    SomeLinks, Tilt, World,
 };
 
 /// Clearance (m) of planned configurations from everything.
 pub(crate) const PLAN_MARGIN: f64 = 0.004;
 /// Overlap (m) accepted for pairs that are close at the start.
-const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
+pub(crate) const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 
 /// Tells which configurations are free. Pairs that are close at the start, such as a held
 /// object and what it stands on, may stay close, but not overlap more.
@@ -70,22 +70,56 @@ impl<'w> ConfigurationChecker<'w> {
             TOUCH_DEPTH,
             counts,
         );
+        Self::with(checker, robot, joints, touching)
+    }
+
+    /// With a checker for that world, for the pairs that are close in the configuration.
+    pub(crate) fn with(
+        mut checker: CollisionChecker<'w>,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        touching: TouchingPairs,
+    ) -> Self {
         // What does not move with the joints is checked once and for all.
-        let moving = MovingParts::of_joints(&world.models().robot, &joints);
+        let moving = MovingParts::of_joints(&checker.models().robot, &joints);
         checker.expect(moving, Pairs::Constant);
-        let pairs = match touching.first_hit(&mut checker, &robot, PLAN_MARGIN) {
-            None => Pairs::Changing,
-            Some(_) => Pairs::All,
-        };
-        checker.look_at(pairs);
-        Self {
+        let mut made = Self {
             checker,
             robot,
             joints,
             touching,
-            pairs,
+            pairs: Pairs::All,
             level: LevelHands::default(),
+        };
+        made.look_at_start();
+        made
+    }
+
+    /// Finds out which pairs decide, with the robot where the close pairs were found.
+    fn look_at_start(&mut self) {
+        self.checker.look_at(Pairs::Constant);
+        let is_free = self.touching.are_free_at_start() || {
+            let touching = &self.touching;
+            let hit = touching.first_hit(&mut self.checker, &self.robot, PLAN_MARGIN);
+            hit.is_none()
+        };
+        self.pairs = match is_free {
+            true => Pairs::Changing,
+            false => Pairs::All,
+        };
+        self.checker.look_at(self.pairs);
+    }
+
+    /// From now on, other pairs are close at the start, or declared.
+    pub(crate) fn set_touching(&mut self, start: &RobotConfiguration, touching: &TouchingPairs) {
+        if self.touching.relaxed().is_same(touching.relaxed()) {
+            return;
         }
+        self.touching.clone_from(touching);
+        if !touching.are_free_at_start() {
+            self.robot.clone_from(start);
+        }
+        self.look_at_start();
     }
 
     /// The hands stay level on the way.
@@ -153,12 +187,11 @@ impl<'w> ConfigurationChecker<'w> {
 
     /// Whether one of the links is too close to what is no part of the robot in that
     /// configuration.
-    pub(crate) fn touches_surroundings(&mut self, positions: &[f64], links: &[BodyName]) -> bool {
+    pub(crate) fn touches_surroundings(&mut self, positions: &[f64], links: &SomeLinks) -> bool {
         self.set(positions);
         let relaxed = self.touching.relaxed();
-        let hits = self.checker.all_hits(&self.robot, relaxed, PLAN_MARGIN);
-        hits.iter()
-            .any(|hit| links.contains(&hit.moving) && !matches!(hit.other, BodyName::Robot(_)))
+        self.checker
+            .links_touch(&self.robot, links, relaxed, PLAN_MARGIN)
     }
 
     /// The pairs that overlap by more than `depth` (m) in that configuration, whatever the motion

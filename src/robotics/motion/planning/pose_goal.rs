@@ -122,7 +122,7 @@ impl PoseGoalTask<'_> {
         self.goals.iter().map(|(side, _)| *side).collect()
     }
 
-    pub(super) fn torso_now(&self) -> f64 {
+    pub(crate) fn torso_now(&self) -> f64 {
         let torso = &self.body().torso;
         torso.height(&self.world.robot_configuration().joints)
     }

@@ -5,6 +5,7 @@ mod drive;
 pub(crate) mod fixture;
 mod follow_trajectory;
 mod gripper;
+mod hand_reach;
 mod handles;
 mod level;
 mod look;

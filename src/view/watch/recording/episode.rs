@@ -1,23 +1,23 @@
-//! What was performed in a recording, as relations: lines of JSON, as an exported episode has them. Pictures are passed
-//! over, and so are poses unless they are wanted.
+//! What was performed in a recording, as relations: rows as an exported episode has them. Pictures are passed over, and
+//! so are poses unless they are wanted.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use indexmap::IndexMap;
-use serde_json::{Map, Value, json};
 
 use super::RecordingError;
 use super::channel::Channel;
 use super::message::{Log, Shown, Task};
 use super::messages::walk;
 use super::places::Places;
-use super::read::{data_of, panicked, parsed};
+use super::read::panicked;
+use super::rows::{Datum, Rows};
+use super::told::told;
 use crate::watch::TaskState;
+use indexmap::IndexMap;
 
-/// The relations of a recording, each with its rows as lines of JSON.
+/// The relations of a recording.
 pub struct Episode {
-    /// Names and texts.
-    pub relations: Vec<(&'static str, String)>,
+    /// Names and rows.
+    pub relations: Vec<(&'static str, Rows)>,
     /// Whether the file ends abruptly, as when the session was killed.
     pub is_cut_off: bool,
 }
@@ -63,7 +63,7 @@ pub fn read_episode(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingEr
 }
 
 fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
-    let mut rows = Rows::default();
+    let mut rows = Found::default();
     let mut places = Places::default();
     let mut last_shown = Vec::new();
     let is_wanted = |channel| match channel {
@@ -86,21 +86,30 @@ fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
             last_shown.clear();
             last_shown.extend_from_slice(shown);
         }
-        let Some(data) = data_of(channel, message.encoding, message.data)? else {
-            return Ok(());
-        };
+        let (encoding, data) = (message.encoding, message.data);
         match channel {
             Channel::Tasks => {
-                rows.task(time, parsed(data)?);
-                places.note();
+                if let Some(task) = told(channel, encoding, data)? {
+                    rows.task(time, task);
+                    places.note();
+                }
             }
             Channel::Shown => {
-                let shown: Shown = parsed(data)?;
-                rows.shown(time, &shown);
-                places.shown(&shown);
+                if let Some(shown) = told(channel, encoding, data)? {
+                    rows.shown(time, &shown);
+                    places.shown(&shown);
+                }
             }
-            Channel::Objects => places.objects(&parsed(data)?),
-            _ => rows.log(time, &parsed(data)?),
+            Channel::Objects => {
+                if let Some(objects) = told(channel, encoding, data)? {
+                    places.objects(&objects);
+                }
+            }
+            _ => {
+                if let Some(log) = told(channel, encoding, data)? {
+                    rows.log(time, log);
+                }
+            }
         }
         Ok(())
     })?;
@@ -127,22 +136,36 @@ fn without_time(data: &[u8]) -> &[u8] {
 
 /// A task, as far as it is known.
 struct TaskRow {
-    row: Map<String, Value>,
+    /// The row as it was when the task began, up to its creation.
+    row: Vec<Datum>,
+    started: Option<f64>,
+    ended: Option<f64>,
+    status: String,
+    result: Datum,
     /// How many tasks it has started so far.
     parts: usize,
     path: String,
 }
 
+/// Something that touches something else.
+struct Contact {
+    pair: (String, String),
+    began: f64,
+    ended: Option<f64>,
+    /// The greatest (N).
+    force: f64,
+}
+
 /// What has been read so far.
 #[derive(Default)]
-struct Rows {
+struct Found {
     /// Tasks by the writer's names; their numbers count from 0.
     tasks: IndexMap<String, TaskRow>,
-    params: Vec<Value>,
-    failures: Vec<Value>,
-    events: Vec<Value>,
-    contacts: Vec<Map<String, Value>>,
-    logs: Vec<Value>,
+    params: Vec<Vec<Datum>>,
+    failures: Vec<Vec<Datum>>,
+    events: Vec<Vec<Datum>>,
+    contacts: Vec<Contact>,
+    logs: Vec<Vec<Datum>>,
     /// What is held, with the link that holds it.
     held: IndexMap<String, String>,
     /// What touches now: object and link, with the row of the contact.
@@ -169,15 +192,7 @@ fn task_name(name: &str) -> String {
     }
 }
 
-/// A text, or nothing if it is empty.
-fn text(text: &str) -> Value {
-    match text {
-        "" => Value::Null,
-        text => Value::from(text),
-    }
-}
-
-impl Rows {
+impl Found {
     fn task(&mut self, time: f64, task: Task) {
         let Some(state) = TaskState::named(&task.state) else {
             return;
@@ -189,27 +204,25 @@ impl Rows {
         let Some(known) = self.tasks.get_mut(&task.id) else {
             return;
         };
-        if state == TaskState::Running && known.row.get("started") == Some(&Value::Null) {
-            known.row.insert("started".to_owned(), json!(time));
+        if state == TaskState::Running && known.started.is_none() {
+            known.started = Some(time);
         }
-        known
-            .row
-            .insert("status".to_owned(), text(&state.name().to_lowercase()));
+        known.status = state.name().to_lowercase();
         let has_ended = matches!(
             state,
             TaskState::Succeeded | TaskState::Failed | TaskState::Evaporated
         );
         if has_ended {
-            known.row.insert("ended".to_owned(), json!(time));
-            known.row.insert("result".to_owned(), text(&task.result));
+            known.ended = Some(time);
+            known.result = Datum::text(&task.result);
         }
         if state == TaskState::Failed {
-            self.failures.push(json!({
-                "task": number,
-                "time": time,
-                "class": text(&task.class.to_lowercase()),
-                "text": text(&task.failure),
-            }));
+            self.failures.push(vec![
+                number.into(),
+                time.into(),
+                Datum::text(&task.class.to_lowercase()),
+                Datum::text(&task.failure),
+            ]);
         }
     }
 
@@ -220,9 +233,9 @@ impl Rows {
         let (nth, outer) = match self.tasks.get_mut(&task.parent) {
             Some(parent) => {
                 parent.parts += 1;
-                (Value::from(parent.parts - 1), parent.path.as_str())
+                (Some(parent.parts - 1), parent.path.as_str())
             }
-            None => (Value::Null, ""),
+            None => (None, ""),
         };
         let path = format!("{name} {outer}").trim_end().to_owned();
         let kind = match task.id.as_bytes().first() {
@@ -230,36 +243,35 @@ impl Rows {
             _ if parent.is_none() => "top-level",
             _ => "task",
         };
-        let row = json!({
-            "task": number,
-            "parent": parent,
-            "nth": nth,
-            "kind": kind,
-            "type": name,
-            "path": path,
-            "place": text(&task.place),
-            "created": time,
-            "started": null,
-            "ended": null,
-            "status": "created",
-            "result": null,
-        });
+        let row = vec![
+            number.into(),
+            parent.into(),
+            nth.into(),
+            kind.into(),
+            name.into(),
+            path.as_str().into(),
+            Datum::text(&task.place),
+            time.into(),
+        ];
         for pair in &task.parameters {
-            self.params.push(json!({
-                "task": number,
-                "key": pair.key.to_lowercase(),
-                "text": pair.value,
-                "num": pair.value.parse::<f64>().ok().filter(|n| n.is_finite()),
-            }));
+            let value = pair.value.parse::<f64>();
+            self.params.push(vec![
+                number.into(),
+                pair.key.to_lowercase().into(),
+                pair.value.as_str().into(),
+                value.ok().filter(|n| n.is_finite()).into(),
+            ]);
         }
-        if let Value::Object(row) = row {
-            let row = TaskRow {
-                row,
-                parts: 0,
-                path,
-            };
-            self.tasks.insert(task.id.clone(), row);
-        }
+        let row = TaskRow {
+            row,
+            started: None,
+            ended: None,
+            status: "created".to_owned(),
+            result: Datum::Null,
+            parts: 0,
+            path,
+        };
+        self.tasks.insert(task.id.clone(), row);
     }
 
     fn shown(&mut self, time: f64, shown: &Shown) {
@@ -269,7 +281,7 @@ impl Rows {
             .collect();
         let mut event = |kind: &str, object: &str, link: &str| {
             self.events
-                .push(json!({"time": time, "kind": kind, "object": object, "other": link}));
+                .push(vec![time.into(), kind.into(), object.into(), link.into()]);
         };
         for (object, link) in &self.held {
             if !held.contains_key(object) {
@@ -292,60 +304,81 @@ impl Rows {
             let row = match self.touching.get(&pair) {
                 Some(row) => *row,
                 None => {
-                    let began = json!({
-                        "a": pair.0, "b": pair.1, "began": time, "ended": null, "force": 0.0,
+                    self.contacts.push(Contact {
+                        pair: pair.clone(),
+                        began: time,
+                        ended: None,
+                        force: 0.0,
                     });
-                    if let Value::Object(row) = began {
-                        self.contacts.push(row);
-                    }
                     self.contacts.len() - 1
                 }
             };
             let force = [touch.force.x, touch.force.y, touch.force.z];
             let force = f64::from(force.iter().map(|f| f * f).sum::<f32>().sqrt());
-            if let Some(row) = self.contacts.get_mut(row)
-                && row.get("force").and_then(Value::as_f64) < Some(force)
+            if let Some(contact) = self.contacts.get_mut(row)
+                && contact.force < force
             {
-                row.insert("force".to_owned(), json!(force));
+                contact.force = force;
             }
             touching.insert(pair, row);
         }
         for (pair, row) in &self.touching {
             if !touching.contains_key(pair)
-                && let Some(row) = self.contacts.get_mut(*row)
+                && let Some(contact) = self.contacts.get_mut(*row)
             {
-                row.insert("ended".to_owned(), json!(time));
+                contact.ended = Some(time);
             }
         }
         self.touching = touching;
     }
 
-    fn log(&mut self, time: f64, log: &Log) {
+    fn log(&mut self, time: f64, log: Log) {
         let level = ["", "debug", "info", "warn", "error"].get(usize::from(log.level));
-        self.logs.push(json!({
-            "time": time,
-            "level": text(level.copied().unwrap_or_default()),
-            "tag": text(&log.name),
-            "text": log.message,
-        }));
+        self.logs.push(vec![
+            time.into(),
+            Datum::text(level.copied().unwrap_or_default()),
+            Datum::text(&log.name),
+            log.message.into(),
+        ]);
     }
 
-    fn relations(self) -> Vec<(&'static str, String)> {
-        let tasks = self.tasks.into_values().map(|task| task.row.into());
-        let contacts = self.contacts.into_iter().map(Value::Object);
-        let relations: [(&'static str, Vec<Value>); 6] = [
-            ("task", tasks.collect()),
-            ("param", self.params),
-            ("failure", self.failures),
-            ("event", self.events),
-            ("contact", contacts.collect()),
-            ("log", self.logs),
-        ];
-        let lines = |rows: Vec<Value>| rows.iter().map(|row| format!("{row}\n")).collect();
-        let relations = relations.into_iter();
-        relations.map(|(name, rows)| (name, lines(rows))).collect()
+    fn relations(self) -> Vec<(&'static str, Rows)> {
+        let tasks = self.tasks.into_values().map(|task| {
+            let mut row = task.row;
+            row.extend([task.started.into(), task.ended.into()]);
+            row.extend([task.status.into(), task.result]);
+            row
+        });
+        let contacts = self.contacts.into_iter().map(|contact| {
+            let Contact {
+                pair: (a, b),
+                began,
+                ended,
+                force,
+            } = contact;
+            vec![a.into(), b.into(), began.into(), ended.into(), force.into()]
+        });
+        let of = |name, columns, rows| (name, Rows { columns, rows });
+        vec![
+            of("task", TASK, tasks.collect()),
+            of("param", &["task", "key", "text", "num"], self.params),
+            of("failure", &["task", "time", "class", "text"], self.failures),
+            of("event", &["time", "kind", "object", "other"], self.events),
+            of(
+                "contact",
+                &["a", "b", "began", "ended", "force"],
+                contacts.collect(),
+            ),
+            of("log", &["time", "level", "tag", "text"], self.logs),
+        ]
     }
 }
+
+/// The columns of tasks.
+const TASK: &[&str] = &[
+    "task", "parent", "nth", "kind", "type", "path", "place", "created", "started", "ended",
+    "status", "result",
+];
 
 #[cfg(test)]
 mod tests {

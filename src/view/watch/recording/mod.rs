@@ -20,14 +20,17 @@ mod messages;
 mod places;
 mod protobuf;
 pub mod read;
+mod rows;
 mod schema;
 mod shapes;
+mod told;
 mod wire;
 mod write;
 
 pub use episode::{Episode, Wanted, read_episode};
 pub use follower::{Recorder, RecordingResult};
 pub use read::read_recording;
+pub use rows::{Datum, Rows};
 
 use std::io::{self, ErrorKind};
 

@@ -2,16 +2,17 @@
 //! seconds. A row tells of a moment at which something was elsewhere than at the one before.
 
 use indexmap::IndexMap;
-use serde_json::{Value, json};
 use spatial::trig;
 
 use super::RecordingError;
 use super::channel::Channel;
 use super::episode::object_name;
-use super::message::{FrameTransforms, SceneUpdate, Shown};
+use super::message::{FrameTransforms, Shown};
 use super::messages::Message;
 use super::read::{data_of, parsed};
+use super::rows::{Datum, Rows};
 use super::shapes::MAP;
+use super::told::Objects;
 use super::wire::{Content, field};
 use crate::watch::MAP_OF_LOCATION;
 
@@ -44,8 +45,8 @@ pub(super) struct Places {
     last_moment: Option<f64>,
     /// Is the next frame a moment?
     is_due: bool,
-    object_rows: Vec<Value>,
-    robot_rows: Vec<Value>,
+    object_rows: Vec<Vec<Datum>>,
+    robot_rows: Vec<Vec<Datum>>,
 }
 
 fn rounded(pose: &Pose) -> [i64; 7] {
@@ -59,7 +60,7 @@ impl Places {
     }
 
     /// The objects that there are from now on.
-    pub(super) fn objects(&mut self, update: &SceneUpdate) {
+    pub(super) fn objects(&mut self, update: &Objects) {
         let mut before = std::mem::take(&mut self.objects);
         for entity in &update.entities {
             let mut pairs = entity.metadata.iter();
@@ -178,12 +179,14 @@ impl Places {
             if object.last.as_ref() == Some(&state) {
                 continue;
             }
-            let [x, y, z, qx, qy, qz, qw] = pose;
-            self.object_rows.push(json!({
-                "time": time, "object": object_name(frame), "type": object.type_name,
-                "x": x, "y": y, "z": z, "qx": qx, "qy": qy, "qz": qz, "qw": qw,
-                "on": object.on, "in-hand": object.in_hand,
-            }));
+            let mut row = vec![
+                time.into(),
+                object_name(frame).into(),
+                object.type_name.as_str().into(),
+            ];
+            row.extend(pose.map(Datum::from));
+            row.extend([object.on.clone().into(), object.in_hand.clone().into()]);
+            self.object_rows.push(row);
             object.last = Some(state);
         }
         if let Some(pose) = self.robot
@@ -192,18 +195,28 @@ impl Places {
             self.last_robot = Some(rounded(&pose));
             let [x, y, _, _, _, qz, qw] = pose;
             let yaw = trig::wrap(2.0 * trig::atan2(qz, qw));
-            self.robot_rows
-                .push(json!({"time": time, "x": x, "y": y, "yaw": yaw}));
+            let row = [time, x, y, yaw].map(Datum::from);
+            self.robot_rows.push(row.to_vec());
         }
     }
 
-    pub(super) fn relations(self) -> Vec<(&'static str, String)> {
-        let lines = |rows: Vec<Value>| rows.iter().map(|row| format!("{row}\n")).collect();
-        let relations = [("object", self.object_rows), ("robot", self.robot_rows)];
-        let relations = relations.into_iter().filter(|(_, rows)| !rows.is_empty());
-        relations.map(|(name, rows)| (name, lines(rows))).collect()
+    pub(super) fn relations(self) -> Vec<(&'static str, Rows)> {
+        let of = |name, columns, rows| (name, Rows { columns, rows });
+        let relations = [
+            of("object", OBJECT, self.object_rows),
+            of("robot", &["time", "x", "y", "yaw"], self.robot_rows),
+        ];
+        let relations = relations.into_iter();
+        relations
+            .filter(|(_, rows)| !rows.rows.is_empty())
+            .collect()
     }
 }
+
+/// The columns of objects.
+const OBJECT: &[&str] = &[
+    "time", "object", "type", "x", "y", "z", "qx", "qy", "qz", "qw", "on", "in-hand",
+];
 
 /// The first four fields of a message of numbers; what is not said is 0.
 fn doubles(mut rest: &[u8]) -> Option<[f64; 4]> {

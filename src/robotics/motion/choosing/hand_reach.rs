@@ -1,0 +1,248 @@
+//! Where a hand could be, with the base where it is and nothing else moved: one copy of all that does not depend on
+//! the pose, for many questions.
+//!
+//! Whatever is asked, what rules out most poses comes first: the hand alone, wherever its arm may be.
+
+use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
+use crate::motion::contact::touching::TouchingPairs;
+use crate::motion::planning::configuration_checker::{
+    ConfigurationChecker, PLAN_MARGIN, TOUCH_DEPTH,
+};
+use crate::motion::planning::planning_group::PlanningGroup;
+use crate::motion::planning::pose_goal::{GoalConfiguration, PathSearch, PoseGoalTask, TORSO_STEP};
+use crate::robot::Side;
+use crate::world::{
+    AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration, SomeLinks, World,
+};
+use spatial::Pose;
+
+/// By how much less (m) than planned configurations keep clear a hand has to, to be ruled out before inverse
+/// kinematics, which places it exactly to far less.
+const ROUNDING: f64 = 1e-6;
+
+/// A hand of the robot in one configuration of everything else.
+pub struct HandReach<'w> {
+    world: &'w World,
+    robot: RobotConfiguration,
+    side: Side,
+    absent: &'w [String],
+    links: SomeLinks,
+    lone: Option<LoneLinks<'w>>,
+    /// The pairs that are close in the configuration.
+    near: Option<Vec<CollisionHit>>,
+    /// What may be close, for what the hand may touch: nothing, or an object.
+    touching: Vec<(Option<String>, TouchingPairs)>,
+    /// For the arm alone, and with the torso.
+    groups: [Option<Group<'w>>; 2],
+}
+
+/// Joints that move, and what tells which of their positions are free.
+struct Group<'w> {
+    group: PlanningGroup,
+    checker: ConfigurationChecker<'w>,
+}
+
+/// The links of the hand without its arm.
+struct LoneLinks<'w> {
+    checker: CollisionChecker<'w>,
+    /// Poses of the robot's links in the frame of the tool, and in the map.
+    in_tool: Vec<Pose>,
+    in_map: Vec<Pose>,
+}
+
+impl<'w> HandReach<'w> {
+    /// For the robot in a configuration that differs from the world's only in the pose of the base and the joints of
+    /// hands, as if some objects that no hand holds were not there.
+    pub fn new(
+        world: &'w World,
+        robot: RobotConfiguration,
+        side: Side,
+        absent: &'w [String],
+    ) -> Self {
+        let tree = &world.models().robot;
+        let hand = world.models().description.arm(side).gripper.links();
+        let links = SomeLinks::new(hand, tree.links().count());
+        Self {
+            world,
+            robot,
+            side,
+            absent,
+            links,
+            lone: None,
+            near: None,
+            touching: Vec::new(),
+            groups: [None, None],
+        }
+    }
+
+    /// Whether the tool could be at each of some poses in the frame of the base, at any height of the torso, while
+    /// the robot touches nothing but what the mode there permits, and of objects only the target, if one is named.
+    pub fn reaches(&mut self, way: &[(Pose, CollisionMode)], target: Option<&str>) -> bool {
+        let is_blocked = way
+            .iter()
+            .any(|(tool, mode)| self.is_surely_blocked(tool, *mode, target));
+        !is_blocked
+            && way
+                .iter()
+                .all(|(tool, mode)| self.reaches_pose(tool, *mode, target))
+    }
+
+    /// Whether the hand would touch something at the pose, wherever its arm is.
+    pub fn is_surely_blocked(
+        &mut self,
+        tool: &Pose,
+        mode: CollisionMode,
+        target: Option<&str>,
+    ) -> bool {
+        let arm = self.world.models().description.arm(self.side);
+        // Where solutions are searched for, they are less exact.
+        if !arm.kinematics.is_closed_form() {
+            return false;
+        }
+        let at = self.touching_at(mode, target);
+        let (world, robot, side) = (self.world, &self.robot, self.side);
+        let lone = self
+            .lone
+            .get_or_insert_with(|| LoneLinks::new(world, robot, side, self.absent));
+        let tool = robot.base * tool;
+        for (in_map, in_tool) in lone.in_map.iter_mut().zip(&lone.in_tool) {
+            *in_map = tool * in_tool;
+        }
+        let relaxed = self.touching[at].1.relaxed();
+        let margin = PLAN_MARGIN - ROUNDING;
+        lone.checker
+            .links_touch_at(&lone.in_map, &self.links, relaxed, margin)
+    }
+
+    fn reaches_pose(&mut self, tool: &Pose, mode: CollisionMode, target: Option<&str>) -> bool {
+        let at = self.touching_at(mode, target);
+        let task = PoseGoalTask {
+            world: self.world,
+            goals: vec![(self.side, *tool)],
+            contacts: ExpectedContacts::default(),
+            search: PathSearch::Long,
+        };
+        let heights = task.heights(TORSO_STEP);
+        // The first one is the present one, at which the torso need not move.
+        let (now, others) = heights.split_at(1);
+        for heights in [now, others] {
+            match self.reaches_at(&task, heights, at) {
+                Reach::Reaches => return true,
+                Reach::HandBlocked => return false,
+                Reach::Fails => {}
+            }
+        }
+        false
+    }
+
+    /// Tries heights of the torso for which the same joints move.
+    fn reaches_at(&mut self, task: &PoseGoalTask<'_>, heights: &[f64], at: usize) -> Reach {
+        let Some(first) = heights.first() else {
+            return Reach::Fails;
+        };
+        let moves = usize::from(*first != task.torso_now());
+        let mut is_new = true;
+        for height in heights {
+            for configuration in self.configurations(task, *height, moves, at) {
+                let positions = &configuration.positions;
+                let Some(Group { checker, .. }) = &mut self.groups[moves] else {
+                    return Reach::Fails;
+                };
+                if is_new {
+                    checker.set_touching(&self.robot, &self.touching[at].1);
+                    if checker.touches_surroundings(positions, &self.links) {
+                        return Reach::HandBlocked;
+                    }
+                    is_new = false;
+                }
+                if checker.is_free(positions) {
+                    return Reach::Reaches;
+                }
+            }
+        }
+        Reach::Fails
+    }
+
+    /// All configurations at a height, for which the torso moves or not.
+    fn configurations(
+        &mut self,
+        task: &PoseGoalTask<'_>,
+        height: f64,
+        moves: usize,
+        at: usize,
+    ) -> Vec<GoalConfiguration> {
+        let group = self.groups[moves].get_or_insert_with(|| {
+            let group = task.group(height);
+            let joints = group.joints.clone();
+            let checker = self.world.collision_checker().without(self.absent);
+            let touching = self.touching[at].1.clone();
+            let robot = self.robot.clone();
+            let checker = ConfigurationChecker::with(checker, robot, joints, touching);
+            Group { group, checker }
+        });
+        task.configurations(height, &group.group)
+    }
+
+    /// The place in the list of what may be close.
+    fn touching_at(&mut self, mode: CollisionMode, target: Option<&str>) -> usize {
+        let side = [self.side].into_iter();
+        let contacts = || ExpectedContacts::of(self.world, side, mode, target);
+        let declares = mode != CollisionMode::AvoidAll;
+        let object = target.filter(|_| declares).map(str::to_owned);
+        // Without a target, any object may be touched; no question asks so twice.
+        let is_known = |(known, _): &(Option<String>, _)| *known == object;
+        let is_kept = !declares || target.is_some();
+        if let Some(at) = self.touching.iter().position(is_known).filter(|_| is_kept) {
+            return at;
+        }
+        let near = self.near.get_or_insert_with(|| {
+            let mut checker = self.world.collision_checker().without(self.absent);
+            checker.all_hits(&self.robot, &AllowedPairs::none(), PLAN_MARGIN)
+        });
+        let contacts = contacts();
+        let is_allowed = |hit: &CollisionHit| {
+            let mut allowed = contacts.allowed.iter();
+            allowed.any(|(a, b)| {
+                (*a == hit.moving && *b == hit.other) || (*a == hit.other && *b == hit.moving)
+            })
+        };
+        let near: Vec<CollisionHit> = near
+            .iter()
+            .filter(|hit| !is_allowed(hit))
+            .cloned()
+            .collect();
+        let touching = TouchingPairs::of_hits(near, &contacts, TOUCH_DEPTH, |_| true);
+        self.touching.push((object, touching));
+        self.touching.len() - 1
+    }
+}
+
+impl<'w> LoneLinks<'w> {
+    fn new(world: &'w World, robot: &RobotConfiguration, side: Side, absent: &[String]) -> Self {
+        let models = world.models();
+        let arm = models.description.arm(side);
+        let mut in_tool = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&Pose::identity(), &robot.joints, &mut in_tool);
+        let wrist = in_tool.get(arm.wrist.index()).copied().unwrap_or_default();
+        let tool = arm.tool_for_wrist(&wrist).inverse();
+        for pose in &mut in_tool {
+            *pose = tool * *pose;
+        }
+        Self {
+            checker: world.collision_checker().without(absent),
+            in_map: in_tool.clone(),
+            in_tool,
+        }
+    }
+}
+
+/// How a try to reach a pose ends.
+enum Reach {
+    Reaches,
+    /// The hand touches something at the pose, whatever torso and arm do.
+    HandBlocked,
+    /// No posture is free.
+    Fails,
+}

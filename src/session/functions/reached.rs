@@ -1,0 +1,99 @@
+//! What hands reach, of many objects.
+
+use super::asking::names_in;
+use crate::host::call::done;
+use crate::simulation::Simulation;
+use crate::simulation::motions::{side, side_keyword};
+use crate::simulation::names::{name_text, type_keyword};
+use crate::simulation::reached_grasps::ReachedGrasps;
+use cram::Reply;
+use lisp::image::Image;
+use lisp::value::Value;
+use lisp::value::raise::Raise;
+use robotics::robot::Side;
+use robotics::world::{World, WorldError};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Of what the first grasp is enough.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Each {
+    Object,
+    Side,
+    Grasp,
+}
+
+fn each(image: &Image, value: &Value) -> Result<Each> {
+    match name_text(image, value).as_deref() {
+        Some("OBJECT") => Ok(Each::Object),
+        Some("SIDE") => Ok(Each::Side),
+        Some("GRASP") => Ok(Each::Grasp),
+        _ => Err(Raise::simple(
+            "The first grasp of each :OBJECT, each :SIDE or each :GRASP was expected.",
+        )),
+    }
+}
+
+pub(super) fn reached(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let names = names_in(simulation, image, &args[0])?;
+    let sides = args[1].iter_list();
+    let sides: Vec<Side> = sides
+        .map(|value| side(image, &value))
+        .collect::<Result<_>>()?;
+    let each = each(image, &args[2])?;
+    let absent = args.get(3).filter(|absent| absent.is_true());
+    let absent = absent.map(|absent| names_in(simulation, image, absent));
+    let absent = absent.transpose()?.unwrap_or_default();
+    let simulation = &*simulation;
+    let copy = without_held(simulation, &absent)?;
+    let (world, absent) = match &copy {
+        Some(world) => (world, &[][..]),
+        None => (&simulation.world, absent.as_slice()),
+    };
+    let mut reached = ReachedGrasps::new(simulation, world, absent);
+    let mut rows = Vec::new();
+    for name in &names {
+        let kind = world.object(name).map_err(raise)?.type_name();
+        'object: for &side in &sides {
+            for grasp in simulation.defined_grasps(kind, side) {
+                let Some(definition) = simulation.definition(kind, side, &grasp) else {
+                    continue;
+                };
+                if !reached.has(name, side, &definition)? {
+                    continue;
+                }
+                let symbol = simulation.symbol_of(name);
+                let side = side_keyword(image, side);
+                rows.push(Value::list([symbol, side, type_keyword(image, &grasp)]));
+                match each {
+                    Each::Object => break 'object,
+                    Each::Side => break,
+                    Each::Grasp => {}
+                }
+            }
+        }
+    }
+    done(Value::list(rows))
+}
+
+/// A copy of the world without some objects, if hands hold something: what they hold moves with them.
+fn without_held(simulation: &Simulation, absent: &[String]) -> Result<Option<World>> {
+    let world = &simulation.world;
+    let mut objects = world.objects();
+    if absent.is_empty() || objects.all(|object| object.attachment().is_none()) {
+        return Ok(None);
+    }
+    let mut copy = world.clone();
+    for name in absent {
+        copy.remove(name).map_err(raise)?;
+    }
+    Ok(Some(copy))
+}
+
+fn raise(error: WorldError) -> Box<Raise> {
+    Raise::reporting(error)
+}
