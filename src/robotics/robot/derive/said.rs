@@ -99,6 +99,6 @@ pub(super) fn park(arm: &DerivedArm) -> Option<ArmPositions> {
         let mut postures = arm.postures.iter();
         postures.find(|(name, _)| name.contains(*word))
     };
-    let (_, posture) = OUT_OF_THE_WAY.iter().find_map(|word| named(&word))?;
-    Some(posture.clone())
+    let (_, posture) = OUT_OF_THE_WAY.iter().find_map(named)?;
+    Some(*posture)
 }
