@@ -126,7 +126,7 @@ impl DerivedRobot {
                 parking::set(arm, &mut q, posture);
                 table.is_none_or(above) && hits(&q).is_empty()
             };
-            let found = match said::park(arm).filter(is_free) {
+            let found = match said::parks(arm).find(is_free) {
                 Some(park) => Some((park, Vec::new())),
                 None => parking::find(tree, arm, &q, table, hits),
             };

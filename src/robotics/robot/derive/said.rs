@@ -93,12 +93,13 @@ pub(super) fn postures(
     found
 }
 
-/// The posture whose name says that the arm is out of the way.
-pub(super) fn park(arm: &DerivedArm) -> Option<ArmPositions> {
-    let named = |word: &&str| {
-        let mut postures = arm.postures.iter();
-        postures.find(|(name, _)| name.contains(*word))
-    };
-    let (_, posture) = OUT_OF_THE_WAY.iter().find_map(named)?;
-    Some(*posture)
+/// The postures whose names say that the arm is out of the way, the best one first.
+pub(super) fn parks(arm: &DerivedArm) -> impl Iterator<Item = ArmPositions> {
+    OUT_OF_THE_WAY.iter().flat_map(|word| {
+        let named = arm
+            .postures
+            .iter()
+            .filter(move |(name, _)| name.contains(*word));
+        named.map(|(_, posture)| *posture)
+    })
 }
