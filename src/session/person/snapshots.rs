@@ -22,7 +22,7 @@ const MAX_FORMS: usize = 100;
 /// Maximum number of motions of the running form that have snapshots.
 const MAX_MOTIONS: usize = 64;
 /// The memory (bytes) that snapshots before forms may take, and those before motions, where that is fewer of them.
-const MAX_BYTES: usize = 16 << 20;
+const MAX_BYTES: usize = 10 << 20;
 /// How many there are whatever memory they take.
 const MIN_SNAPSHOTS: usize = 8;
 
