@@ -240,14 +240,21 @@ impl SessionOptions {
     ///
     /// # Errors
     ///
-    /// If the URDF or the SRDF cannot be read.
+    /// If the URDF or the SRDF cannot be read, or the SRDF says nothing of these.
     pub fn derived_description_with_srdf(
         &self,
         name: &str,
         text: &str,
     ) -> Result<String, SessionError> {
         let srdf = Srdf::read(text, name);
-        self.derived_with(&srdf.map_err(|error| SessionError::Models(error.to_string()))?)
+        let srdf = srdf.map_err(|error| SessionError::Models(error.to_string()))?;
+        if srdf == Srdf::default() {
+            return Err(SessionError::Models(format!(
+                "{name}: nothing says which links may touch (<disable_collisions link1=… link2=…>), or how postures are \
+                 (<group_state name=… group=…>): is it an SRDF?"
+            )));
+        }
+        self.derived_with(&srdf)
     }
 
     fn derived_with(&self, srdf: &Srdf) -> Result<String, SessionError> {

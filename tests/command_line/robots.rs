@@ -89,9 +89,11 @@ fn an_srdf_says_what_may_touch_and_how_the_arm_is_parked() {
         .iter()
         .map(|(name, value)| format!("<joint name=\"{name}\" value=\"{value}\"/>"))
         .collect();
+    let untucked = joints.replace("1.32", "0.5");
     let srdf = format!(
         "<robot name=\"fetch\">
            <group_state name=\"Straight up\" group=\"arm\"><joint name=\"elbow_flex_joint\" value=\"0\"/></group_state>
+           <group_state name=\"Untucked\" group=\"arm\">{untucked}</group_state>
            <group_state name=\"tucked\" group=\"arm\">{joints}</group_state>
            <disable_collisions link1=\"forearm_roll_link\" link2=\"base_link\" reason=\"User\"/>
            <disable_collisions link1=\"elbow_flex_link\" link2=\"base_link\" reason=\"Never\"/>
@@ -122,6 +124,11 @@ fn an_srdf_says_what_may_touch_and_how_the_arm_is_parked() {
     };
     assert!(may_touch("forearm_roll_link"), "{said}");
     assert!(!may_touch("elbow_flex_link"), "{said}");
+
+    let other = planwright(&[Path::new("describe-robot"), urdf, option, urdf]);
+    assert_eq!(other.status.code(), Some(2));
+    let said = text(&other.stderr);
+    assert!(said.contains("fetch.urdf: nothing says"), "{said}");
 
     let broken = folder.file("broken.srdf", b"<robot><group_state></robot>");
     let refused = planwright(&[Path::new("describe-robot"), urdf, option, &broken]);

@@ -53,6 +53,28 @@ fn two_forms_are_taken_back_at_once() {
 }
 
 #[test]
+fn as_many_forms_are_taken_back_as_fit_into_memory() {
+    let mut talk = Talk::new();
+    talk.say(BOTTLE);
+    let mut before = Vec::new();
+    for step in 0..40 {
+        before.push(talk.hash());
+        let x = -1.7 + 0.01 * f64::from(step);
+        talk.say(&format!(
+            "(btr-utils:move-object 'bottle-1 '(({x} -0.9 0.82) (0 0 0 1)))"
+        ));
+    }
+    let refused = talk.say("(rewind 41)");
+    talk.say("q");
+    let words: Vec<&str> = refused.split_whitespace().collect();
+    let count = words.windows(2).find(|pair| pair[0] == "Only");
+    let count: usize = count.expect(&refused)[1].parse().expect(&refused);
+    assert!((8..40).contains(&count), "{count}");
+    talk.say(&format!("(rewind {count})"));
+    assert_eq!(talk.hash(), before[40 - count]);
+}
+
+#[test]
 fn a_snapshot_is_gone_back_to_by_its_name() {
     let mut talk = Talk::new();
     talk.say(BOTTLE);

@@ -133,7 +133,7 @@ fn write_into(path: &Path, inputs: &[PathBuf]) -> Result<Vec<(String, u64)>, Com
     };
     let file = File::create(path).map_err(refused)?;
     let mut facts = Sqlite::begin(BufWriter::with_capacity(1 << 20, file))
-        .map_err(|error| of_facts(path, path, 0, error))?;
+        .map_err(|error| of_facts(path, path, None, error))?;
     for input in inputs {
         match input
             .extension()
@@ -145,7 +145,7 @@ fn write_into(path: &Path, inputs: &[PathBuf]) -> Result<Vec<(String, u64)>, Com
     }
     let (file, counts) = facts
         .finish()
-        .map_err(|error| of_facts(path, path, 0, error))?;
+        .map_err(|error| of_facts(path, path, None, error))?;
     let file = file
         .into_inner()
         .map_err(|error| refused(error.into_error()))?;
@@ -154,13 +154,20 @@ fn write_into(path: &Path, inputs: &[PathBuf]) -> Result<Vec<(String, u64)>, Com
 }
 
 /// What is wrong: with a line of an input, or with the file that is written.
-fn of_facts(output: &Path, input: &Path, line: usize, error: SqliteError) -> CommandError {
+/// What is wrong with facts of an input, in a line of it if it has lines.
+fn of_facts(output: &Path, input: &Path, line: Option<usize>, error: SqliteError) -> CommandError {
     match error {
         SqliteError::Write(error) => CommandError::Rewrite {
             path: output.to_owned(),
             error,
         },
-        other => wrong(input, format!("line {line}: {other}")),
+        other => wrong(
+            input,
+            match line {
+                Some(line) => format!("line {line}: {other}"),
+                None => other.to_string(),
+            },
+        ),
     }
 }
 
@@ -194,7 +201,7 @@ fn add_lines(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), Comma
         if !line.trim().is_empty() {
             facts
                 .add_line(&relation, line)
-                .map_err(|error| of_facts(output, input, number, error))?;
+                .map_err(|error| of_facts(output, input, Some(number), error))?;
         }
     }
     Ok(())
@@ -219,5 +226,5 @@ fn add_recording(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), C
     session::functions::add_episode(&mut relations, episode);
     facts
         .add_relations(&relations)
-        .map_err(|error| of_facts(output, input, 0, error))
+        .map_err(|error| of_facts(output, input, None, error))
 }

@@ -23,6 +23,8 @@ pub struct Srdf {
     /// Pairs of different links that are not checked although they may touch, in the order of the file: what its author
     /// has found never to touch is not among them.
     pub pairs: Vec<(String, String)>,
+    /// How many further pairs are not checked since they never touch.
+    pub never: usize,
     /// Links that are never checked.
     pub links: Vec<String>,
     /// Postures.
@@ -55,9 +57,11 @@ impl Srdf {
                         .is_some_and(|r| r.value == "Never");
                     if let (Some(one), Some(other)) = ends
                         && one != other
-                        && !never
                     {
-                        srdf.pairs.push((one, other));
+                        match never {
+                            true => srdf.never += 1,
+                            false => srdf.pairs.push((one, other)),
+                        }
                     }
                 }
                 "disable_all_collisions" => srdf.links.extend(value(element, "link")),
@@ -105,6 +109,7 @@ mod tests {
         let srdf = Srdf::read(text, "r.srdf").expect("it is well-formed");
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(srdf.pairs, [pair("a", "b"), pair("b", "c")]);
+        assert_eq!(srdf.never, 1);
         assert_eq!(srdf.links, ["d"]);
         let state = srdf.states.first().expect("there is one");
         assert_eq!(

@@ -19,13 +19,14 @@ use serde::Serialize;
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
-use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted, in_order};
+use super::collision_search::{Near, Question, Scratch, Wanted, in_order};
 use super::link_pairs::LinkPairs;
 use super::models::Models;
 use super::moving_parts::{MovingParts, Pairs};
 use super::part_key::{PartKey, index};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::from_parry_vector;
+use super::surroundings::Surroundings;
 use crate::robot::LinkId;
 use spatial::Pose;
 

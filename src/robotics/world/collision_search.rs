@@ -10,54 +10,20 @@ use parry3d_f64::math::{Pose as ParryPose, Vector};
 
 use super::frame::Frame;
 use super::link_pairs::{BLOCK, LinkPairs, blocks_of, meet};
-use super::models::{Footing, Models};
+use super::models::Footing;
 use super::moving_parts::{MovingParts, Pairs};
-use super::obstacles::Obstacles;
 use super::oriented_box::OrientedBox;
 use super::part_key::{PartKey, index};
 use super::placed_solid::PlacedSolid;
 use super::separation::{Separation, below_floor, overlap, separation};
 use super::solid::{Solid, to_parry};
+use super::surroundings::Surroundings;
 use crate::robot::LinkId;
 use spatial::Pose;
 
 /// Largest gap (m) required between parts of the robot, which are built to pass each other
 /// closely.
 const SELF_MARGIN: f64 = 0.005;
-
-/// A free object at its pose.
-pub struct ObjectAt<'w> {
-    pub key: PartKey,
-    pub name: &'w str,
-    pub(crate) solids: &'w [Solid],
-    pub pose: ParryPose,
-    pub bounds: Aabb,
-}
-
-/// An object that moves with a link.
-pub struct HeldObject<'w> {
-    pub key: PartKey,
-    pub name: &'w str,
-    pub(crate) solids: &'w [Solid],
-    /// Bounds in the object's frame (m).
-    pub bounds: Aabb,
-    /// The link that carries the object.
-    pub link: LinkId,
-    /// Pose of the object in the link's frame.
-    pub at: Pose,
-    /// The palms of the hands that hold it, which it touches; none if it stands on what hands hold.
-    pub hands: [Option<LinkId>; 2],
-    /// What it moves with: objects of the same load are not checked against each other.
-    pub load: PartKey,
-}
-
-/// Everything that a robot may collide with.
-pub struct Surroundings<'w> {
-    pub models: &'w Models,
-    pub furniture: &'w Obstacles,
-    pub objects: Vec<ObjectAt<'w>>,
-    pub held: Vec<HeldObject<'w>>,
-}
 
 /// A pair closer than the margin.
 pub struct Near {
@@ -167,28 +133,6 @@ impl<'w> Surroundings<'w> {
         blocks.extend(blocks_of(bounds));
         // Whether the visitor stopped the search is of no interest to the caller.
         let _stopped = search.run();
-    }
-
-    /// The solids of the mover with that index: links come first, then held objects.
-    fn solids(&self, mover: usize) -> &[Solid] {
-        let links = &self.models.robot_geometry.solid_links;
-        match links.get(mover) {
-            Some(link) => &link.solids,
-            None => self.held.get(mover - links.len()).map_or(&[], |h| h.solids),
-        }
-    }
-
-    /// The box about the mover with that index, in its frame.
-    fn containing_box(&self, mover: usize) -> OrientedBox {
-        let links = &self.models.robot_geometry.solid_links;
-        let bounds = match links.get(mover) {
-            Some(link) => link.bounds,
-            None => {
-                let held = self.held.get(mover - links.len());
-                held.map_or_else(Aabb::new_invalid, |held| held.bounds)
-            }
-        };
-        OrientedBox::new(&bounds)
     }
 }
 

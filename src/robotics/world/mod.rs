@@ -67,6 +67,7 @@ pub mod spawn;
 mod splitting;
 mod standing;
 pub(crate) mod standing_room;
+mod surroundings;
 pub mod tilt;
 mod touches;
 mod touching;

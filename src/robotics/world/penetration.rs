@@ -4,12 +4,12 @@ use parry3d_f64::bounding_volume::BoundingVolume;
 
 use super::allowed_pairs::AllowedPairs;
 use super::collision::{CollisionChecker, CollisionHit};
-use super::collision_search::{HeldObject, Surroundings};
 use super::error::WorldError;
 use super::part_key::PartKey;
 use super::scene::World;
 use super::separation::{lowest_point, separation};
 use super::solid::to_parry;
+use super::surroundings::{HeldObject, Surroundings};
 
 impl World {
     /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its

@@ -16,7 +16,6 @@ use indexmap::IndexMap;
 use parry3d_f64::bounding_volume::Aabb;
 
 use super::collision::CollisionChecker;
-use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::content::Content;
 use super::cutting::Cut;
 use super::error::WorldError;
@@ -34,6 +33,7 @@ use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
 use super::riding::Riding;
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
+use super::surroundings::{HeldObject, ObjectAt, Surroundings};
 use super::tilt::Tilt;
 use super::touches::Touches;
 use crate::robot::{JointPositions, LinkId};

@@ -30,8 +30,8 @@ pub struct HandReach<'w> {
     lone: Option<LoneLinks<'w>>,
     /// The pairs that are close in the configuration.
     near: Option<Vec<CollisionHit>>,
-    /// What may be close, for what the hand may touch: nothing, or an object.
-    touching: Vec<(Option<String>, TouchingPairs)>,
+    /// What may be close, by what the mode permits, and for which object.
+    touching: Vec<(CollisionMode, Option<String>, TouchingPairs)>,
     /// For the arm alone, and with the torso.
     groups: [Option<Group<'w>>; 2],
 }
@@ -108,7 +108,7 @@ impl<'w> HandReach<'w> {
         for (in_map, in_tool) in lone.in_map.iter_mut().zip(&lone.in_tool) {
             *in_map = tool * in_tool;
         }
-        let relaxed = self.touching[at].1.relaxed();
+        let relaxed = self.touching[at].2.relaxed();
         let margin = PLAN_MARGIN - ROUNDING;
         lone.checker
             .links_touch_at(&lone.in_map, &self.links, relaxed, margin)
@@ -149,7 +149,7 @@ impl<'w> HandReach<'w> {
                     return Reach::Fails;
                 };
                 if is_new {
-                    checker.set_touching(&self.robot, &self.touching[at].1);
+                    checker.set_touching(&self.robot, &self.touching[at].2);
                     if checker.touches_surroundings(positions, &self.links) {
                         return Reach::HandBlocked;
                     }
@@ -175,7 +175,7 @@ impl<'w> HandReach<'w> {
             let group = task.group(height);
             let joints = group.joints.clone();
             let checker = self.world.collision_checker().without(self.absent);
-            let touching = self.touching[at].1.clone();
+            let touching = self.touching[at].2.clone();
             let robot = self.robot.clone();
             let checker = ConfigurationChecker::with(checker, robot, joints, touching);
             Group { group, checker }
@@ -185,21 +185,17 @@ impl<'w> HandReach<'w> {
 
     /// The place in the list of what may be close.
     fn touching_at(&mut self, mode: CollisionMode, target: Option<&str>) -> usize {
-        let side = [self.side].into_iter();
-        let contacts = || ExpectedContacts::of(self.world, side, mode, target);
-        let declares = mode != CollisionMode::AvoidAll;
-        let object = target.filter(|_| declares).map(str::to_owned);
-        // Without a target, any object may be touched; no question asks so twice.
-        let is_known = |(known, _): &(Option<String>, _)| *known == object;
-        let is_kept = !declares || target.is_some();
-        if let Some(at) = self.touching.iter().position(is_known).filter(|_| is_kept) {
+        let target = target.filter(|_| mode != CollisionMode::AvoidAll);
+        let mut known = self.touching.iter();
+        let place = known.position(|(m, object, _)| *m == mode && object.as_deref() == target);
+        if let Some(at) = place {
             return at;
         }
         let near = self.near.get_or_insert_with(|| {
             let mut checker = self.world.collision_checker().without(self.absent);
             checker.all_hits(&self.robot, &AllowedPairs::none(), PLAN_MARGIN)
         });
-        let contacts = contacts();
+        let contacts = ExpectedContacts::of(self.world, [self.side].into_iter(), mode, target);
         let is_allowed = |hit: &CollisionHit| {
             let mut allowed = contacts.allowed.iter();
             allowed.any(|(a, b)| {
@@ -212,7 +208,8 @@ impl<'w> HandReach<'w> {
             .cloned()
             .collect();
         let touching = TouchingPairs::of_hits(near, &contacts, TOUCH_DEPTH, |_| true);
-        self.touching.push((object, touching));
+        let target = target.map(str::to_owned);
+        self.touching.push((mode, target, touching));
         self.touching.len() - 1
     }
 }

@@ -5,9 +5,9 @@
 //! speeds and fields of view, is assumed, and the text says so.
 
 mod arms;
+mod from_srdf;
 mod grippers;
 mod parking;
-mod said;
 mod text;
 mod wheels;
 
@@ -99,7 +99,7 @@ impl DerivedRobot {
             .by_construction()
             .filter(|(a, b)| !rolls(a) && !rolls(b))
             .chain(grippers.flat_map(DerivedGripper::pad_pairs))
-            .chain(said::pairs(tree, srdf, &mut remarks))
+            .chain(from_srdf::pairs(tree, srdf, &mut remarks))
             .collect();
         let mut q = tree.zero_positions();
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
@@ -107,7 +107,7 @@ impl DerivedRobot {
         }
         let table = (wheels.drive == DerivedDrive::Fixed).then_some(ABOVE_TABLE);
         for arm in &mut arms {
-            arm.postures = said::postures(tree, arm, srdf);
+            arm.postures = from_srdf::postures(tree, arm, srdf);
             let is_expected = |pair: &(LinkId, LinkId)| {
                 let is_built = built.contains(pair) || built.contains(&(pair.1, pair.0));
                 is_built || rolls(&pair.0) || rolls(&pair.1)
@@ -126,7 +126,7 @@ impl DerivedRobot {
                 parking::set(arm, &mut q, posture);
                 table.is_none_or(above) && hits(&q).is_empty()
             };
-            let found = match said::parks(arm).find(is_free) {
+            let found = match from_srdf::parks(arm).find(is_free) {
                 Some(park) => Some((park, Vec::new())),
                 None => parking::find(tree, arm, &q, table, hits),
             };

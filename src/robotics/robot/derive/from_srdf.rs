@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use super::DerivedArm;
 use super::text::symbol;
 use crate::robot::arm_positions::ArmPositions;
-use crate::robot::{KinematicTree, LinkId, Srdf};
+use crate::robot::{JointId, KinematicTree, LinkId, Srdf};
 
-/// Parts of the names of postures in which an arm is out of the way, the best one first.
+/// How a word begins in the names of postures in which an arm is out of the way, the best one first.
 const OUT_OF_THE_WAY: [&str; 8] = [
     "park",
     "tuck",
@@ -71,7 +71,7 @@ pub(super) fn postures(
 ) -> Vec<(String, ArmPositions)> {
     let mut found: Vec<(String, ArmPositions)> = Vec::new();
     for state in &srdf.states {
-        let position = |joint: &crate::robot::JointId| {
+        let position = |joint: &JointId| {
             let joint = tree.joint(*joint);
             let mut positions = state.positions.iter();
             let (_, position) = positions.find(|(name, _)| *name == joint.name)?;
@@ -96,10 +96,8 @@ pub(super) fn postures(
 /// The postures whose names say that the arm is out of the way, the best one first.
 pub(super) fn parks(arm: &DerivedArm) -> impl Iterator<Item = ArmPositions> {
     OUT_OF_THE_WAY.iter().flat_map(|word| {
-        let named = arm
-            .postures
-            .iter()
-            .filter(move |(name, _)| name.contains(*word));
+        let begins = move |name: &str| name.split(['-', '_', '.']).any(|w| w.starts_with(word));
+        let named = arm.postures.iter().filter(move |(name, _)| begins(name));
         named.map(|(_, posture)| *posture)
     })
 }
