@@ -97,6 +97,8 @@ fn an_srdf_says_what_may_touch_and_how_the_arm_is_parked() {
            <group_state name=\"tucked\" group=\"arm\">{joints}</group_state>
            <disable_collisions link1=\"forearm_roll_link\" link2=\"base_link\" reason=\"User\"/>
            <disable_collisions link1=\"elbow_flex_link\" link2=\"base_link\" reason=\"Never\"/>
+           <disable_collisions link1=\"head_tilt_link\" link2=\"base_link\" reason=\"User\"/>
+           <disable_all_collisions link=\"shoulder_lift_link\"/>
            <disable_collisions link1=\"laser\" link2=\"base_link\" reason=\"Adjacent\"/>
          </robot>"
     );
@@ -123,7 +125,19 @@ fn an_srdf_says_what_may_touch_and_how_the_arm_is_parked() {
         groups.any(|group| group.contains("base_link") && group.contains(one))
     };
     assert!(may_touch("forearm_roll_link"), "{said}");
-    assert!(!may_touch("elbow_flex_link"), "{said}");
+    // What never touches is checked at no cost, and no link is left out of all checks.
+    for checked in ["elbow_flex_link", "head_tilt_link", "shoulder_lift_link"] {
+        assert!(!may_touch(checked), "{checked}\n{said}");
+    }
+    let words = said.replace("\n; ", " ");
+    assert!(
+        words.contains("are not seen: base_link and forearm_roll_link."),
+        "{said}"
+    );
+    assert!(
+        words.contains("they are checked here: shoulder_lift_link."),
+        "{said}"
+    );
 
     let other = planwright(&[Path::new("describe-robot"), urdf, option, urdf]);
     assert_eq!(other.status.code(), Some(2));

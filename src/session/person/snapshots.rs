@@ -277,6 +277,7 @@ impl Snapshots {
             self.forms.extend(current);
             return Err(Raise::simple(match changing {
                 0 => "Nothing that has been evaluated here changed the world.".to_owned(),
+                1 => "Only 1 form that changed the world is remembered.".to_owned(),
                 n => format!("Only {n} forms that changed the world are remembered."),
             }));
         };

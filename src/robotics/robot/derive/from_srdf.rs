@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::DerivedArm;
 use super::text::symbol;
 use crate::robot::arm_positions::ArmPositions;
-use crate::robot::{JointId, KinematicTree, LinkId, Srdf};
+use crate::robot::{JointId, KinematicTree, LinkId, Srdf, TouchingPairs};
 
 /// How a word begins in the names of postures in which an arm is out of the way, the best one first.
 const OUT_OF_THE_WAY: [&str; 8] = [
@@ -18,49 +18,65 @@ const OUT_OF_THE_WAY: [&str; 8] = [
     "home",
     "ready",
 ];
-/// Names of links that a remark tells.
+/// Names that a remark tells.
 const MOST_NAMES: usize = 4;
 
-/// The pairs of links that the SRDF lets touch, the one that comes first in the URDF first.
+/// The pairs of links that the SRDF lets touch, and that do so in some posture: the others are checked at no cost. The one
+/// that comes first in the URDF is the first.
 pub(super) fn pairs(
     tree: &KinematicTree,
     srdf: &Srdf,
+    sampled: &TouchingPairs,
     remarks: &mut Vec<String>,
 ) -> BTreeSet<(LinkId, LinkId)> {
     let named = srdf.pairs.iter().flat_map(|(one, other)| [one, other]);
-    let named = named.chain(&srdf.links);
     let unknown: BTreeSet<&str> = named
         .map(String::as_str)
         .filter(|name| tree.link_named(name).is_none())
         .collect();
     if !unknown.is_empty() {
-        let names: Vec<&str> = unknown.iter().copied().take(MOST_NAMES).collect();
-        let dots = if unknown.len() > MOST_NAMES {
-            ", …"
-        } else {
-            ""
-        };
         remarks.push(format!(
             "The SRDF names links that the URDF lacks, which is no fault if they are parts that this robot is \
-             without: {}{dots}.",
-            names.join(", ")
+             without: {}.",
+            some(unknown.into_iter())
+        ));
+    }
+    if !srdf.links.is_empty() {
+        remarks.push(format!(
+            "The SRDF leaves some links unchecked altogether; they are checked here: {}.",
+            some(srdf.links.iter().map(String::as_str))
         ));
     }
     let is_solid = |link: &LinkId| !tree.link(*link).collisions.is_empty();
     let solid = |name: &String| tree.link_named(name).filter(is_solid);
-    let ordered = |one: LinkId, other: LinkId| (one.min(other), one.max(other));
-    let pairs = srdf.pairs.iter();
-    let mut found: BTreeSet<(LinkId, LinkId)> = pairs
-        .filter_map(|(one, other)| Some(ordered(solid(one)?, solid(other)?)))
+    let never: BTreeSet<_> = sampled.never.iter().copied().collect();
+    let found: BTreeSet<(LinkId, LinkId)> = (srdf.pairs.iter())
+        .filter_map(|(one, other)| Some((solid(one)?, solid(other)?)))
+        .map(|(one, other)| (one.min(other), one.max(other)))
+        .filter(|pair| !never.contains(pair))
         .collect();
-    for link in srdf.links.iter().filter_map(solid) {
-        let all = tree.links().map(|(other, _)| other).filter(is_solid);
-        found.extend(
-            all.filter(|other| *other != link)
-                .map(|other| ordered(link, other)),
-        );
+    let built: BTreeSet<_> = sampled.by_construction().collect();
+    let sometimes: Vec<String> = (found.difference(&built))
+        .map(|(one, other)| format!("{} and {}", tree.link(*one).name, tree.link(*other).name))
+        .collect();
+    if !sometimes.is_empty() {
+        remarks.push(format!(
+            "The SRDF lets links touch that do so in some postures only, so that real collisions of theirs are not \
+             seen: {}.",
+            some(sometimes.iter().map(String::as_str))
+        ));
     }
     found
+}
+
+/// The first of some names, and how many more there are.
+fn some<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    let more = names.len().saturating_sub(MOST_NAMES);
+    let first: Vec<&str> = names.take(MOST_NAMES).collect();
+    match more {
+        0 => first.join(", "),
+        more => format!("{}, and {more} more", first.join(", ")),
+    }
 }
 
 /// The postures of an arm, each name once: those that say where all of its joints are, within their limits.

@@ -99,7 +99,7 @@ impl DerivedRobot {
             .by_construction()
             .filter(|(a, b)| !rolls(a) && !rolls(b))
             .chain(grippers.flat_map(DerivedGripper::pad_pairs))
-            .chain(from_srdf::pairs(tree, srdf, &mut remarks))
+            .chain(from_srdf::pairs(tree, srdf, &pairs, &mut remarks))
             .collect();
         let mut q = tree.zero_positions();
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
