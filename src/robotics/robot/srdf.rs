@@ -23,6 +23,8 @@ pub struct Srdf {
     /// Pairs of different links that are not checked although they may touch, in the order of the file: what its author
     /// has found never to touch is not among them.
     pub pairs: Vec<(String, String)>,
+    /// Those of them that, as its author says, touch as the robot is built, or nearly always.
+    pub built: Vec<(String, String)>,
     /// How many further pairs are not checked since they never touch.
     pub never: usize,
     /// Links that are never checked.
@@ -52,17 +54,24 @@ impl Srdf {
             match element.name {
                 "disable_collisions" | "disable_self_collision" => {
                     let ends = (value(element, "link1"), value(element, "link2"));
-                    let never = element
-                        .attribute("reason")
-                        .is_some_and(|r| r.value == "Never");
-                    if let (Some(one), Some(other)) = ends
-                        && one != other
-                    {
-                        match never {
-                            true => srdf.never += 1,
-                            false => srdf.pairs.push((one, other)),
-                        }
+                    let (Some(one), Some(other)) = ends else {
+                        continue;
+                    };
+                    if one == other {
+                        continue;
                     }
+                    let reason = element.attribute("reason").map(|r| r.value.as_ref());
+                    match reason {
+                        Some("Never") => {
+                            srdf.never += 1;
+                            continue;
+                        }
+                        Some("Adjacent" | "Default" | "AlmostAlways") => {
+                            srdf.built.push((one.clone(), other.clone()));
+                        }
+                        _ => {}
+                    }
+                    srdf.pairs.push((one, other));
                 }
                 "disable_all_collisions" => srdf.links.extend(value(element, "link")),
                 "group_state" => {
@@ -109,6 +118,7 @@ mod tests {
         let srdf = Srdf::read(text, "r.srdf").expect("it is well-formed");
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(srdf.pairs, [pair("a", "b"), pair("b", "c")]);
+        assert_eq!(srdf.built, [pair("a", "b")]);
         assert_eq!(srdf.never, 1);
         assert_eq!(srdf.links, ["d"]);
         let state = srdf.states.first().expect("there is one");
