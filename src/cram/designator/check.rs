@@ -94,11 +94,8 @@ fn type_specifier(image: &mut Image, kind: &Kind, name: &str) -> Value {
 /// What to write instead, if that can be guessed.
 fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String> {
     let key = name.to_lowercase();
-    let quoted = value
-        .car_or_nil()
-        .as_symbol()
-        .is_some_and(|s| image.is_keyword(s) && image.name(s) == "QUOTE");
-    if quoted {
+    let head = value.car_or_nil();
+    if keyword(image, &head).is_some_and(|operator| is_called(image, operator)) {
         return Some(format!(
             "Nothing is quoted or called inside a designator: bind a variable such as ?{key} and write ({key} ?{key})."
         ));
@@ -136,6 +133,14 @@ fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String>
         }
         _ => None,
     }
+}
+
+/// Whether a list that begins with the keyword was meant to be evaluated: it was read as QUOTE or the name of a function.
+fn is_called(image: &Image, operator: Sym) -> bool {
+    let name = image.name(operator);
+    let package = image.current_package();
+    let symbol = image.packages.find_symbol(package, name);
+    name == "QUOTE" || symbol.is_some_and(|(symbol, _)| image.function(symbol).is_some())
 }
 
 /// Whether the name is that of a global variable by convention, `*NAME*`.

@@ -305,6 +305,10 @@ fn property_values_of_wrong_types_are_named() {
             "!! [LOCATION SPEC:PROPERTY]: (:QUOTE ((0 1 0) (0 0 0 1))) had to be of type POSE-STAMPED\nNothing is quoted or called inside a designator: bind a variable such as ?pose and write (pose ?pose).",
         ),
         (
+            "(perform (a motion (type moving-torso) (joint-angle (max 1 2))))",
+            "!! [MOTION SPEC:PROPERTY]: (:MAX 1 2) had to be of type NUMBER\nNothing is quoted or called inside a designator: bind a variable such as ?joint-angle and write (joint-angle ?joint-angle).",
+        ),
+        (
             "(perform (a motion (type moving-torso) (joint-angle up)))",
             "!! [MOTION SPEC:PROPERTY]: :UP had to be of type NUMBER",
         ),
