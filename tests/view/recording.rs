@@ -7,7 +7,7 @@ use session::dialogue::{Evaluate, Outcome};
 use session::{Session, SessionOptions};
 use view::watch::live::{History, Origin};
 use view::watch::recording::read::Recording;
-use view::watch::recording::{RecordingError, read_recording};
+use view::watch::recording::{Episode, RecordingError, Wanted, read_episode, read_recording};
 use view::watch::{Kind, Press, TaskState, WatchEvent};
 
 const EXERCISE: &str = "(in-package :pp-tut)
@@ -245,6 +245,59 @@ fn what_other_tools_have_compressed_is_read() {
         told,
         "a chunk is compressed with snappy: only lz4 and zstd can be read"
     );
+}
+
+/// The rows of a relation of an episode.
+fn rows<'e>(episode: &'e Episode, name: &str) -> &'e view::watch::recording::Rows {
+    let mut relations = episode.relations.iter();
+    &relations.find(|(known, _)| *known == name).unwrap().1
+}
+
+#[test]
+fn relations_do_not_depend_on_how_chunks_are_compressed() {
+    let (bytes, _) = recorded("relations");
+    let whole = read_episode(&bytes[..], Wanted::ALL).unwrap();
+    assert!(!whole.is_cut_off && !rows(&whole, "task").rows.is_empty());
+    for packed in [
+        compressed(&bytes, "", <[u8]>::to_vec),
+        compressed(&bytes, "lz4", lz4),
+        compressed(&bytes, "zstd", zstd),
+    ] {
+        let found = read_episode(&packed[..], Wanted::ALL).unwrap();
+        assert_eq!(found.relations, whole.relations);
+        assert!(!found.is_cut_off);
+    }
+    let unknown = compressed(&bytes, "snappy", <[u8]>::to_vec);
+    assert!(read_episode(&unknown[..], Wanted::ALL).is_err());
+}
+
+#[test]
+fn chunks_that_hold_nothing_wanted_stay_packed() {
+    const CHUNK: u8 = 6;
+    let (bytes, _) = recorded("skipped");
+    let whole = read_episode(&bytes[..], Wanted::ALL).unwrap();
+    let tasks = Wanted::of(|name| name == "task");
+    let (mut at, mut chunks, mut skipped) = (8, 0, 0);
+    while at + 9 <= bytes.len() {
+        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap());
+        let end = at + 9 + usize::try_from(length).unwrap();
+        if bytes[at] == CHUNK {
+            chunks += 1;
+            let mut damaged = bytes.clone();
+            damaged[end - 20] ^= 0x55;
+            // There is something of all relations in each of them: where the robot is.
+            let all = read_episode(&damaged[..], Wanted::ALL);
+            assert!(all.map_or(true, |all| all.is_cut_off), "chunk {chunks}");
+            if let Ok(found) = read_episode(&damaged[..], tasks)
+                && !found.is_cut_off
+            {
+                skipped += 1;
+                assert_eq!(rows(&found, "task"), rows(&whole, "task"));
+            }
+        }
+        at = end;
+    }
+    assert!(0 < skipped && skipped < chunks, "{skipped} of {chunks}");
 }
 
 #[test]

@@ -208,11 +208,12 @@ fn add_lines(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), Comma
 }
 
 fn add_recording(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), CommandError> {
-    let bytes = fs::read(input).map_err(|error| CommandError::Read {
+    let file = File::open(input).map_err(|error| CommandError::Read {
         path: input.to_owned(),
         error,
     })?;
-    let episode = read_episode(&bytes, Wanted::ALL).map_err(|error| wrong(input, error))?;
+    let episode =
+        read_episode(BufReader::new(file), Wanted::ALL).map_err(|error| wrong(input, error))?;
     if episode.is_cut_off {
         let text = "WARNING: {} ends abruptly: what came after that is not known.";
         // If standard error is closed, nobody wants to know.

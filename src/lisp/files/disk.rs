@@ -27,6 +27,10 @@ impl Files for Disk {
         waiting::read(name)
     }
 
+    fn reader(&self, name: &str) -> Result<Box<dyn Read>> {
+        waiting::reader(name)
+    }
+
     fn read_plan(&self, name: &str) -> Result<Vec<u8>> {
         let known = fs::metadata(name)?;
         plan::permit_regular(&known)?;

@@ -11,7 +11,7 @@ mod plan;
 mod waiting;
 
 use std::fmt::Debug;
-use std::io::{self, Seek, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
 pub use closed::Closed;
@@ -27,6 +27,11 @@ pub trait Files: Debug + Send + Sync {
 
     /// All bytes of a file.
     fn read(&self, name: &str) -> io::Result<Vec<u8>>;
+
+    /// The bytes of a file, one after the other. Reading ends long work as [`crate::guard::look`] does.
+    fn reader(&self, name: &str) -> io::Result<Box<dyn Read>> {
+        Ok(Box::new(io::Cursor::new(self.read(name)?)))
+    }
 
     /// All bytes of a file of forms, which is no folder and has [`MAX_PLAN_BYTES`] at most.
     fn read_plan(&self, name: &str) -> io::Result<Vec<u8>> {

@@ -4,7 +4,7 @@
 #[cfg(unix)]
 use std::fs;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 
 use crate::guard;
 
@@ -31,6 +31,28 @@ pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
+    }
+}
+
+/// The bytes of a file as they are read, up to a reason to stop.
+pub(super) fn reader(path: &str) -> io::Result<Box<dyn Read>> {
+    #[cfg(unix)]
+    if keeps_waiting(path) {
+        return Ok(Box::new(io::Cursor::new(interruptible::read(path)?)));
+    }
+    Ok(Box::new(BufReader::with_capacity(
+        CHUNK,
+        Looking(File::open(path)?),
+    )))
+}
+
+/// A file at each reading of which what ends long work is looked for.
+struct Looking(File);
+
+impl Read for Looking {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        guard::look();
+        self.0.read(to)
     }
 }
 

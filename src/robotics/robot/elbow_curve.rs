@@ -18,6 +18,10 @@ use super::arm_chain::{ArmChain, ELBOW, FLEX, LIFT, PAN, ROLL};
 use super::polynomial::quartic_roots;
 use spatial::{Pose, trig};
 
+/// How often the curve meets limits at most, but for that of the wrist flex, with the ends of the lift's range: two
+/// lift angles each for the wrist on either side of the pan axis, and for the limits of pan and elbow, and four for a
+/// limit of the roll.
+const MAX_CUTS: usize = 2 + 2 * (2 + 2 + 2) + 2 * 4;
 /// Positions up to this far (rad) outside a limit count as on the limit.
 const SLACK: f64 = 1e-9;
 
@@ -105,7 +109,8 @@ impl<'a> ElbowCurve<'a> {
     /// The stretches on which every joint is within its limits.
     pub(super) fn stretches(&self) -> Vec<Stretch> {
         let lift = self.chain.limits(LIFT);
-        let mut cuts = vec![lift.lower, lift.upper];
+        let mut cuts = Vec::with_capacity(MAX_CUTS);
+        cuts.extend([lift.lower, lift.upper]);
         for along in [self.reach, -self.reach] {
             self.cut_where_wrist_is_along(along, &mut cuts);
         }

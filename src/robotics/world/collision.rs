@@ -547,6 +547,7 @@ mod tests {
             let joints = [arm.joints()[0], arm.joints()[3]];
             let moving = || MovingParts::of_joints(&models.robot, &joints);
             let mut reused = world.collision_checker();
+            let mut quick = [(); 3].map(|()| world.collision_checker());
             let mut changing = world.collision_checker();
             changing.expect(moving(), Pairs::Changing);
             let none = AllowedPairs::none();
@@ -555,6 +556,11 @@ mod tests {
                 robot.joints.set(joints[1], elbow);
                 let all = world.collision_checker().all_hits(&robot, &none, 0.05);
                 prop_assert_eq!(&reused.all_hits(&robot, &none, 0.05), &all);
+                // It looks first at what was in the way before.
+                for (margin, quick) in [0.0, 0.02, 0.05].into_iter().zip(&mut quick) {
+                    let free = world.collision_checker().is_free(&robot, &none, margin);
+                    prop_assert_eq!(quick.is_free(&robot, &none, margin), free);
+                }
                 let mut found = changing.all_hits(&robot, &none, 0.05);
                 let mut constant = world.collision_checker();
                 constant.expect(moving(), Pairs::Constant);

@@ -12,10 +12,11 @@ use super::frame::Frame;
 use super::link_pairs::{BLOCK, LinkPairs, blocks_of, meet};
 use super::models::Footing;
 use super::moving_parts::{MovingParts, Pairs};
+use super::near_solids::{visit_near, with_slack};
 use super::oriented_box::OrientedBox;
 use super::part_key::{PartKey, index};
 use super::placed_solid::PlacedSolid;
-use super::separation::{Separation, below_floor, overlap, separation};
+use super::separation::{Separation, below_floor};
 use super::solid::{Solid, to_parry};
 use super::surroundings::Surroundings;
 use crate::robot::LinkId;
@@ -77,6 +78,27 @@ pub struct Scratch {
     near_block: Vec<(Aabb, usize)>,
     /// The pairs of links with bounds that are near each other.
     near: Vec<(usize, usize)>,
+    /// What has been looked at last: after a search that was stopped, the pair that stopped it.
+    last: Option<Looked>,
+}
+
+/// A pair that has been looked at: the place of a mover, and what it may touch.
+#[derive(Clone, Copy)]
+struct Looked {
+    mover: usize,
+    at: At,
+}
+
+/// What a mover may touch.
+#[derive(Clone, Copy)]
+enum At {
+    Floor,
+    /// By its place in the list of all furniture.
+    Furniture(usize),
+    /// By its place in the list of objects.
+    Object(usize),
+    /// Another mover, by its place.
+    Mover(usize),
 }
 
 /// A link or a held object, placed for one query.
@@ -132,7 +154,9 @@ impl<'w> Surroundings<'w> {
         blocks.clear();
         blocks.extend(blocks_of(bounds));
         // Whether the visitor stopped the search is of no interest to the caller.
-        let _stopped = search.run();
+        if search.run().is_continue() {
+            scratch.last = None;
+        }
     }
 }
 
@@ -140,6 +164,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     fn run(&mut self) -> ControlFlow<()> {
         let around = self.around;
         let links = &around.models.robot_geometry.solid_links;
+        self.again()?;
         self.find_furniture();
         for block in 0..self.scratch.blocks.len() {
             let movers = self.scratch.movers.len();
@@ -192,6 +217,37 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Looks first at the pair that has stopped the last search, where any pair is as good as another one: searches for
+    /// a free configuration ask about many that are like each other.
+    fn again(&mut self) -> ControlFlow<()> {
+        let last = self.scratch.last.take();
+        if self.question.wanted != Wanted::Whether || self.question.only.is_some() {
+            return ControlFlow::Continue(());
+        }
+        match last {
+            Some(Looked {
+                mover,
+                at: At::Mover(other),
+            }) if self.question.links.is_none() => self.against_each_other(mover, other),
+            Some(Looked { mover, at }) => {
+                let scratch = &self.scratch;
+                let (Some(bounds), true) = (
+                    scratch.bounds.get(mover),
+                    (scratch.movers.get(mover)).is_some_and(|mover| self.asks_of_mover(mover)),
+                ) else {
+                    return ControlFlow::Continue(());
+                };
+                let bounds = with_slack(bounds, self.margin);
+                match at {
+                    At::Furniture(place) => self.against_furniture(mover, &bounds, place),
+                    At::Object(place) => self.against_object(mover, &bounds, place),
+                    At::Floor | At::Mover(_) => ControlFlow::Continue(()),
+                }
+            }
+            None => ControlFlow::Continue(()),
+        }
     }
 
     /// Whether the question is about any pair with the mover of that index.
@@ -364,27 +420,15 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             return ControlFlow::Continue(());
         }
         let (key, lowest) = (mover.key, own.mins.z);
-        let (bounds, margin) = (with_slack(own, self.margin), self.margin);
+        let bounds = with_slack(own, self.margin);
         for i in 0..self.scratch.near_block.len() {
             let (near, obstacle) = &self.scratch.near_block[i];
-            if !meet(near, &bounds) {
-                continue;
-            }
-            // This is a place in the list.
-            let obstacle = &around.furniture.all()[*obstacle];
-            if !self.is_allowed(key, obstacle.key) {
-                let other = (&obstacle.solid, &obstacle.placed);
-                self.against_solid(place, obstacle.key, other, margin)?;
+            if meet(near, &bounds) {
+                self.against_furniture(place, &bounds, *obstacle)?;
             }
         }
-        for object in &around.objects {
-            if !object.bounds.intersects(&bounds) || self.is_allowed(key, object.key) {
-                continue;
-            }
-            for solid in object.solids {
-                let placed = PlacedSolid::new(solid, &object.pose);
-                self.against_solid(place, object.key, (solid, &placed), margin)?;
-            }
+        for object in 0..around.objects.len() {
+            self.against_object(place, &bounds, object)?;
         }
         let margin = match around.models.footing(key) {
             Footing::Rolls => return ControlFlow::Continue(()),
@@ -392,6 +436,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             Footing::Reaches => self.margin,
         };
         if lowest < margin && !self.is_allowed(key, PartKey::Floor) {
+            self.scratch.last = Some(Looked {
+                mover: place,
+                at: At::Floor,
+            });
             let first = self.place_solids(place);
             for (i, solid) in around.solids(place).iter().enumerate() {
                 // The solids were placed from `first` on by the line above.
@@ -405,6 +453,43 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
                     (self.visit)(near, &mut self.margin)?;
                 }
             }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Checks a mover, whose bounds with the margin are given, against a piece of furniture.
+    fn against_furniture(&mut self, mover: usize, bounds: &Aabb, place: usize) -> ControlFlow<()> {
+        let around = self.around;
+        // Both places are in their lists.
+        let obstacle = &around.furniture.all()[place];
+        let key = self.scratch.movers[mover].key;
+        if !meet(&obstacle.placed.bounds, bounds) || self.is_allowed(key, obstacle.key) {
+            return ControlFlow::Continue(());
+        }
+        self.scratch.last = Some(Looked {
+            mover,
+            at: At::Furniture(place),
+        });
+        let other = (&obstacle.solid, &obstacle.placed);
+        self.against_solid(mover, obstacle.key, other)
+    }
+
+    /// Checks a mover, whose bounds with the margin are given, against an object.
+    fn against_object(&mut self, mover: usize, bounds: &Aabb, place: usize) -> ControlFlow<()> {
+        let around = self.around;
+        // Both places are in their lists.
+        let object = &around.objects[place];
+        let key = self.scratch.movers[mover].key;
+        if !object.bounds.intersects(bounds) || self.is_allowed(key, object.key) {
+            return ControlFlow::Continue(());
+        }
+        self.scratch.last = Some(Looked {
+            mover,
+            at: At::Object(place),
+        });
+        for solid in object.solids {
+            let placed = PlacedSolid::new(solid, &object.pose);
+            self.against_solid(mover, object.key, (solid, &placed))?;
         }
         ControlFlow::Continue(())
     }
@@ -429,6 +514,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             return ControlFlow::Continue(());
         }
         let keys = (one.key, two.key);
+        self.scratch.last = Some(Looked {
+            mover: a,
+            at: At::Mover(b),
+        });
         let (first1, first2) = (self.place_solids(a), self.place_solids(b));
         let (solids1, solids2) = (around.solids(a), around.solids(b));
         let bounds = with_slack(&self.scratch.bounds[a], margin);
@@ -460,9 +549,8 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         place: usize,
         other: PartKey,
         solid: (&Solid, &PlacedSolid),
-        margin: f64,
     ) -> ControlFlow<()> {
-        let first = self.place_solids(place);
+        let (first, margin) = (self.place_solids(place), self.margin);
         // The mover exists: its solids were placed from `first` on.
         let moving = self.scratch.movers[place].key;
         let own = self.around.solids(place).iter();
@@ -505,49 +593,4 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 /// The pair as lists of pairs have it.
 pub(super) fn in_order(a: PartKey, b: PartKey) -> (PartKey, PartKey) {
     (a.min(b), a.max(b))
-}
-
-/// Visits the solids that are closer to another one than the margin (m) and than `most` (m), which
-/// the visitor may lower, until the visitor stops. With `is_quick` the distances are meaningless:
-/// how deep solids overlap costs much more than that they do.
-fn visit_near<'a>(
-    solids: impl Iterator<Item = (&'a Solid, &'a PlacedSolid)>,
-    (other, at): (&Solid, &PlacedSolid),
-    is_quick: bool,
-    margin: f64,
-    most: &mut f64,
-    visit: &mut impl FnMut(Separation, &mut f64) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    for (solid, placed) in solids {
-        let margin = margin.min(*most);
-        let (box1, box2) = (&solid.containing_box, &other.containing_box);
-        if !with_slack(&placed.bounds, margin).intersects(&at.bounds)
-            || box1.is_apart(&placed.frame, box2, &at.frame, margin.max(0.0))
-        {
-            continue;
-        }
-        let (one, two) = (&placed.pose, &at.pose);
-        let overlapping = match is_quick && margin >= 0.0 {
-            true => overlap(one, solid, two, other),
-            false => None,
-        };
-        let near = match overlapping {
-            // Without a margin, nothing else counts.
-            None if !is_quick || margin != 0.0 => separation(one, solid, two, other, margin),
-            known => known,
-        };
-        if let Some(separation) = near {
-            visit(separation, most)?;
-        }
-    }
-    ControlFlow::Continue(())
-}
-
-/// The bounds, grown by the margin (m) unless it is negative.
-fn with_slack(bounds: &Aabb, margin: f64) -> Aabb {
-    if margin > 0.0 {
-        bounds.loosened(margin)
-    } else {
-        *bounds
-    }
 }

@@ -39,6 +39,7 @@ mod map_area;
 pub mod models;
 pub(crate) mod moved_part;
 mod moving_parts;
+mod near_solids;
 pub mod noise;
 pub mod object;
 pub mod object_definitions;

@@ -108,8 +108,8 @@ pub(super) static TABLE: &[Builtin] = &[
     ),
     control(
         "%REACHED-GRASPS",
-        "names sides each &optional absent",
-        "By which grasps hands reach objects from where the robot stands, as lists (object side grasp): all grasps if EACH is :GRASP, the first of each hand if :SIDE, the first of all if :OBJECT; as if the objects ABSENT were not there.",
+        "names sides each &optional absent among",
+        "By which grasps hands reach objects from where the robot stands, as lists (object side grasp): all grasps if EACH is :GRASP, the first of each hand if :SIDE, the first of all if :OBJECT; as if the objects ABSENT were not there. With AMONG, lists such as these, of no others.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%reached-grasps '(bottle-1) '(:left :right) :grasp)) => NIL",
         ],

@@ -48,6 +48,8 @@ pub(super) fn reached(
     let absent = args.get(3).filter(|absent| absent.is_true());
     let absent = absent.map(|absent| names_in(simulation, image, absent));
     let absent = absent.transpose()?.unwrap_or_default();
+    let among = args.get(4).filter(|among| among.is_true());
+    let among: Option<Vec<Value>> = among.map(|rows| rows.iter_list().collect());
     let simulation = &*simulation;
     let copy = without_held(simulation, &absent)?;
     let (world, absent) = match &copy {
@@ -63,12 +65,21 @@ pub(super) fn reached(
                 let Some(definition) = simulation.definition(kind, side, &grasp) else {
                     continue;
                 };
+                let row = [
+                    simulation.symbol_of(name),
+                    side_keyword(image, side),
+                    type_keyword(image, &grasp),
+                ];
+                let symbols = row.each_ref().map(Value::as_symbol);
+                let is_row =
+                    |other: &Value| other.iter_list().map(|part| part.as_symbol()).eq(symbols);
+                if among.as_ref().is_some_and(|all| !all.iter().any(is_row)) {
+                    continue;
+                }
                 if !reached.has(name, side, &definition)? {
                     continue;
                 }
-                let symbol = simulation.symbol_of(name);
-                let side = side_keyword(image, side);
-                rows.push(Value::list([symbol, side, type_keyword(image, &grasp)]));
+                rows.push(Value::list(row));
                 match each {
                     Each::Object => break 'object,
                     Each::Side => break,

@@ -120,8 +120,8 @@ fn add_text(simulation: &mut Simulation, relation: &str, text: &str) -> Result<R
 
 fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let file = name_of(image, &args[0]);
-    let bytes = image.files.read(&file);
-    let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
+    let reader = image.files.reader(&file);
+    let reader = reader.map_err(|error| Raise::simple(error.to_string()))?;
     let names = args.get(1).into_iter().flat_map(Value::iter_list);
     let names: Vec<String> = names
         .map(|name| name_of(image, &name).to_lowercase())
@@ -130,7 +130,7 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         true => Wanted::ALL,
         false => Wanted::of(|name| names.iter().any(|other| other == name)),
     };
-    let episode = read_episode(&bytes, wanted).map_err(|error| Raise::simple(error.to_string()))?;
+    let episode = read_episode(reader, wanted).map_err(|error| Raise::simple(error.to_string()))?;
     let facts = Rc::make_mut(&mut simulation.facts);
     let is_cut_off = episode.is_cut_off;
     add_episode(facts, episode);

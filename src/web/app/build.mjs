@@ -89,7 +89,6 @@ const texts = {
   'tutorial-data': JSON.stringify(tutorial()),
   'plans-data': JSON.stringify(plans()),
   worker: read(here, 'worker.js'),
-  unpack: await script('unpack.js'),
   shim: read(here, 'view_shim.js'),
 };
 const boot = (await script('boot.js')).replaceAll('</script', '<\\/script');
@@ -100,10 +99,13 @@ const page = (policy, parts) => read(here, 'index.html')
 const rules = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "
   + "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
 
+// The second part of the program is unpacked before the library.
+const half = Math.ceil(wasm.length * 0.55);
 // Each is a part of the one file, and a file of the folder.
 const parts = {
   page: packed(JSON.stringify({ texts, script: await script('main.js') })),
-  program: packed(wasm),
+  'program-1': packed(wasm.subarray(0, half)),
+  'program-2': packed(wasm.subarray(half)),
   library: packed(await compiledLibrary(wasm)),
 };
 const inPage = Object.entries(parts).map(([id, bytes]) => `<script type="text/plain" id="${id}">${toText(bytes)}</script>\n`);

@@ -1,6 +1,6 @@
 // The session: starts the worker, sends requests, and brings a session back by its inputs.
 
-import { partText, placeOf } from './parts.js';
+import { partText } from './parts.js';
 
 const PACES = { pause: -1, go: -2, 'speed max': -3 };
 
@@ -19,23 +19,11 @@ export class Engine extends EventTarget {
     this.queue = [];
     // Where the scripts of workers are.
     this.sources = {};
-    // It takes the longest: a failure is reported when a session begins.
-    this.parts().catch(() => {});
   }
 
-  // The program, and the code from which sessions start.
+  // The program, and the code from which sessions start, which have been on their way since the page began.
   parts() {
-    this.unpacked ??= new Promise((go, fail) => {
-      const worker = this.makeWorker('unpack');
-      worker.onerror = (event) => fail(new Error(event.message));
-      worker.onmessage = ({ data: { parts, failed } }) => {
-        worker.terminate();
-        if (parts) go(parts);
-        else fail(new Error(`The program cannot be loaded (${failed}).`));
-      };
-      worker.postMessage({ program: placeOf('program'), library: placeOf('library') });
-    });
-    return this.unpacked;
+    return self.program.catch(({ message }) => { throw new Error(`The program cannot be loaded (${message}).`); });
   }
 
   makeWorker(id = 'worker') {
@@ -54,13 +42,14 @@ export class Engine extends EventTarget {
     this.queue = [];
     for (const give of this.answers.values()) give({});
     this.answers.clear();
+    // It starts while the program is still unpacked.
+    const worker = this.makeWorker();
+    this.worker = worker;
     const [module, code] = await this.parts().catch((error) => {
       this.tell('message', { failed: error.message });
       return [];
     });
-    if (!module) return;
-    const worker = this.makeWorker();
-    this.worker = worker;
+    if (!module || worker !== this.worker) return;
     worker.onmessage = ({ data }) => { if (worker === this.worker) this.hear(data); };
     worker.onerror = (event) => { if (worker === this.worker) this.crash(event.message); };
     this.shared = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(16)) : null;

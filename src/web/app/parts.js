@@ -13,12 +13,12 @@ export const placeOf = (id) => {
 };
 
 // A part, as it is unpacked.
-export async function unpacked({ text, address }, type) {
+export async function unpacked({ text, address }) {
   const packed = text
     ? new Blob([fromText(text)]).stream()
     : await fetch(address).then((answer) => {
       if (!answer.ok) throw new Error(`${address}: ${answer.status} ${answer.statusText}`);
       return answer.body;
     });
-  return new Response(new XzReadableStream(packed), { headers: { 'Content-Type': type } });
+  return new Response(new XzReadableStream(packed));
 }

@@ -184,10 +184,11 @@ impl PoseGoalTask<'_> {
             let kinematics = &self.body().arm(*side).kinematics;
             let wrist = self.wrist(*side, tcp, height);
             let found = kinematics.solutions(&wrist, CONFIGURATION_STEP);
-            let mut next = Vec::new();
+            let mut next = Vec::with_capacity(all.len() * found.len());
             for before in &all {
                 for solution in &found {
-                    let mut positions = before.positions.clone();
+                    let mut positions = Vec::with_capacity(now.len());
+                    positions.extend_from_slice(&before.positions);
                     let mut cost = before.cost;
                     for (q, limits) in solution.iter().zip(kinematics.limits()) {
                         // There is one axis per joint of every arm with a goal, so one is left.

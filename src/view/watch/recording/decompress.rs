@@ -5,16 +5,19 @@
 
 use std::borrow::Cow;
 use std::io::{self, ErrorKind, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use lz4_flex::frame::FrameDecoder;
-use mcap::MAGIC;
 use mcap::records::op;
+use mcap::{MAGIC, McapError};
 use ruzstd::decoding::StreamingDecoder;
 
 use super::RecordingError;
+use super::chunks::Content;
+use super::read::panicked;
 
 /// Maximum unpacked size (bytes) of a chunk. Recorders write chunks of some megabytes.
-const MAX_CHUNK: u64 = 1 << 30;
+pub(super) const MAX_CHUNK: u64 = 1 << 30;
 
 /// The file with all its chunks unpacked. A file without compressed chunks, or without records,
 /// is returned as it is; from the first malformed record on, so is the rest of any file.
@@ -127,7 +130,7 @@ pub(super) struct Chunk<'a> {
 }
 
 impl<'a> Chunk<'a> {
-    pub(super) fn of(record: &'a [u8]) -> Option<Self> {
+    fn of(record: &'a [u8]) -> Option<Self> {
         let (times, rest) = record.split_at_checked(16)?;
         let (size, rest) = number(rest)?;
         let (checksum, rest) = rest.split_at_checked(4)?;
@@ -149,22 +152,22 @@ impl<'a> Chunk<'a> {
         !self.compression.is_empty()
     }
 
-    /// The records in this chunk. A buffer holds them if they have to be unpacked.
-    pub(super) fn content_in<'c>(
-        &'c self,
-        buffer: &'c mut Vec<u8>,
-    ) -> Result<&'c [u8], RecordingError> {
-        if !self.is_compressed() {
-            return Ok(self.content);
+    /// What the chunk of a record holds, in memory that is no longer needed.
+    ///
+    /// Damage that makes a library panic is an error, too.
+    pub(super) fn unpacked(record: &[u8], mut bytes: Vec<u8>) -> Result<Content, RecordingError> {
+        let chunk = Chunk::of(record).ok_or(McapError::UnexpectedEof)?;
+        if chunk.is_compressed() {
+            let unpack = AssertUnwindSafe(|| chunk.unpack_content(&mut bytes));
+            catch_unwind(unpack).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))?;
+        } else {
+            bytes.clear();
+            bytes.extend_from_slice(chunk.content);
         }
-        self.unpack_content(buffer)?;
-        Ok(buffer)
-    }
-
-    /// Is the content as its checksum says? Zero stands for none.
-    pub(super) fn is_whole(&self, content: &[u8]) -> bool {
-        let found = crc32fast::hash(content).to_le_bytes();
-        matches!(self.checksum, [0, 0, 0, 0]) || self.checksum == found
+        let found = crc32fast::hash(&bytes).to_le_bytes();
+        // Zero stands for none.
+        let is_whole = matches!(chunk.checksum, [0, 0, 0, 0]) || chunk.checksum == found;
+        Ok(Content { bytes, is_whole })
     }
 
     /// Replaces the contents of a buffer by those of this chunk.

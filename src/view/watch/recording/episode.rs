@@ -1,14 +1,13 @@
 //! What was performed in a recording, as relations: rows as an exported episode has them. Pictures are passed over, and
 //! so are poses unless they are wanted.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::io::Read;
 
 use super::RecordingError;
 use super::channel::Channel;
 use super::message::{Log, Shown, Task};
 use super::messages::walk;
 use super::places::Places;
-use super::read::panicked;
 use super::rows::{Datum, Rows};
 use super::told::told;
 use crate::watch::TaskState;
@@ -56,13 +55,8 @@ impl Wanted {
     }
 }
 
-/// Reads the relations of a recording's bytes.
-pub fn read_episode(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
-    let read = AssertUnwindSafe(|| read(bytes, wanted));
-    catch_unwind(read).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))
-}
-
-fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
+/// Reads the relations of a recording.
+pub fn read_episode(mut file: impl Read, wanted: Wanted) -> Result<Episode, RecordingError> {
     let mut rows = Found::default();
     let mut places = Places::default();
     let mut last_shown = Vec::new();
@@ -73,7 +67,7 @@ fn read(bytes: &[u8], wanted: Wanted) -> Result<Episode, RecordingError> {
         Channel::Transforms | Channel::Objects => wanted.places,
         _ => false,
     };
-    let walked = walk(bytes, &is_wanted, &mut |message| {
+    let walked = walk(&mut file, &is_wanted, &mut |message| {
         let (channel, time) = (message.channel, message.time);
         if channel == Channel::Transforms {
             return places.transforms(message);

@@ -1,14 +1,20 @@
-//! Walks through the messages of a recording, one chunk after the other, so that no more than one is unpacked at a
-//! time. The library for MCAP files needs all of them at once, since it cannot unpack any.
+//! Walks through the messages of a recording as it is read, with a few chunks unpacked at a time. The library for MCAP
+//! files needs all of them at once, since it cannot unpack any.
+//!
+//! Chunks that hold nothing wanted, as the index after each of them says, are not unpacked; the others are by threads,
+//! ahead of who reads them.
 
 use std::collections::HashMap;
+use std::io::{self, ErrorKind, Read};
+use std::thread;
 
 use mcap::records::op;
 use mcap::{MAGIC, McapError};
 
 use super::RecordingError;
 use super::channel::Channel;
-use super::decompress::{Chunk, number, record};
+use super::chunks::Unpacker;
+use super::decompress::{MAX_CHUNK, number, record};
 
 /// A message of one of our channels.
 pub(super) struct Message<'a> {
@@ -30,7 +36,7 @@ pub(super) struct Walk {
 
 /// Hands the messages of wanted channels to a function, in the order of the file.
 pub(super) fn walk(
-    bytes: &[u8],
+    file: &mut dyn Read,
     is_wanted: &dyn Fn(Channel) -> bool,
     take: &mut dyn FnMut(&Message<'_>) -> Result<(), RecordingError>,
 ) -> Result<Walk, RecordingError> {
@@ -40,45 +46,155 @@ pub(super) fn walk(
         is_wanted,
         take,
     };
-    let mut rest = bytes.strip_prefix(MAGIC).ok_or(McapError::BadMagic)?;
-    let mut unpacked = Vec::new();
-    let mut is_cut_off = false;
-    loop {
-        let Some((opcode, content, after)) = record(rest) else {
-            is_cut_off = true;
-            let is_chunk = rest.first() == Some(&op::CHUNK);
-            match (walker.is_ours, is_chunk) {
-                (true, _) => break,
-                (false, true) => return Err(RecordingError::CutOff),
-                (false, false) => return Err(McapError::UnexpectedEof.into()),
-            }
+    let read = thread::scope(|scope| {
+        let mut file = Parts {
+            file,
+            unpacker: Unpacker::new(scope),
+            chunk: None,
         };
-        rest = after;
-        match opcode {
-            op::DATA_END | op::FOOTER => break,
-            op::CHUNK => {
-                let chunk = Chunk::of(content).ok_or(McapError::UnexpectedEof)?;
-                let content = chunk.content_in(&mut unpacked)?;
-                let done = match chunk.is_whole(content) {
-                    true => walker.chunk(content),
-                    false => Err(RecordingError::CutOff),
-                };
-                match done {
-                    // What has been read before the damage is good.
-                    Err(RecordingError::CutOff | RecordingError::Format(_)) if walker.is_ours => {
-                        is_cut_off = true;
-                        break;
-                    }
-                    done => done?,
-                }
-            }
-            _ => walker.record(opcode, content)?,
-        }
-    }
+        file.read(&mut walker)
+    });
+    let is_cut_off = match read {
+        Ok(()) => false,
+        // What has been read before the damage is good.
+        Err(RecordingError::CutOff | RecordingError::Format(_)) if walker.is_ours => true,
+        Err(error) => return Err(error),
+    };
     Ok(Walk {
         is_ours: walker.is_ours,
         is_cut_off,
     })
+}
+
+/// The records of a file, as they come.
+struct Parts<'f> {
+    file: &'f mut dyn Read,
+    unpacker: Unpacker,
+    /// The last chunk, and the channels whose messages it holds, as the index after it says.
+    chunk: Option<(Vec<u8>, Vec<u16>)>,
+}
+
+impl Parts<'_> {
+    /// Reads up to the end of the data.
+    fn read(&mut self, walker: &mut Walker<'_>) -> Result<(), RecordingError> {
+        let mut magic = [0; MAGIC.len()];
+        let begin = self.exactly(&mut magic)?;
+        if !begin || magic != MAGIC {
+            return Err(McapError::BadMagic.into());
+        }
+        let abrupt = self.records(walker)?;
+        self.end_chunk(walker)?;
+        while self.take(walker)? {}
+        abrupt.map_or(Ok(()), Err)
+    }
+
+    /// Reads records, and takes what has been unpacked meanwhile. The value is how the file ends if it does so
+    /// abruptly.
+    fn records(
+        &mut self,
+        walker: &mut Walker<'_>,
+    ) -> Result<Option<RecordingError>, RecordingError> {
+        loop {
+            let mut head = [0; 9];
+            if !self.exactly(&mut head)? {
+                return Ok(Some(McapError::UnexpectedEof.into()));
+            }
+            let [opcode, length @ ..] = head;
+            let length = u64::from_le_bytes(length);
+            if opcode == op::DATA_END || opcode == op::FOOTER {
+                return Ok(None);
+            }
+            if opcode == op::CHUNK && length > MAX_CHUNK {
+                return Err(RecordingError::LargeChunk { size: length });
+            }
+            if let op::CHUNK | op::CHANNEL | op::MESSAGE | op::MESSAGE_INDEX = opcode {
+                let mut content = self.unpacker.memory();
+                let mut record = (&mut *self.file).take(length);
+                if record.read_to_end(&mut content)? as u64 != length {
+                    return Ok(Some(match opcode {
+                        op::CHUNK => RecordingError::CutOff,
+                        _ => McapError::UnexpectedEof.into(),
+                    }));
+                }
+                self.record(opcode, content, walker)?;
+            } else {
+                let mut record = (&mut *self.file).take(length);
+                if io::copy(&mut record, &mut io::sink())? != length {
+                    return Ok(Some(McapError::UnexpectedEof.into()));
+                }
+            }
+        }
+    }
+
+    fn record(
+        &mut self,
+        opcode: u8,
+        content: Vec<u8>,
+        walker: &mut Walker<'_>,
+    ) -> Result<(), RecordingError> {
+        if opcode == op::MESSAGE_INDEX {
+            if let (Some((_, channels)), Some((id, _))) = (&mut self.chunk, u16_of(&content)) {
+                channels.push(id);
+            }
+            self.unpacker.give_back(content);
+            return Ok(());
+        }
+        self.end_chunk(walker)?;
+        if opcode == op::CHUNK {
+            self.chunk = Some((content, Vec::new()));
+            return Ok(());
+        }
+        // The messages before it come first.
+        while self.take(walker)? {}
+        let done = walker.record(opcode, &content);
+        self.unpacker.give_back(content);
+        done
+    }
+
+    /// Has the last chunk unpacked, unless its index says that it holds nothing wanted.
+    fn end_chunk(&mut self, walker: &mut Walker<'_>) -> Result<(), RecordingError> {
+        let Some((chunk, channels)) = self.chunk.take() else {
+            return Ok(());
+        };
+        let known = channels.iter().map(|id| walker.channels.get(id));
+        let known: Option<Vec<&Known>> = known.collect();
+        if let Some(known) = known.filter(|known| !known.is_empty()) {
+            let mut ours = known.iter().filter_map(|known| known.channel);
+            if !ours.clone().any(walker.is_wanted) {
+                walker.is_ours |= ours.next().is_some();
+                self.unpacker.give_back(chunk);
+                return Ok(());
+            }
+        }
+        if self.unpacker.is_full() {
+            self.take(walker)?;
+        }
+        self.unpacker.give(chunk);
+        Ok(())
+    }
+
+    /// Takes the messages of the next chunk that has been unpacked, if there is one.
+    fn take(&mut self, walker: &mut Walker<'_>) -> Result<bool, RecordingError> {
+        let Some(content) = self.unpacker.take() else {
+            return Ok(false);
+        };
+        let content = content?;
+        if !content.is_whole {
+            return Err(RecordingError::CutOff);
+        }
+        walker.chunk(&content.bytes)?;
+        self.unpacker.give_back(content.bytes);
+        Ok(true)
+    }
+
+    /// Fills a buffer; false if the file ends before.
+    fn exactly(&mut self, buffer: &mut [u8]) -> Result<bool, RecordingError> {
+        match self.file.read_exact(buffer) {
+            Ok(()) => Ok(true),
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
 }
 
 /// A channel of the file.

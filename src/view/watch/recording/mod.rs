@@ -8,6 +8,7 @@
 //! earlier versions.
 
 mod channel;
+mod chunks;
 mod contacts;
 mod decompress;
 mod description;
