@@ -4,6 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use planwright::{Evaluate, Event, Outcome, Session, SessionOptions};
 
 fn session() -> Session {
+    planwright::use_compiled_library();
     // The built-in models are known to be valid.
     Session::new(&SessionOptions::default()).unwrap()
 }

@@ -77,6 +77,7 @@ const FAR: &str = "(with-simulated-robot
 
 /// The time from Ctrl-C until planning is abandoned.
 fn interrupts(c: &mut Criterion) {
+    planwright::use_compiled_library();
     let mut session = Session::new(&SessionOptions::default()).expect("a session");
     let outcome = session.evaluate("bench", "(in-package :pp-tut)", &mut |_| {});
     assert_eq!(outcome, Outcome::Finished);

@@ -58,6 +58,7 @@ fn said(session: &mut Session, text: &str) -> String {
 }
 
 fn questions(c: &mut Criterion) {
+    planwright::use_compiled_library();
     let mut session = Session::new(&SessionOptions::default()).expect("a session starts");
     let scene = said(&mut session, SCENE);
     assert!(scene.ends_with("ANSWERS"), "{scene}");

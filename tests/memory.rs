@@ -4,8 +4,8 @@
 #![cfg(target_os = "linux")]
 
 use std::alloc::System;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use cap::Cap;
@@ -26,6 +26,12 @@ fn in_use() -> usize {
 
 /// One test at a time: they measure the memory of the process.
 static MEMORY: Mutex<()> = Mutex::new(());
+
+/// Keeps other tests away. Sessions start from the compiled library, as those of the program do.
+fn alone() -> MutexGuard<'static, ()> {
+    planwright::use_compiled_library();
+    MEMORY.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Kilobytes of memory that this process holds.
 fn resident() -> u64 {
@@ -51,7 +57,7 @@ fn allocated_after(session: &mut Session, text: &str) -> usize {
 
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defun many (n)
@@ -67,7 +73,7 @@ fn memory_stays_flat_over_a_million_tasks() {
 
 #[test]
 fn memory_stays_flat_over_a_million_circles_of_each_kind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| resident_after(&mut session, text);
     run("(defstruct node next) (defclass thing () ((part :accessor part)))");
@@ -110,7 +116,7 @@ fn limited(bytes: usize) -> SessionOptions {
 
 #[test]
 fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
     let mut run = |text: &str| allocated_after(&mut session, text);
     run(
@@ -224,7 +230,7 @@ fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
 
 #[test]
 fn memory_that_circles_hold_is_freed_before_it_is_said_to_be_exhausted() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let limit = HEAP.allocated() + (48 << 20);
     let mut session = Session::new(&limited(limit)).unwrap();
     MOST.store(0, Ordering::Relaxed);
@@ -256,7 +262,7 @@ fn memory_that_circles_hold_is_freed_before_it_is_said_to_be_exhausted() {
 
 #[test]
 fn a_limit_that_is_set_is_kept_whatever_fills_it() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&limited(usize::MAX)).unwrap();
     let is_over = AtomicBool::new(false);
     let wrong = std::thread::scope(|scope| {
@@ -307,7 +313,7 @@ fn a_limit_that_is_set_is_kept_whatever_fills_it() {
 
 #[test]
 fn sessions_that_have_ended_leave_nothing_behind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let transport = "(in-package :pp-tut)
         (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
         (with-simulated-robot
@@ -343,7 +349,7 @@ fn sessions_that_have_ended_leave_nothing_behind() {
 
 #[test]
 fn threads_that_had_a_session_leave_nothing_behind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let threads = |count: usize| {
         for _ in 0..count {
             let session = std::thread::spawn(|| {
@@ -364,7 +370,7 @@ fn threads_that_had_a_session_leave_nothing_behind() {
 
 #[test]
 fn a_thread_that_had_a_session_gives_everything_back() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let work = "(in-package :pp-tut)
         (let ((l (make-list 8))) (setf (cdr (last l)) l))
         (let ((g (gensym))) (setf (get g 'self) g))
@@ -394,7 +400,7 @@ fn a_thread_that_had_a_session_gives_everything_back() {
 
 #[test]
 fn references_of_symbolic_locations_leave_nothing_behind() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
     let mut run = |text: &str| allocated_after(&mut session, text);
     run("(in-package :pp-tut)
@@ -419,7 +425,7 @@ fn references_of_symbolic_locations_leave_nothing_behind() {
 
 #[test]
 fn locations_that_a_program_keeps_do_not_keep_copies_of_the_world() {
-    let _alone = MEMORY.lock();
+    let _alone = alone();
     let mut session = Session::new(&limited(1 << 30)).unwrap();
     let mut run = |text: &str| allocated_after(&mut session, text);
     run("(in-package :pp-tut)

@@ -7,6 +7,7 @@
 //! ```
 //! use planwright::{Datum, Failure, Limits, Pose, Session, SessionOptions};
 //!
+//! planwright::use_compiled_library();
 //! let mut session = Session::new(&SessionOptions::default())?;
 //! session.run("setup", "(in-package :pp-tut)")?;
 //! session.spawn("bottle", "bottle-1", Pose::translation(-1.6, -0.9, 0.82))?;
@@ -71,6 +72,7 @@ pub use command::main;
 pub use lisp::files;
 pub use lisp::guard::heap::HeapLimit;
 pub use lisp::source::Location;
+pub use precompiled::use_compiled_library;
 pub use robotics::robot::Side;
 pub use session::dialogue::{
     Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop, Suggestion,

@@ -3,7 +3,9 @@
 /// What the build script has written.
 pub(crate) static CODE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/precompiled"));
 
-/// Lets the sessions of this process start from the code.
-pub(crate) fn provide() {
+/// Lets all sessions that are made in this process from now on start from the library as it was compiled when
+/// the program was built: each begins several times sooner, and does the same, to the bit. A program calls it
+/// once, before its first [`Session`](crate::Session).
+pub fn use_compiled_library() {
     lisp::image::precompiled::provide(CODE);
 }

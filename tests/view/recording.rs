@@ -285,9 +285,7 @@ fn chunks_that_hold_nothing_wanted_stay_packed() {
             chunks += 1;
             let mut damaged = bytes.clone();
             damaged[end - 20] ^= 0x55;
-            // There is something of all relations in each of them: where the robot is.
-            let all = read_episode(&damaged[..], Wanted::ALL);
-            assert!(all.map_or(true, |all| all.is_cut_off), "chunk {chunks}");
+            // Damage is not seen where it is not read.
             if let Ok(found) = read_episode(&damaged[..], tasks)
                 && !found.is_cut_off
             {

@@ -77,7 +77,7 @@ pub fn main(in_use: fn() -> usize) -> ExitCode {
 
 fn run_command_line() -> ExitCode {
     let arguments = Arguments::parse();
-    precompiled::provide();
+    precompiled::use_compiled_library();
     let errors = Paint::new(arguments.options.color, &io::stderr());
     match dispatch(arguments) {
         Ok(status) => ExitCode::from(status.code()),

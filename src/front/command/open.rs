@@ -116,7 +116,7 @@ fn world_description(options: &Options) -> Option<PathBuf> {
 /// A fresh session, as with no options on the command line.
 #[cfg(test)]
 pub(crate) fn open_default() -> Result<Session, String> {
-    crate::precompiled::provide();
+    crate::precompiled::use_compiled_library();
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open_session(&arguments.options).map_err(|error| error.to_string())
 }

@@ -65,6 +65,56 @@ where
     done
 }
 
+/// Does several lots of work, one after the other, on the same threads, each with a function of its own that `worker`
+/// makes when it first has something to do. `body` gets a function that does a lot: its results come in the order
+/// of the work, up to the first that is missing.
+pub(in crate::command) fn with_workers<W: Send, R: Send, F: FnMut(W) -> R, T>(
+    threads: usize,
+    worker: impl Fn() -> F + Sync,
+    body: impl FnOnce(&mut dyn FnMut(Vec<W>) -> Vec<R>) -> T,
+) -> T {
+    let (give, work) = mpsc::channel::<(usize, W)>();
+    // Nothing panics while it takes work.
+    let work = Mutex::new(work);
+    let next = || work.lock().unwrap_or_else(PoisonError::into_inner).recv();
+    thread::scope(|scope| {
+        // The threads end when there is nobody left to give them work.
+        let give = give;
+        let (sender, results) = mpsc::channel();
+        for _ in 0..threads {
+            let (sender, next, worker) = (sender.clone(), &next, &worker);
+            let works = move || {
+                let mut run = None;
+                while let Ok((at, work)) = next() {
+                    let run = run.get_or_insert_with(worker);
+                    if sender.send((at, run(work))).is_err() {
+                        return;
+                    }
+                }
+            };
+            let thread = thread::Builder::new().stack_size(THREAD_STACK);
+            // If the machine has no more threads, those that there are do the work.
+            if thread.spawn_scoped(scope, works).is_err() {
+                break;
+            }
+        }
+        drop(sender);
+        body(&mut |lot| {
+            let mut done: Vec<Option<R>> = lot.iter().map(|_| None).collect();
+            for work in lot.into_iter().enumerate() {
+                // Who takes it is told below.
+                let _ = give.send(work);
+            }
+            for (at, result) in results.iter().take(done.len()) {
+                if let Some(place) = done.get_mut(at) {
+                    *place = Some(result);
+                }
+            }
+            done.into_iter().map_while(|result| result).collect()
+        })
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,5 +136,27 @@ mod tests {
             assert_eq!(done, (0..60).map(|n| n * n).collect::<Vec<u64>>());
             assert_eq!(told, done);
         }
+    }
+
+    #[test]
+    fn workers_do_one_lot_after_the_other() {
+        let made = Mutex::new(0);
+        let worker = || {
+            *made.lock().unwrap() += 1;
+            let mut before = 0;
+            move |n: u64| {
+                thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
+                before += 1;
+                (n * n, before)
+            }
+        };
+        let lots = with_workers(3, worker, |squares| {
+            [0..50, 50..51, 51..51, 51..90].map(|lot: std::ops::Range<u64>| squares(lot.collect()))
+        });
+        let squares: Vec<u64> = lots.iter().flatten().map(|(square, _)| *square).collect();
+        assert_eq!(squares, (0..90).map(|n| n * n).collect::<Vec<u64>>());
+        // They are the same workers.
+        assert!(*made.lock().unwrap() <= 3);
+        assert!(lots[3].iter().any(|(_, before)| *before > 13));
     }
 }

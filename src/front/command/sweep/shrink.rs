@@ -85,12 +85,27 @@ pub(super) fn shrink(
     threads: usize,
 ) -> Result<(), CommandError> {
     let mut out = io::stdout();
-    let Some(first) = tried(worlds, number, threads, &[Vec::new()]).pop() else {
+    let runner = || {
+        let mut sessions = worlds.in_sessions();
+        move |set: Vec<Change>| {
+            let (record, simpler) = sessions.run(number, &set);
+            World {
+                set,
+                record,
+                simpler,
+            }
+        }
+    };
+    let shrunk = pool::with_workers(threads, runner, |tried| {
+        let Some(first) = tried(vec![Vec::new()]).pop() else {
+            return Ok(None);
+        };
+        check_failure(&first.record)?;
+        Ok::<_, CommandError>(Some(simplified(threads, first, tried)))
+    })?;
+    let Some((world, runs, is_complete)) = shrunk else {
         return Ok(());
     };
-    check_failure(&first.record)?;
-    let begun = Instant::now();
-    let (world, runs, is_complete) = simplified(worlds, number, threads, first, begun);
     let settings = needed_settings(&world);
     let kind = world.record.kind();
     let kind: Vec<&str> = kind
@@ -218,31 +233,14 @@ pub(super) fn check_failure(record: &Record) -> Result<(), CommandError> {
     }
 }
 
-/// The worlds with draws set in each of the ways.
-fn tried(worlds: &Worlds, number: u64, threads: usize, ways: &[Vec<Change>]) -> Vec<World> {
-    let runner = || {
-        let mut sessions = worlds.in_sessions();
-        move |set: &Vec<Change>| {
-            let (record, simpler) = sessions.run(number, set);
-            World {
-                set: set.clone(),
-                record,
-                simpler,
-            }
-        }
-    };
-    pool::in_order(threads, ways, runner, |_| true)
-}
-
-/// Applies changes as long as the world fails in the same way; returns it with the number of runs, and whether
-/// all changes have been tried.
+/// Applies changes as long as the world fails in the same way, so many at the same time; returns it with the number
+/// of runs, and whether all changes have been tried. `tried` gives the worlds with draws set in each of some ways.
 fn simplified(
-    worlds: &Worlds,
-    number: u64,
     threads: usize,
     first: World,
-    begun: Instant,
+    tried: &mut dyn FnMut(Vec<Vec<Change>>) -> Vec<World>,
 ) -> (World, usize, bool) {
+    let begun = Instant::now();
     let mut world = first;
     let mut runs = 1;
     let is_late = |runs: usize| runs >= MAX_RUNS || begun.elapsed() > MAX_TIME;
@@ -261,7 +259,7 @@ fn simplified(
                         && tried.record.draws != world.record.draws
                         && is_no_other_kitchen(&world, tried)
                 };
-                let results = tried(worlds, number, threads, &ways);
+                let results = tried(ways);
                 // The first in order wins, so that the number of threads does not matter.
                 match results
                     .into_iter()
