@@ -81,7 +81,8 @@ fn a_target_in_the_air_is_refused_before_anything_is_fetched() {
     );
     assert!(
         report.starts_with(
-            "cup-1 could not be delivered: nothing carries it at its target, table_area_main is 0.19 m below"
+            "cup-1 could not be delivered: nothing carries it at its target, table_area_main is 0.19 m below: it would stand \
+             there at z 0.7"
         ),
         "{report}"
     );
