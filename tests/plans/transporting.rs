@@ -46,6 +46,22 @@ fn a_bottle_is_transported_and_not_again() {
     cook.assert_no_overlap();
 }
 
+#[test]
+fn a_bowl_that_somebody_has_taken_out_of_its_drawer_is_brought_to_the_table() {
+    let mut cook = Cook::new();
+    cook.done("(btr-utils:spawn-object 'bowl-1 :bowl :pose '((-0.8 1.6 0.95) (0 0 0 1)))");
+    let said = cook.done(
+        "(with-simulated-robot
+           (perform (an action (type transporting) (object (an object (type bowl)))
+                        (context table-setting))))",
+    );
+    // It is looked for where it belongs first.
+    assert!(said.contains("drawer"), "{said}");
+    let bowl = cook.pose("BOWL-1").translation;
+    assert!((bowl.x - -1.5).abs() < 0.6 && bowl.y < -0.6, "{bowl}");
+    cook.assert_no_overlap();
+}
+
 /// A world that is saved after fetching becomes the same one by delivering, each time, and saving it
 /// makes no difference.
 #[test]
