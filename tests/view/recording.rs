@@ -299,6 +299,31 @@ fn chunks_that_hold_nothing_wanted_stay_packed() {
 }
 
 #[test]
+fn a_chunk_whose_index_is_cut_off_is_read() {
+    const CHUNK: u8 = 6;
+    let (bytes, _) = recorded("half-indexed");
+    let tasks = Wanted::of(|name| name == "task");
+    let (mut at, mut before, mut most) = (8, 0, 0);
+    let read = |end: usize| {
+        let found = read_episode(&bytes[..end], tasks);
+        found.map_or(0, |found| rows(&found, "task").rows.len())
+    };
+    while at + 9 <= bytes.len() {
+        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap());
+        let end = at + 9 + usize::try_from(length).unwrap();
+        // The tasks of a chunk are known from its end on, whatever is there of its index.
+        let known = read(end);
+        match bytes[at] {
+            CHUNK => before = known,
+            _ => assert_eq!(known, before, "byte {at}"),
+        }
+        most = most.max(known);
+        at = end;
+    }
+    assert!(most > 2);
+}
+
+#[test]
 fn a_chunk_that_unpacks_to_more_than_it_says_is_refused() {
     let (bytes, _) = recorded("bomb");
     let bomb = compressed(&bytes, "zstd", |content| {

@@ -83,6 +83,10 @@ impl Parts<'_> {
             return Err(McapError::BadMagic.into());
         }
         let abrupt = self.records(walker)?;
+        if let (Some(_), Some((_, channels))) = (&abrupt, &mut self.chunk) {
+            // The rest of its index may be missing.
+            channels.clear();
+        }
         self.end_chunk(walker)?;
         while self.take(walker)? {}
         abrupt.map_or(Ok(()), Err)
