@@ -4,7 +4,8 @@
 
 import { spawnSync } from 'node:child_process';
 import { createServer } from 'node:http';
-import { mkdirSync, readFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { Browser, sleep } from '../browser/browser.mjs';
 
@@ -233,6 +234,12 @@ async function phone(browser) {
   }
 }
 
+// What keeps somebody from reading a page, by its rules.
+async function barriers(tab) {
+  await tab.value(axe);
+  return tab.value(`axe.run(document, { iframes: false }).then(({ violations }) => violations.map(({ id, nodes }) => id + ': ' + nodes.map(({ target }) => target).join(' ')))`);
+}
+
 async function withoutBarriers(browser) {
   for (const dark of [false, true]) {
     const tab = await opened(browser, page, { width: 1440, height: 860, dark });
@@ -240,11 +247,31 @@ async function withoutBarriers(browser) {
     await evaluate(tab, '(print "x")');
     for (const pane of ['tutorial', 'files']) {
       await tab.value(`planwright.showPane('${pane}')`);
-      await tab.value(axe);
-      const found = await tab.value(`axe.run(document, { iframes: false }).then(({ violations }) => violations.map(({ id, nodes }) => id + ': ' + nodes.map(({ target }) => target).join(' ')))`);
+      const found = await barriers(tab);
       check(found.length === 0, `axe finds nothing (${dark ? 'dark' : 'light'}, ${pane}): ${found.join('; ')}`);
     }
   }
+}
+
+// A saved run that has failed, and the report of a sweep, as the program writes them.
+async function reportsWithoutBarriers(browser) {
+  const folder = mkdtempSync(join(tmpdir(), 'planwright-reports-'));
+  const file = (name) => join(folder, name);
+  writeFileSync(file('fails.plan'), '(in-package :pp-tut) (roslisp:ros-warn (test) "soon") (with-simulated-robot (park-arms) (perform (a motion (type moving-torso) (joint-angle 5))))');
+  for (const args of [
+    ['run', file('fails.plan'), '--record', file('run.mcap')], ['view', file('run.mcap'), '--html', file('run.html')],
+    ['sweep', 'plans/sweeps/move-bottle.plan', '--worlds', '8', '--seed', '42', '--html', file('sweep.html')],
+  ]) spawnSync(program, args);
+  for (const name of ['run', 'sweep']) {
+    for (const [kind, options] of [['desktop', {}], ['phone', { width: 390, height: 844 }], ['dark', { dark: true }]]) {
+      const tab = await browser.open(`file://${file(`${name}.html`)}`, options);
+      await tab.until('document.querySelector("h1")', 20);
+      await sleep(1);
+      const found = await barriers(tab);
+      check(found.length === 0, `axe finds nothing (${name}, ${kind}): ${found.join('; ')}`);
+    }
+  }
+  rmSync(folder, { recursive: true });
 }
 
 async function byKeyboard(browser) {
@@ -316,6 +343,7 @@ try {
   await goesOn(browser);
   await phone(browser);
   await withoutBarriers(browser);
+  await reportsWithoutBarriers(browser);
   await byKeyboard(browser);
   await fromServer(browser);
   check(asked.length === 0, `no request leaves the page: ${asked.join(' ')}`);

@@ -56,7 +56,7 @@ pub(crate) fn class_page(task: &Task, all: &[Graded], files: &[String]) -> Strin
     text.push_str(&counts("Which failures", "failure", &failures));
     let lines = counted(all, |mark| mark.line.clone());
     text.push_str(&counts("At which lines", "line", &lines));
-    text + "</body></html>\n"
+    text + "</main></body></html>\n"
 }
 
 /// How many worlds and submissions something was said of, the most frequent first.

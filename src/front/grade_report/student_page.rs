@@ -67,7 +67,7 @@ pub(crate) fn student_page(task: &Task, one: &Graded) -> String {
         "<details><summary>The submission</summary><pre tabindex=\"0\">{}</pre></details>\n",
         numbered(&one.text)
     ));
-    text + "</body></html>\n"
+    text + "</main></body></html>\n"
 }
 
 /// The start of a page with a title.
@@ -76,7 +76,7 @@ pub(super) fn head(title: &str) -> String {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
          <meta name=\"color-scheme\" content=\"light dark\"><title>{}</title>\
-         <style>\n{STYLE}</style></head><body>\n",
+         <style>\n{STYLE}</style></head><body><main>\n",
         escaped(title)
     )
 }

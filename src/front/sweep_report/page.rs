@@ -42,7 +42,7 @@ pub(crate) fn html(title: &Title, records: &[Record], file: &str) -> String {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
          <meta name=\"color-scheme\" content=\"light dark\"><title>{name}</title>\
-         <style>\n{STYLE}</style></head><body>\n<h1>{name}</h1>\n\
+         <style>\n{STYLE}</style></head><body><main>\n<h1>{name}</h1>\n\
          <div class=\"bar\"><div style=\"width: {:.1}%\"></div></div>\n<pre tabindex=\"0\">{}{}</pre>\n",
         100.0 * summary.rate(),
         escaped(&summary.to_string()),
@@ -65,7 +65,7 @@ pub(crate) fn html(title: &Title, records: &[Record], file: &str) -> String {
             kinds.len() == 1,
         ));
     }
-    text + "</body></html>\n"
+    text + "</main></body></html>\n"
 }
 
 /// A picture of the share of successes over the two draws that explain most.
@@ -98,7 +98,7 @@ fn kitchens(table: &KitchenTable) -> String {
     }
     if !table.divisions.is_empty() {
         text.push_str(
-            "<div class=\"wide\" tabindex=\"0\"><table><tr><th></th><th>fail</th><th>of</th><th>%</th>\
+            "<div class=\"wide\" tabindex=\"0\"><table><tr><td></td><th>fail</th><th>of</th><th>%</th>\
              <th>interval</th></tr>\n",
         );
         table
@@ -200,7 +200,7 @@ fn kind_of_failure(
         false => "",
     };
     format!(
-        "<details{open}><summary><b>{}</b> {}</summary>\n<div class=\"wide\" tabindex=\"0\"><table><tr><th>world</th>{head}<th></th></tr>\n\
+        "<details{open}><summary><b>{}</b> {}</summary>\n<div class=\"wide\" tabindex=\"0\"><table><tr><th>world</th>{head}<td></td></tr>\n\
          {rows}</table></div>\n{more}</details>\n",
         kind.worlds.len(),
         what.join(" · ")
