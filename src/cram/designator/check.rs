@@ -100,6 +100,18 @@ fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String>
             "Nothing is quoted or called inside a designator: bind a variable such as ?{key} and write ({key} ?{key})."
         ));
     }
+    let class = keyword(image, &head).map(|class| image.name(class));
+    let articles = [
+        ("LOCATION", "a"),
+        ("OBJECT", "an"),
+        ("ACTION", "an"),
+        ("MOTION", "a"),
+    ];
+    let article = articles.iter().find(|(name, _)| class == Some(*name));
+    if let Some((class, article)) = article {
+        let class = class.to_lowercase();
+        return Some(format!("Write ({key} ({article} {class} …))."));
+    }
     match kind {
         Kind::Location | Kind::Place if as_placement(value).is_some() => {
             Some(format!("Write ({key} (a location (pose ?pose)))."))

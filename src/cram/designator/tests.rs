@@ -305,6 +305,14 @@ fn property_values_of_wrong_types_are_named() {
             "!! [LOCATION SPEC:PROPERTY]: (:QUOTE ((0 1 0) (0 0 0 1))) had to be of type POSE-STAMPED\nNothing is quoted or called inside a designator: bind a variable such as ?pose and write (pose ?pose).",
         ),
         (
+            "(perform (an action (type picking-up) (object (object (type cup)))))",
+            "!! [ACTION SPEC:PROPERTY]: (:OBJECT (:TYPE :CUP)) had to be of type OBJECT-DESIGNATOR\nWrite (object (an object …)).",
+        ),
+        (
+            "(perform (a motion (type going) (target (location (pose nil)))))",
+            "!! [MOTION SPEC:PROPERTY]: (:LOCATION (:POSE NIL)) had to be of type LOCATION-DESIGNATOR\nWrite (target (a location …)).",
+        ),
+        (
             "(perform (a motion (type moving-torso) (joint-angle (max 1 2))))",
             "!! [MOTION SPEC:PROPERTY]: (:MAX 1 2) had to be of type NUMBER\nNothing is quoted or called inside a designator: bind a variable such as ?joint-angle and write (joint-angle ?joint-angle).",
         ),

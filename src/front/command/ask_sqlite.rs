@@ -153,8 +153,7 @@ fn write_into(path: &Path, inputs: &[PathBuf]) -> Result<Vec<(String, u64)>, Com
     Ok(counts)
 }
 
-/// What is wrong: with a line of an input, or with the file that is written.
-/// What is wrong with facts of an input, in a line of it if it has lines.
+/// What is wrong: with facts of an input, in a line of it if it has lines, or with the file that is written.
 fn of_facts(output: &Path, input: &Path, line: Option<usize>, error: SqliteError) -> CommandError {
     match error {
         SqliteError::Write(error) => CommandError::Rewrite {

@@ -28,9 +28,9 @@ where
     let mut done = Vec::new();
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
-        for _ in 0..threads.min(at_most) {
+        hire(scope, threads.min(at_most), || {
             let (sender, left, worker) = (sender.clone(), &left, &worker);
-            let works = move || {
+            move || {
                 let mut run = worker();
                 loop {
                     let next = left().as_mut().and_then(Iterator::next);
@@ -41,13 +41,8 @@ where
                         return;
                     }
                 }
-            };
-            let thread = thread::Builder::new().stack_size(THREAD_STACK);
-            // If the machine has no more threads, those that there are do the work.
-            if thread.spawn_scoped(scope, works).is_err() {
-                break;
             }
-        }
+        });
         drop(sender);
         let mut early = BTreeMap::new();
         for (at, result) in receiver {
@@ -63,6 +58,21 @@ where
         }
     });
     done
+}
+
+/// Begins so many threads, each with what `works` makes. If the machine has no more threads, those that there are do the
+/// work.
+fn hire<'s, F: FnOnce() + Send + 's>(
+    scope: &'s thread::Scope<'s, '_>,
+    threads: usize,
+    works: impl Fn() -> F,
+) {
+    for _ in 0..threads {
+        let thread = thread::Builder::new().stack_size(THREAD_STACK);
+        if thread.spawn_scoped(scope, works()).is_err() {
+            return;
+        }
+    }
 }
 
 /// Does several lots of work, one after the other, on the same threads, each with a function of its own that `worker`
@@ -81,9 +91,9 @@ pub(in crate::command) fn with_workers<W: Send, R: Send, F: FnMut(W) -> R, T>(
         // The threads end when there is nobody left to give them work.
         let give = give;
         let (sender, results) = mpsc::channel();
-        for _ in 0..threads {
+        hire(scope, threads, || {
             let (sender, next, worker) = (sender.clone(), &next, &worker);
-            let works = move || {
+            move || {
                 let mut run = None;
                 while let Ok((at, work)) = next() {
                     let run = run.get_or_insert_with(worker);
@@ -91,13 +101,8 @@ pub(in crate::command) fn with_workers<W: Send, R: Send, F: FnMut(W) -> R, T>(
                         return;
                     }
                 }
-            };
-            let thread = thread::Builder::new().stack_size(THREAD_STACK);
-            // If the machine has no more threads, those that there are do the work.
-            if thread.spawn_scoped(scope, works).is_err() {
-                break;
             }
-        }
+        });
         drop(sender);
         body(&mut |lot| {
             let mut done: Vec<Option<R>> = lot.iter().map(|_| None).collect();
@@ -142,21 +147,32 @@ mod tests {
     fn workers_do_one_lot_after_the_other() {
         let made = Mutex::new(0);
         let worker = || {
-            *made.lock().unwrap() += 1;
-            let mut before = 0;
+            let mut made = made.lock().unwrap();
+            *made += 1;
+            let (name, mut count) = (*made, 0);
             move |n: u64| {
                 thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
-                before += 1;
-                (n * n, before)
+                count += 1;
+                (n * n, name, count)
             }
         };
         let lots = with_workers(3, worker, |squares| {
             [0..50, 50..51, 51..51, 51..90].map(|lot: std::ops::Range<u64>| squares(lot.collect()))
         });
-        let squares: Vec<u64> = lots.iter().flatten().map(|(square, _)| *square).collect();
+        let squares: Vec<u64> = lots.iter().flatten().map(|(square, ..)| *square).collect();
         assert_eq!(squares, (0..90).map(|n| n * n).collect::<Vec<u64>>());
-        // They are the same workers.
-        assert!(*made.lock().unwrap() <= 3);
-        assert!(lots[3].iter().any(|(_, before)| *before > 13));
+        // They are the same three workers at most, and each goes on counting.
+        let mut all = 0;
+        for worker in 1..=3 {
+            let counts = lots.iter().flatten().filter(|(_, name, _)| *name == worker);
+            let mut counts: Vec<u64> = counts.map(|(.., count)| *count).collect();
+            counts.sort_unstable();
+            assert!(
+                counts.iter().copied().eq(1..=counts.len() as u64),
+                "{counts:?}"
+            );
+            all += counts.len();
+        }
+        assert_eq!(all, 90);
     }
 }

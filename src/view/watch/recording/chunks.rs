@@ -98,7 +98,7 @@ impl Unpacker {
         self.given += 1;
         let memory = self.memory();
         match self.hands.get(hand) {
-            // A hand that has ended is told of when its chunk is taken.
+            // A thread that has ended is told of when its chunk is taken.
             Some(hand) => drop(hand.work.send(Work { record, memory })),
             None => self.waiting.push_back(record),
         }
@@ -112,7 +112,11 @@ impl Unpacker {
         let hand = self.taken % self.hands.len().max(1);
         self.taken += 1;
         let (record, content) = match self.hands.get(hand) {
-            Some(hand) => hand.done.recv().ok()?,
+            // A thread ends early only by a defect, which its scope tells.
+            Some(hand) => match hand.done.recv() {
+                Ok(done) => done,
+                Err(_) => (Vec::new(), Err(RecordingError::CutOff)),
+            },
             None => {
                 let record = self.waiting.pop_front()?;
                 let content = Chunk::unpacked(&record, self.memory());
