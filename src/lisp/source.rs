@@ -20,6 +20,9 @@ impl Place {
     }
 }
 
+/// Set in the handles of places that all copies of an image have in common.
+const COMMON: u32 = 1 << 31;
+
 /// Handle of a source text.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct SourceId(pub u32);
@@ -101,6 +104,8 @@ struct Span {
 pub struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
+    /// The places that copies have in common: those of code that they share, whichever reads it first.
+    common: Rc<RefCell<Vec<Span>>>,
     /// Files that have been loaded, and of which nobody has been told yet.
     loaded: RefCell<Vec<SourceId>>,
 }
@@ -178,6 +183,18 @@ impl Sources {
         Place(offset(self.spans.len()))
     }
 
+    /// Registers the bytes `start..end` of a source as a place for this image and all its copies; the source
+    /// must be one that all of them have.
+    pub(crate) fn common_place(&self, source: SourceId, start: usize, end: usize) -> Place {
+        let mut common = self.common.borrow_mut();
+        common.push(Span {
+            source,
+            start: offset(start),
+            end: offset(end),
+        });
+        Place(offset(common.len()) | COMMON)
+    }
+
     /// Is this a place in a program, not in the part of the language written in Lisp?
     pub fn is_of_program(&self, place: Place) -> bool {
         let source = self.span(place).and_then(|span| self.get(span.source));
@@ -218,8 +235,12 @@ impl Sources {
         Some((span.source, span.start, span.end))
     }
 
-    fn span(&self, place: Place) -> Option<&Span> {
-        self.spans.get((place.0 as usize).checked_sub(1)?)
+    fn span(&self, place: Place) -> Option<Span> {
+        let at = ((place.0 & !COMMON) as usize).checked_sub(1)?;
+        match place.0 & COMMON {
+            0 => self.spans.get(at).copied(),
+            _ => self.common.borrow().get(at).copied(),
+        }
     }
 
     /// Line and column of a place.

@@ -104,7 +104,7 @@ fn load_form(
     let Some((form, _)) = read.map_err(|error| error.raise())? else {
         return Ok(false);
     };
-    let mut recording = Recording::of(Some(source));
+    let mut recording = Recording::of_loaded(source);
     let mut parts = Parts::of(&form);
     while let Some(code) = parts.next(&mut evaluator.image)? {
         recording.add(&mut evaluator.image, &code);

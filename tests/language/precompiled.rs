@@ -56,6 +56,40 @@ fn a_session_from_code_knows_what_one_from_texts_knows() {
     assert_eq!(texts.len(), code.len());
 }
 
+#[test]
+fn functions_are_read_when_they_are_needed_whichever_copy_needs_them_first() {
+    let mut first = open_default().expect("a session");
+    let mut second = first.copied().expect("nothing runs");
+    let (unread, all) = unread(&first);
+    assert!(unread > 1000 && 10 * unread > 9 * all, "{unread} of {all}");
+    // What the first reads, the second has; then both know what a session knows that has no copy.
+    let (of_first, of_second) = (known_names(&mut first), known_names(&mut second));
+    assert_eq!(self::unread(&first).0, 0);
+    assert_eq!(self::unread(&second).0, 0);
+    let alone = known_names(&mut open_default().expect("a session"));
+    assert!(of_first == of_second && of_first == alone);
+}
+
+/// How many of the functions of the plans have not been read, and how many there are.
+fn unread(session: &Session) -> (usize, usize) {
+    let image = session.image();
+    let mut counts = (0, 0);
+    for id in image.packages.ids() {
+        for (sym, _) in image.packages.get(id).symbols.values() {
+            let data = image.symbol(*sym);
+            let (FunctionCell::Function(function) | FunctionCell::Macro(function)) = &data.function
+            else {
+                continue;
+            };
+            if let (true, Body::Closure { code, .. }) = (data.package == Some(id), &function.body) {
+                counts.0 += usize::from(code.content().is_none());
+                counts.1 += 1;
+            }
+        }
+    }
+    counts
+}
+
 /// All symbols with what they mean; without the helpers of the language, and without keywords, which
 /// reading the library leaves behind.
 fn known_names(session: &mut Session) -> Vec<String> {
@@ -125,8 +159,9 @@ fn write_code(image: &Image, code: &Code, text: &mut String) {
     let shown = |value| print::to_string(image, value, true);
     let located = |place: Place| image.sources.locate(place).map(|l| l.to_string());
     let name = |sym: &Sym| image.name(*sym);
-    let (own, list) = (shown(code.name.shown()), shown(code.lambda_list.shown()));
-    let _ = write!(text, "\n({own} {list} {:?} {}", code.doc, code.room);
+    let content = image.content_to_look_at(code).expect("it can be read");
+    let (own, list) = (shown(code.name.shown()), shown(content.lambda_list.shown()));
+    let _ = write!(text, "\n({own} {list} {:?} {}", content.doc, code.room);
     let parameters = &code.parameters;
     let keys: Vec<&str> = parameters.keys.iter().map(name).collect();
     let (required, optional) = (parameters.required, parameters.optional);
@@ -134,26 +169,26 @@ fn write_code(image: &Image, code: &Code, text: &mut String) {
     let _ = write!(
         text,
         " {required} {optional} {rest} {others} {keys:?} {:?}",
-        code.tags
+        content.tags
     );
-    for op in code.ops.iter() {
+    for op in content.ops.iter() {
         let mut op = *op;
         let symbol = op.symbol_mut().map(|sym| std::mem::replace(sym, Sym(0)));
         let _ = write!(text, " {op:?}{:?}", symbol.as_ref().map(name));
     }
-    for constant in &code.constants {
+    for constant in &content.constants {
         let _ = write!(text, " {}", shown(constant));
     }
-    for (first, place) in code.places.iter() {
+    for (first, place) in content.places.iter() {
         let _ = write!(text, " {first}@{:?}", located(*place));
     }
-    for local in code.locals.iter() {
+    for local in content.locals.iter() {
         let (slot, from, to) = (local.slot, local.from, local.to);
         let _ = write!(text, " {}={slot}:{from}-{to}", name(&local.name));
     }
-    let free: Vec<&str> = code.free.iter().map(name).collect();
+    let free: Vec<&str> = content.free.iter().map(name).collect();
     let _ = write!(text, " {free:?}");
-    for (inner, captures) in &code.inner {
+    for (inner, captures) in &content.inner {
         let _ = write!(text, " {captures:?}");
         write_code(image, inner, text);
     }

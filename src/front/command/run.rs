@@ -134,7 +134,7 @@ pub(crate) fn run_in(
 ///
 /// The files are checked in a copy of the session, because their definitions take effect.
 fn warn(session: &Session, files: &[Text], paint: Paint) -> Result<(), CommandError> {
-    if files.is_empty() {
+    if files.iter().all(|file| file.text.trim().is_empty()) {
         return Ok(());
     }
     let mut session = session

@@ -87,7 +87,7 @@ fn document_function(image: &mut Image, function: &Rc<Function>, text: Option<Rc
 
 fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
     match &function.body {
-        Body::Closure { code, .. } => code.doc.clone(),
+        Body::Closure { code, .. } => image.content_to_look_at(code)?.doc.clone(),
         Body::Generic(generic) => generic.doc.borrow().clone(),
         Body::Native(native) => match image.entries.get(&native.name) {
             Some(Entry::Builtin(builtin)) => Some(builtin.doc.into()),

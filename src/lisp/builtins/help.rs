@@ -259,13 +259,16 @@ fn bare(image: &Image, value: &Value, depth: usize) -> Option<String> {
 fn of_definition(image: &Image, function: &Function) -> (String, Option<String>) {
     match &function.body {
         Body::Closure { code, .. } => {
-            let parameters = code.lambda_list.shown();
+            let Some(content) = image.content_to_look_at(code) else {
+                return Default::default();
+            };
+            let parameters = content.lambda_list.shown();
             let list = bare(image, parameters, MAX_NESTED).unwrap_or_default();
             let inner = list
                 .strip_prefix('(')
                 .and_then(|rest| rest.strip_suffix(')'))
                 .unwrap_or_default();
-            (inner.to_owned(), code.doc.as_deref().map(str::to_owned))
+            (inner.to_owned(), content.doc.as_deref().map(str::to_owned))
         }
         Body::Generic(generic) => {
             let parameters = generic.parameters.borrow();

@@ -69,7 +69,7 @@ fn compile_macro_function(
 ) -> Result<Rc<Function>, Box<Raise>> {
     let code = analyze::Compiler::new(image).compile_within(form, scope)?;
     // The code of a `(lambda …)` at top level makes exactly that one closure.
-    match code.inner.first() {
+    match code.content().and_then(|content| content.inner.first()) {
         Some((inner, _)) => Ok(Rc::new(Function::closure(inner.clone(), Vec::new()))),
         None => Err(Raise::program("a lambda expression was expected")),
     }

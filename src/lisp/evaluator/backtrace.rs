@@ -169,9 +169,12 @@ impl Fiber {
         let Body::Closure { code, captured } = &function.body else {
             return Vec::new();
         };
+        let Some(content) = code.content() else {
+            return Vec::new();
+        };
         let pc = u32::try_from(pc.get().saturating_sub(1)).unwrap_or(u32::MAX);
         let mut found: Vec<Variable> = Vec::new();
-        let locals = code.locals.iter().rev();
+        let locals = content.locals.iter().rev();
         for local in locals.filter(|local| local.from <= pc && pc < local.to) {
             let at = frame.base + local.slot as usize;
             let Some(value) = self.stack.get(at) else {
@@ -181,7 +184,7 @@ impl Fiber {
             add(&mut found, local.name, value, place);
         }
         found.reverse();
-        for (name, value) in code.free.iter().zip(captured) {
+        for (name, value) in content.free.iter().zip(captured) {
             let (value, place) = seen(value, VariablePlace::Closure);
             add(&mut found, *name, value, place);
         }

@@ -49,9 +49,16 @@ impl Machine<'_> {
             let Body::Closure { code, captured } = &function.body else {
                 return Next::Run;
             };
+            let content = match code.content() {
+                Some(content) => content,
+                None => match self.image.content(code) {
+                    Ok(content) => content,
+                    Err(raise) => return self.raise(raise),
+                },
+            };
             let mut pc = noted.get();
             let mut window = fiber.stack.window(frame.base, code.room);
-            let ops: &[Op] = &code.ops;
+            let ops: &[Op] = &content.ops;
 
             // Notes where the code is, for what concerns the machine as a whole.
             macro_rules! note {
@@ -184,7 +191,7 @@ impl Machine<'_> {
                 pc += 1;
                 let (sym, count, multi) = 'call: {
                     match *op {
-                        Op::Const(i) => code.constants[i as usize].copy_into(window.next()),
+                        Op::Const(i) => content.constants[i as usize].copy_into(window.next()),
                         Op::Nil => window.push(Value::NIL),
                         Op::Int(n) => window.push_int(i64::from(n)),
 
@@ -204,7 +211,7 @@ impl Machine<'_> {
                             window.push(check!(setf_function(self.image, sym)))
                         }
                         Op::Closure(i) => {
-                            let closure = closure(code, i as usize, window.slots, captured);
+                            let closure = closure(content, i as usize, window.slots, captured);
                             window.push(Value::Function(closure));
                         }
                         Op::Supplied(i) => {
@@ -269,7 +276,7 @@ impl Machine<'_> {
                             when,
                             target,
                         } => {
-                            let constant = &code.constants[constant as usize];
+                            let constant = &content.constants[constant as usize];
                             branch!(window.test_top(|value| value.is_eq(constant)), when, target);
                         }
                         Op::JumpIfCompare { test, target } => {
@@ -509,7 +516,7 @@ impl Machine<'_> {
                             window.push_int(0);
                         }
                         Op::EnterHandlers(types, count) => {
-                            let types = code.constants[types as usize].clone();
+                            let types = content.constants[types as usize].clone();
                             note!();
                             if let Err(raise) = self.enter_handlers(&types, count) {
                                 return self.raise(raise);

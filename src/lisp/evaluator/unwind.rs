@@ -188,7 +188,8 @@ impl Machine<'_> {
         let Body::Closure { code, .. } = &function.body else {
             return None;
         };
-        let position = code.tags.get(table as usize)?.get(tag as usize)?;
+        let content = code.content()?;
+        let position = content.tags.get(table as usize)?.get(tag as usize)?;
         Some(*position as usize)
     }
 

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::image::Image;
 use crate::types::standard_variables::check_value;
 use crate::value::Value;
-use crate::value::code::{Capture, Code};
+use crate::value::code::{Capture, Content};
 use crate::value::cycles;
 use crate::value::function::Function;
 use crate::value::known;
@@ -153,8 +153,13 @@ pub(super) fn setf_function(image: &Image, sym: Sym) -> Result<Value, Box<Raise>
 }
 
 /// A closure over the inner code number `i`.
-pub(super) fn closure(code: &Code, i: usize, slots: &[Value], captured: &[Value]) -> Rc<Function> {
-    let (inner, captures) = &code.inner[i];
+pub(super) fn closure(
+    content: &Content,
+    i: usize,
+    slots: &[Value],
+    captured: &[Value],
+) -> Rc<Function> {
+    let (inner, captures) = &content.inner[i];
     let values = captures
         .iter()
         .map(|capture| match capture {

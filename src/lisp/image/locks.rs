@@ -1,6 +1,5 @@
 //! Package locks: what the language and the built-in packages define is not redefined by mistake.
 
-use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::Image;
@@ -9,7 +8,7 @@ use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{PackageId, PackageTable};
 use crate::value::raise::Raise;
-use crate::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::value::symbol::{FunctionCell, Sym, SymSet, VariableKind};
 
 /// What a name is to mean.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -29,9 +28,9 @@ pub enum Meaning {
 /// Names with a built-in meaning.
 #[derive(Clone, Default)]
 struct Names {
-    functions: HashSet<Sym>,
-    setters: HashSet<Sym>,
-    types: HashSet<Sym>,
+    functions: SymSet,
+    setters: SymSet,
+    types: SymSet,
 }
 
 impl Names {
@@ -53,7 +52,7 @@ pub struct Locks {
     /// How many packages there were.
     packages: usize,
     /// Names that may be redefined, which is said once.
-    open: Rc<HashSet<Sym>>,
+    open: Rc<SymSet>,
     /// Where programs have defined functions.
     defined: Rc<std::collections::HashMap<Sym, Place>>,
 }
@@ -74,7 +73,7 @@ impl Image {
     pub fn lock_packages(&mut self, open: &[&str]) {
         let open: Vec<PackageId> = open.iter().filter_map(|p| self.packages.find(p)).collect();
         let mut locked = Names::default();
-        let mut free = HashSet::new();
+        let mut free = SymSet::default();
         for (sym, data) in self.symbols.iter() {
             let Some(package) = data.package.filter(|p| *p != PackageTable::KEYWORD) else {
                 continue;

@@ -107,7 +107,7 @@ fn evaluate_parts(image: &mut Image, definition: &'static Definition) -> Result<
         return Ok(());
     }
     let form = read(image, definition, source)?;
-    let mut recording = Recording::of(source);
+    let mut recording = Recording::of_deferred(source);
     let mut parts = Parts::of(&form);
     while let Some(code) = parts.next(image)? {
         recording.add(image, &code);

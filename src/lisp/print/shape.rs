@@ -339,7 +339,12 @@ fn arguments_before_body(image: &Image, operator: Sym) -> Option<usize> {
             return body_position(image.entry(operator)?.lambda_list());
         };
         let mut count = 0;
-        for parameter in code.lambda_list.shown().iter_list() {
+        for parameter in image
+            .content_to_look_at(code)?
+            .lambda_list
+            .shown()
+            .iter_list()
+        {
             match parameter.as_symbol() {
                 Some(known::L_BODY) => return Some(count),
                 Some(known::L_OPTIONAL) => {}

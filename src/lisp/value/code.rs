@@ -4,9 +4,10 @@
 //! parameters, then the variables of `let` forms in the order in which they are bound.
 //! Slots are counted from the base.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
-use crate::source::Place;
+use crate::source::{Place, SourceId};
 use crate::value::Value;
 use crate::value::cons::Cons;
 use crate::value::copy::{Copied, Copier, is_fixed};
@@ -141,7 +142,7 @@ fn tree(value: &Value, left: &mut usize) -> Option<Value> {
     }
 }
 
-/// Compiled code of one function. Copies share what can never change.
+/// Compiled code of one function: what callers see of it, and its content. Copies share what can never change.
 pub struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
     pub name: Signature,
@@ -150,6 +151,15 @@ pub struct Code {
     pub(crate) exact_count: Option<u16>,
     /// The most values that it has on the stack, from its frame's base on.
     pub room: usize,
+    /// Can nothing of it ever change, nor of the code in it?
+    pub(crate) is_fixed: bool,
+    pub(crate) content: OnceCell<Content>,
+    /// Where the content is to be read, unless it is there from the beginning.
+    pub(crate) unread: Option<Unread>,
+}
+
+/// What is needed to run code and to tell about it.
+pub struct Content {
     /// The operations.
     pub ops: Rc<[Op]>,
     pub constants: Vec<Value>,
@@ -167,18 +177,36 @@ pub struct Code {
     pub lambda_list: Signature,
     /// The documentation string.
     pub doc: Option<Rc<str>>,
-    /// Can nothing of it ever change, nor of the code in it?
-    pub(crate) is_fixed: bool,
+}
+
+/// Content that was made ahead and has not been read.
+#[derive(Clone, Copy)]
+pub(crate) struct Unread {
+    pub(crate) bytes: &'static [u8],
+    /// The source of its places.
+    pub(crate) source: Option<SourceId>,
 }
 
 impl Code {
-    /// Finds out whether it can ever change.
-    pub(crate) fn finished(mut self) -> Rc<Code> {
-        self.is_fixed = self.name.is_fixed()
-            && self.lambda_list.is_fixed()
+    /// The content, if it has been read: that of code that has run has.
+    #[inline(always)]
+    pub fn content(&self) -> Option<&Content> {
+        self.content.get()
+    }
+
+    /// The place of the call that the operation belongs to.
+    pub fn place_at(&self, pc: usize) -> Place {
+        self.content()
+            .map_or(Place::NONE, |content| content.place_at(pc))
+    }
+}
+
+impl Content {
+    /// Can nothing of it ever change, nor of the code in it?
+    pub(crate) fn is_fixed(&self) -> bool {
+        self.lambda_list.is_fixed()
             && self.constants.iter().all(is_fixed)
-            && self.inner.iter().all(|(code, _)| code.is_fixed);
-        Rc::new(self)
+            && self.inner.iter().all(|(code, _)| code.is_fixed)
     }
 
     /// The place of the call that the operation belongs to.

@@ -9,7 +9,7 @@ const FACTOR: u64 = 0x9E37_79B9_7F4A_7C15;
 /// Mixes words by multiplication; the upper half of a product is folded into the lower one, so that
 /// all bits of a word reach those that choose the bucket.
 #[derive(Default)]
-pub(super) struct KeyHasher(u64);
+pub(crate) struct KeyHasher(u64);
 
 impl KeyHasher {
     #[inline]

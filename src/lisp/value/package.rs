@@ -174,6 +174,24 @@ impl PackageTable {
         if let Some((sym, _)) = self.find_symbol(package, name) {
             return sym;
         }
+        self.make_present(symbols, package, name)
+    }
+
+    /// The symbol under a name whose home is the package, where it is known that the package inherits none of
+    /// that name; made present if there is none.
+    pub(crate) fn intern_at_home(
+        &mut self,
+        symbols: &mut SymbolTable,
+        home: PackageId,
+        name: &str,
+    ) -> Sym {
+        match self.get(home).symbols.get(name) {
+            Some((sym, _)) => *sym,
+            None => self.make_present(symbols, home, name),
+        }
+    }
+
+    fn make_present(&mut self, symbols: &mut SymbolTable, package: PackageId, name: &str) -> Sym {
         let name: Rc<str> = name.into();
         let sym = symbols.make(name.clone());
         let is_keyword = package == Self::KEYWORD;

@@ -9,7 +9,8 @@
 //! that compiled code refers to, or that has been declared to mean something, stays.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::hash::BuildHasherDefault;
 use std::rc::{Rc, Weak};
 
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,7 @@ use super::Value;
 use super::copy::{Copied, Copier};
 use super::cycles::{self, Mark, Suspect};
 use super::function::Function;
+use super::key_hasher::KeyHasher;
 use super::package::PackageId;
 
 pub use super::known;
@@ -25,6 +27,9 @@ pub use super::known;
 /// A symbol of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 pub struct Sym(pub u32);
+
+/// Symbols without an order.
+pub(crate) type SymSet = HashSet<Sym, BuildHasherDefault<KeyHasher>>;
 
 /// What a symbol means in function position.
 #[derive(Clone, Default)]

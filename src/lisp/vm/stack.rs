@@ -28,7 +28,7 @@ pub(crate) struct Window<'a> {
 }
 
 /// Places that a stack has at least, once it is used.
-const FEWEST: usize = 64;
+const FEWEST: usize = 16;
 
 impl Stack {
     /// The places from `base` on, of which at least `room` are there.

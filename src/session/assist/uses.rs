@@ -45,10 +45,10 @@ impl Assistant<'_> {
         for coded in all_code(image) {
             let label = coded.label.as_str();
             if relation == Relation::Specializes && coded.classes.contains(&wanted) {
-                found.push(use_at(image, label, first_place(&coded.code)));
+                found.push(use_at(image, label, first_place(image, &coded.code)));
             }
             let is_asked = relation == Relation::Callees && names(&coded, image, wanted);
-            walk(&coded.code, &mut |op, place| match called(op) {
+            walk(image, &coded.code, &mut |op, place| match called(op) {
                 Some(callee) if is_asked => {
                     let label = print::to_string(image, &callee.into(), true);
                     found.push(use_at(image, &label, place));
@@ -170,20 +170,23 @@ fn names(coded: &Coded, image: &Image, wanted: Sym) -> bool {
 
 /// Goes through the operations of a function and of those inside of it, with their places; what
 /// comes before the first call has the place of that.
-fn walk(code: &Code, each: &mut dyn FnMut(Op, Place)) {
-    for (pc, op) in code.ops.iter().enumerate() {
-        let place = code.place_at(pc);
+fn walk(image: &Image, code: &Code, each: &mut dyn FnMut(Op, Place)) {
+    let Some(content) = image.content_to_look_at(code) else {
+        return;
+    };
+    for (pc, op) in content.ops.iter().enumerate() {
+        let place = content.place_at(pc);
         each(
             *op,
             if place.is_some() {
                 place
             } else {
-                first_place(code)
+                first_place(image, code)
             },
         );
     }
-    for (inner, _) in &code.inner {
-        walk(inner, each);
+    for (inner, _) in &content.inner {
+        walk(image, inner, each);
     }
 }
 
@@ -208,7 +211,9 @@ fn is_such(relation: Relation, op: Op, wanted: Sym) -> bool {
 }
 
 /// The first place in a function that is known.
-fn first_place(code: &Code) -> Place {
-    let first = code.places.first().map(|(_, place)| *place);
+fn first_place(image: &Image, code: &Code) -> Place {
+    let content = image.content_to_look_at(code);
+    let first = content.and_then(|content| content.places.first());
+    let first = first.map(|(_, place)| *place);
     first.unwrap_or(Place::NONE)
 }

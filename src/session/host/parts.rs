@@ -193,12 +193,13 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
         Value::Symbol(sym, ..) => of_symbol(image, *sym),
         Value::Function(function) => match &function.body {
             Body::Closure { code, .. } => {
-                let doc = code.doc.as_deref().map_or(Value::NIL, Value::string);
-                vec![
-                    part("name", code.name.value()),
-                    part("lambda list", code.lambda_list.value()),
-                    part("documentation", doc),
-                ]
+                let mut parts = vec![part("name", code.name.value())];
+                if let Some(content) = image.content_to_look_at(code) {
+                    let doc = content.doc.as_deref().map_or(Value::NIL, Value::string);
+                    parts.push(part("lambda list", content.lambda_list.value()));
+                    parts.push(part("documentation", doc));
+                }
+                parts
             }
             Body::Native(Native { name, .. }) | Body::Deferred(Deferred { name, .. }) => {
                 vec![part("name", *name)]

@@ -19,7 +19,7 @@ use super::node::{LambdaNode, Node};
 use super::scope::{Block, Tagbody, Var};
 use crate::source::Place;
 use crate::value::Value;
-use crate::value::code::{Capture, Code, Local, Signature};
+use crate::value::code::{Capture, Code, Content, Local, Signature};
 use crate::value::known;
 use crate::value::operation::Op;
 use crate::value::raise::Raise;
@@ -97,11 +97,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         let name = lambda.name.as_symbol();
         tail_calls::mark(&mut emitter.ops, name, &lambda.parameters);
     }
-    let code = Code {
-        name: Signature::of(&lambda.name),
-        parameters: lambda.parameters.clone(),
-        exact_count: lambda.parameters.exact_count(),
-        room: emitter.most as usize + MORE_ROOM,
+    let content = Content {
         ops: emitter.ops.into(),
         constants: emitter.constants,
         inner: emitter.inner,
@@ -111,9 +107,17 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         free: lambda.free.iter().map(|var| var.name).collect(),
         lambda_list: Signature::of(&lambda.lambda_list),
         doc: lambda.doc.clone(),
-        is_fixed: false,
     };
-    Ok(code.finished())
+    let name = Signature::of(&lambda.name);
+    Ok(Rc::new(Code {
+        is_fixed: name.is_fixed() && content.is_fixed(),
+        name,
+        parameters: lambda.parameters.clone(),
+        exact_count: lambda.parameters.exact_count(),
+        room: emitter.most as usize + MORE_ROOM,
+        content: content.into(),
+        unread: None,
+    }))
 }
 
 fn index(n: usize) -> Compiled<u32> {

@@ -2,6 +2,10 @@
 //!
 //! Numbers are written seven bits at a time, the lowest first. Pairs, strings and vectors of a form
 //! are numbered in the order in which they are met; a further reference to one is its number.
+//!
+//! The content of the functions that a form makes can be written so that each is read by itself, when it is
+//! first needed. It is numbered from the start: a literal object that it has in common with the rest of the form
+//! becomes two that are alike.
 
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
@@ -11,7 +15,7 @@ use crate::image::Image;
 use crate::source::{Place, SourceId};
 use crate::value::Value;
 use crate::value::array::Vector;
-use crate::value::code::{Capture, Code, Parameters, Signature};
+use crate::value::code::{Capture, Code, Content, Parameters, Signature};
 use crate::value::cons::Cons;
 use crate::value::operation::Op;
 use crate::value::symbol::Sym;
@@ -76,17 +80,21 @@ pub(super) struct Encoding {
     sources: Vec<SourceId>,
     /// The numbers of the objects that have been written, by address.
     objects: HashMap<usize, u32>,
+    /// Are the functions that the form makes read by themselves?
+    apart: bool,
     /// What has been written, so that no address is used again.
     kept: Vec<Rc<Code>>,
 }
 
 impl Encoding {
-    /// Of a form of a source, or of a text that is read without places.
-    pub(super) fn of(source: Option<SourceId>) -> Encoding {
+    /// Of a form of a source, or of a text that is read without places; `apart`: are the functions that the
+    /// form makes read by themselves?
+    pub(super) fn of(source: Option<SourceId>, apart: bool) -> Encoding {
         Encoding {
             bytes: Vec::new(),
             sources: source.into_iter().collect(),
             objects: HashMap::new(),
+            apart,
             kept: Vec::new(),
         }
     }
@@ -104,6 +112,7 @@ impl Encoding {
             symbols,
             open: HashSet::new(),
             depth: 0,
+            is_apart: false,
             encoding: self,
         }
         .code(code)
@@ -130,6 +139,8 @@ struct Writer<'a> {
     /// The addresses of the vectors whose elements are being written.
     open: HashSet<usize>,
     depth: usize,
+    /// Is this in a function that is read by itself?
+    is_apart: bool,
     encoding: &'a mut Encoding,
 }
 
@@ -151,14 +162,39 @@ impl Writer<'_> {
     }
 
     fn code(&mut self, code: &Code) -> Option<()> {
+        self.head(code)?;
+        self.content(code.content()?)
+    }
+
+    /// What callers see of code.
+    fn head(&mut self, code: &Code) -> Option<()> {
         self.signature(&code.name)?;
-        self.signature(&code.lambda_list)?;
-        self.flag(code.doc.is_some());
-        if let Some(doc) = &code.doc {
-            text(self.bytes(), doc);
-        }
         self.parameters(&code.parameters)?;
         self.count(code.room);
+        Some(())
+    }
+
+    /// Code of a closure: its content as bytes of their own, or after it.
+    fn inner(&mut self, code: &Code) -> Option<()> {
+        if !self.encoding.apart || self.is_apart {
+            self.flag(false);
+            return self.code(code);
+        }
+        self.flag(true);
+        self.head(code)?;
+        self.flag(code.is_fixed);
+        let outside = std::mem::take(&mut self.encoding.bytes);
+        let objects = std::mem::take(&mut self.encoding.objects);
+        self.is_apart = true;
+        self.content(code.content()?)?;
+        self.is_apart = false;
+        let content = std::mem::replace(&mut self.encoding.bytes, outside);
+        self.encoding.objects = objects;
+        slice(self.bytes(), &content);
+        Some(())
+    }
+
+    fn content(&mut self, code: &Content) -> Option<()> {
         self.count(code.ops.len());
         for op in code.ops.iter() {
             self.op(*op)?;
@@ -169,7 +205,7 @@ impl Writer<'_> {
         }
         self.count(code.inner.len());
         for (inner, captures) in &code.inner {
-            self.code(inner)?;
+            self.inner(inner)?;
             self.count(captures.len());
             for capture in captures.iter() {
                 let (is_free, at) = match capture {
@@ -199,7 +235,13 @@ impl Writer<'_> {
             self.number(local.from);
             self.number(local.to);
         }
-        self.all_symbols(&code.free)
+        self.all_symbols(&code.free)?;
+        self.signature(&code.lambda_list)?;
+        self.flag(code.doc.is_some());
+        if let Some(doc) = &code.doc {
+            text(self.bytes(), doc);
+        }
+        Some(())
     }
 
     fn parameters(&mut self, parameters: &Parameters) -> Option<()> {
@@ -249,8 +291,10 @@ impl Writer<'_> {
         let (source, start, end) = self.image.sources.bytes_of(place)?;
         let mut sources = self.encoding.sources.iter();
         match sources.position(|known| *known == source) {
-            Some(number) => self.count(number + 1),
-            None => {
+            Some(number) if number == 0 || !self.is_apart => self.count(number + 1),
+            // What is read by itself knows no other source than that of the form.
+            _ if self.is_apart => return None,
+            _ => {
                 self.encoding.sources.push(source);
                 self.count(self.encoding.sources.len());
                 let name = &self.image.sources.get(source)?.name;

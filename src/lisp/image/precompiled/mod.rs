@@ -28,6 +28,8 @@ static PROVIDED: OnceLock<Option<Precompiled>> = OnceLock::new();
 /// Compiled code of files.
 pub struct Precompiled {
     symbols: Vec<KnownSymbol>,
+    /// How many of them have been found once all files are loaded.
+    loaded: u32,
     /// The symbols that are there after loading, by number, in order of creation.
     present: Vec<u32>,
     /// The counter of `gensym` after loading.
@@ -77,6 +79,7 @@ impl Precompiled {
             let name = bytes.text()?;
             symbols.push(KnownSymbol { package, name });
         }
+        let loaded = bytes.number()?;
         let mut present = Vec::new();
         for _ in 0..bytes.count()? {
             present.push(bytes.number()?);
@@ -97,6 +100,7 @@ impl Precompiled {
         }
         bytes.is_empty().then_some(Precompiled {
             symbols,
+            loaded,
             present,
             gensym_counter,
             files,
@@ -131,8 +135,14 @@ impl Image {
     /// After forms of files that are loaded whole: makes the symbols present that reading them
     /// would have made, and counts on the names of `gensym` as expanding them would have done.
     pub fn settle_precompiled(&mut self, precompiled: &'static Precompiled) {
-        for number in &precompiled.present {
-            unit::resolve(self, precompiled, *number);
+        // What functions refer to that are read later is the same in all copies.
+        for number in precompiled
+            .present
+            .iter()
+            .copied()
+            .chain(0..precompiled.loaded)
+        {
+            unit::resolve(self, precompiled, number);
         }
         let counter = i64::from(precompiled.gensym_counter);
         self.set_special(known::V_GENSYM_COUNTER, Value::Int(counter));

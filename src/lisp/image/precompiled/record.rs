@@ -18,6 +18,8 @@ use crate::value::symbol::Sym;
 #[derive(Default)]
 pub struct Precompiler {
     symbols: Symbols,
+    /// How many of them files that are loaded whole refer to, at most.
+    loaded: usize,
     present: Vec<u32>,
     gensym_counter: u32,
     files: BTreeMap<String, BTreeMap<usize, Option<Vec<u8>>>>,
@@ -55,10 +57,19 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Of a form of a source, or of a text that is read without places.
-    pub fn of(source: Option<SourceId>) -> Recording {
+    /// Of a form of a file of which all forms are evaluated, one after the other: the functions that it makes
+    /// are read when they are first needed.
+    pub fn of_loaded(source: SourceId) -> Recording {
         Recording {
-            encoding: Some(Encoding::of(source)),
+            encoding: Some(Encoding::of(Some(source), true)),
+        }
+    }
+
+    /// Of a form that is evaluated when it is first needed: of a source, or of a text that is read without
+    /// places.
+    pub fn of_deferred(source: Option<SourceId>) -> Recording {
+        Recording {
+            encoding: Some(Encoding::of(source, false)),
         }
     }
 
@@ -103,6 +114,7 @@ impl Precompiler {
                     .extend(precompiler.symbols.number(image, sym));
             }
         }
+        precompiler.loaded = precompiler.symbols.0.len();
         if let Value::Int(counter) = image.special(known::V_GENSYM_COUNTER) {
             precompiler.gensym_counter = u32::try_from(*counter).unwrap_or(0);
         }
@@ -129,6 +141,7 @@ impl Precompiler {
             encode::count(&mut bytes, home.map_or(0, |number| number + 1));
             encode::text(&mut bytes, name);
         }
+        encode::count(&mut bytes, self.loaded);
         encode::count(&mut bytes, self.present.len());
         for number in self.present {
             encode::number(&mut bytes, number);

@@ -1,5 +1,6 @@
 //! Reading code from bytes.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use num_bigint::BigInt;
@@ -10,7 +11,7 @@ use crate::image::Image;
 use crate::source::{Place, SourceId};
 use crate::value::Value;
 use crate::value::array::Vector;
-use crate::value::code::{Capture, Code, Local, Parameters, Signature};
+use crate::value::code::{Capture, Code, Content, Local, Parameters, Signature, Unread};
 use crate::value::cons::Cons;
 use crate::value::number;
 use crate::value::operation::Op;
@@ -90,11 +91,120 @@ pub(super) fn resolve(image: &mut Image, from: &'static Precompiled, number: u32
         None => image.make_symbol(symbol.name),
         Some(package) => {
             let package = image.packages.find(package)?;
-            image.intern(package, symbol.name)
+            if image.has_locks() {
+                image.intern(package, symbol.name)
+            } else {
+                // The packages are what they were when the code was made.
+                let symbols = &mut image.symbols;
+                image.packages.intern_at_home(symbols, package, symbol.name)
+            }
         }
     };
     *image.library.resolved.get_mut(at)? = Some(sym);
     Some(sym)
+}
+
+/// What code is read into: what its symbols and places are there.
+pub(super) trait Target {
+    /// The symbol with a number.
+    fn symbol(&mut self, from: &'static Precompiled, number: u32) -> Option<Sym>;
+
+    /// The source of a name.
+    fn source(&self, name: &str) -> Option<SourceId>;
+
+    /// A place for the bytes `start..end` of a source.
+    fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place;
+}
+
+/// What is only for one image.
+impl Target for Image {
+    fn symbol(&mut self, from: &'static Precompiled, number: u32) -> Option<Sym> {
+        resolve(self, from, number)
+    }
+
+    fn source(&self, name: &str) -> Option<SourceId> {
+        self.sources.named(name)
+    }
+
+    fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+        self.sources.place(source, start, end)
+    }
+}
+
+/// An image whose copies have the code, too.
+struct Common<'a>(&'a mut Image);
+
+impl Target for Common<'_> {
+    fn symbol(&mut self, from: &'static Precompiled, number: u32) -> Option<Sym> {
+        resolve(self.0, from, number)
+    }
+
+    fn source(&self, name: &str) -> Option<SourceId> {
+        self.0.sources.named(name)
+    }
+
+    fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+        self.0.sources.common_place(source, start, end)
+    }
+}
+
+/// The same, once all files are loaded: what there is to be found has been found.
+struct Settled<'a>(&'a Image);
+
+impl Target for Settled<'_> {
+    fn symbol(&mut self, _: &'static Precompiled, number: u32) -> Option<Sym> {
+        let at = usize::try_from(number).ok()?;
+        self.0.library.resolved.get(at).copied()?
+    }
+
+    fn source(&self, name: &str) -> Option<SourceId> {
+        self.0.sources.named(name)
+    }
+
+    fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+        self.0.sources.common_place(source, start, end)
+    }
+}
+
+impl Image {
+    /// The content of code, which is read if it has not been needed before.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be read.
+    pub(crate) fn content<'a>(&mut self, code: &'a Code) -> Result<&'a Content, Box<Raise>> {
+        let from = self.library.precompiled;
+        content(&mut Common(self), from, code).ok_or_else(malformed)
+    }
+
+    /// The content of code, once all files are loaded.
+    pub fn content_to_look_at<'a>(&self, code: &'a Code) -> Option<&'a Content> {
+        content(&mut Settled(self), self.library.precompiled, code)
+    }
+}
+
+fn content<'a>(
+    target: &mut impl Target,
+    from: Option<&'static Precompiled>,
+    code: &'a Code,
+) -> Option<&'a Content> {
+    if let Some(content) = code.content() {
+        return Some(content);
+    }
+    let unread = code.unread?;
+    let mut unit = Unit {
+        from: from?,
+        bytes: Bytes(unread.bytes),
+        sources: unread.source.into_iter().collect(),
+        objects: Vec::new(),
+    };
+    let content = unit.content(target)?;
+    Some(code.content.get_or_init(|| content))
+}
+
+#[cold]
+fn malformed() -> Box<Raise> {
+    Raise::program("Code that has been made ahead cannot be read.")
 }
 
 /// The code of a form, read part by part.
@@ -124,14 +234,13 @@ impl Unit {
             return None;
         }
         let code = self.code(image);
-        let malformed = || Raise::program("Code that has been made ahead cannot be read.");
         Some(code.ok_or_else(malformed))
     }
 
-    fn all<T>(
+    fn all<T, I: Target>(
         &mut self,
-        image: &mut Image,
-        one: impl Fn(&mut Self, &mut Image) -> Option<T>,
+        image: &mut I,
+        one: impl Fn(&mut Self, &mut I) -> Option<T>,
     ) -> Option<Vec<T>> {
         let count = self.bytes.count()?;
         // Each takes at least a byte.
@@ -147,19 +256,32 @@ impl Unit {
         (0..count).map(|_| self.bytes.number()).collect()
     }
 
-    fn code(&mut self, image: &mut Image) -> Option<Rc<Code>> {
+    /// Code with its content.
+    fn code(&mut self, image: &mut impl Target) -> Option<Rc<Code>> {
+        let mut code = self.head(image)?;
+        let content = self.content(image)?;
+        code.is_fixed = code.name.is_fixed() && content.is_fixed();
+        code.content = content.into();
+        Some(Rc::new(code))
+    }
+
+    /// What callers see of code.
+    fn head(&mut self, image: &mut impl Target) -> Option<Code> {
         let name = self.signature(image)?;
-        let lambda_list = self.signature(image)?;
-        let doc = match self.bytes.flag()? {
-            true => Some(self.bytes.text()?.into()),
-            false => None,
-        };
         let parameters = self.parameters(image)?;
-        let code = Code {
+        Some(Code {
             name,
             exact_count: parameters.exact_count(),
             parameters,
             room: self.bytes.count()?,
+            is_fixed: false,
+            content: OnceCell::new(),
+            unread: None,
+        })
+    }
+
+    fn content(&mut self, image: &mut impl Target) -> Option<Content> {
+        Some(Content {
             ops: self.all(image, Unit::op)?.into(),
             constants: self.all(image, Unit::value)?,
             inner: self.all(image, Unit::inner)?,
@@ -167,15 +289,19 @@ impl Unit {
             places: self.places(image)?.into(),
             locals: self.all(image, Unit::local)?.into(),
             free: self.all(image, Unit::symbol)?.into(),
-            lambda_list,
-            doc,
-            is_fixed: false,
-        };
-        Some(code.finished())
+            lambda_list: self.signature(image)?,
+            doc: match self.bytes.flag()? {
+                true => Some(self.bytes.text()?.into()),
+                false => None,
+            },
+        })
     }
 
-    fn inner(&mut self, image: &mut Image) -> Option<(Rc<Code>, Rc<[Capture]>)> {
-        let code = self.code(image)?;
+    fn inner(&mut self, image: &mut impl Target) -> Option<(Rc<Code>, Rc<[Capture]>)> {
+        let code = match self.bytes.flag()? {
+            true => self.unread(image)?,
+            false => self.code(image)?,
+        };
         let captures = self.all(image, |unit, _| {
             let is_free = unit.bytes.flag()?;
             let at = unit.bytes.number()?;
@@ -188,7 +314,18 @@ impl Unit {
         Some((code, captures.into()))
     }
 
-    fn parameters(&mut self, image: &mut Image) -> Option<Parameters> {
+    /// Code whose content is read when it is needed.
+    fn unread(&mut self, image: &mut impl Target) -> Option<Rc<Code>> {
+        let mut code = self.head(image)?;
+        code.is_fixed = self.bytes.flag()?;
+        code.unread = Some(Unread {
+            bytes: self.bytes.slice()?,
+            source: self.sources.first().copied(),
+        });
+        Some(Rc::new(code))
+    }
+
+    fn parameters(&mut self, image: &mut impl Target) -> Option<Parameters> {
         Some(Parameters {
             required: u16::try_from(self.bytes.number()?).ok()?,
             optional: u16::try_from(self.bytes.number()?).ok()?,
@@ -199,7 +336,7 @@ impl Unit {
         })
     }
 
-    fn places(&mut self, image: &mut Image) -> Option<Vec<(u32, Place)>> {
+    fn places(&mut self, image: &mut impl Target) -> Option<Vec<(u32, Place)>> {
         let mut first = 0_u32;
         let count = self.bytes.count()?;
         let mut places = Vec::with_capacity(count.min(self.bytes.0.len()));
@@ -210,21 +347,21 @@ impl Unit {
         Some(places)
     }
 
-    fn place(&mut self, image: &mut Image) -> Option<Place> {
+    fn place(&mut self, image: &mut impl Target) -> Option<Place> {
         let Some(number) = self.bytes.count()?.checked_sub(1) else {
             return Some(Place::NONE);
         };
         if number == self.sources.len() {
             let name = self.bytes.text()?;
-            self.sources.push(image.sources.named(name)?);
+            self.sources.push(image.source(name)?);
         }
         let source = *self.sources.get(number)?;
         let start = self.bytes.count()?;
         let end = start.checked_add(self.bytes.count()?)?;
-        Some(image.sources.place(source, start, end))
+        Some(image.place(source, start, end))
     }
 
-    fn local(&mut self, image: &mut Image) -> Option<Local> {
+    fn local(&mut self, image: &mut impl Target) -> Option<Local> {
         Some(Local {
             slot: self.bytes.number()?,
             name: self.symbol(image)?,
@@ -233,22 +370,22 @@ impl Unit {
         })
     }
 
-    fn symbol(&mut self, image: &mut Image) -> Option<Sym> {
+    fn symbol(&mut self, image: &mut impl Target) -> Option<Sym> {
         let number = self.bytes.number()?;
-        resolve(image, self.from, number)
+        image.symbol(self.from, number)
     }
 
-    fn signature(&mut self, image: &mut Image) -> Option<Signature> {
+    fn signature(&mut self, image: &mut impl Target) -> Option<Signature> {
         let is_fixed = self.bytes.flag()?;
         let value = self.value(image)?;
         Some(Signature::unchecked(value, is_fixed))
     }
 
-    fn op(&mut self, image: &mut Image) -> Option<Op> {
+    fn op(&mut self, image: &mut impl Target) -> Option<Op> {
         let (mut op, rest) = postcard::take_from_bytes::<Op>(self.bytes.0).ok()?;
         self.bytes.0 = rest;
         if let Some(sym) = op.symbol_mut() {
-            *sym = resolve(image, self.from, sym.0)?;
+            *sym = image.symbol(self.from, sym.0)?;
         }
         Some(op)
     }
@@ -258,7 +395,7 @@ impl Unit {
     }
 
     /// A value; a list in a loop.
-    fn value(&mut self, image: &mut Image) -> Option<Value> {
+    fn value(&mut self, image: &mut impl Target) -> Option<Value> {
         let mut whole = None;
         let mut last: Option<Rc<Cons>> = None;
         loop {
@@ -279,7 +416,7 @@ impl Unit {
     }
 
     /// A value, and whether it is a pair whose second half comes next.
-    fn single(&mut self, image: &mut Image) -> Option<(Value, bool)> {
+    fn single(&mut self, image: &mut impl Target) -> Option<(Value, bool)> {
         let tag = self.bytes.byte()?;
         if let tag::CONS | tag::PLACED = tag {
             let cons = Cons::shared(Value::NIL, Value::NIL);

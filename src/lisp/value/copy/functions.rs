@@ -1,10 +1,11 @@
 //! Copies of functions and of their code.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use super::{Copied, Copier, address, is_fixed, is_shared};
 use crate::value::Value;
-use crate::value::code::Code;
+use crate::value::code::{Code, Content};
 use crate::value::function::{Body, Function, Native, NativeBody};
 use crate::value::generic::GenericFunction;
 
@@ -91,28 +92,35 @@ impl Copier {
         if is_shared && let Some(copy) = self.codes.get(&address(code)) {
             return copy.clone();
         }
-        let inner = code.inner.iter();
-        let inner = inner.map(|(code, captures)| (self.code(code), captures.clone()));
-        let inner = inner.collect();
+        let content = code.content().map(|content| self.content(content));
         let copy = Rc::new(Code {
             name: code.name.copied(self),
             parameters: code.parameters.clone(),
             exact_count: code.exact_count,
             room: code.room,
-            ops: code.ops.clone(),
-            constants: self.all(&code.constants),
-            inner,
-            tags: code.tags.clone(),
-            places: code.places.clone(),
-            locals: code.locals.clone(),
-            free: code.free.clone(),
-            lambda_list: code.lambda_list.copied(self),
-            doc: code.doc.clone(),
             is_fixed: false,
+            content: content.map(OnceCell::from).unwrap_or_default(),
+            unread: code.unread,
         });
         if is_shared {
             self.codes.insert(address(code), copy.clone());
         }
         copy
+    }
+
+    fn content(&mut self, content: &Content) -> Content {
+        let inner = content.inner.iter();
+        let inner = inner.map(|(code, captures)| (self.code(code), captures.clone()));
+        Content {
+            inner: inner.collect(),
+            ops: content.ops.clone(),
+            constants: self.all(&content.constants),
+            tags: content.tags.clone(),
+            places: content.places.clone(),
+            locals: content.locals.clone(),
+            free: content.free.clone(),
+            lambda_list: content.lambda_list.copied(self),
+            doc: content.doc.clone(),
+        }
     }
 }
