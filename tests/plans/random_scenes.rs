@@ -374,6 +374,41 @@ fn what_is_reachable_is_reached_by_a_grid_of_inverse_kinematics() {
     reaches_agree(12, [5, 100]);
 }
 
+/// What blocks an object is found without a look at each of the others, and is what that look finds.
+#[test]
+fn what_blocks_is_what_a_hand_can_do_without() {
+    let mut session = Session::new(&SessionOptions::default()).expect("a session starts");
+    let told = said_and_printed(
+        &mut session,
+        "(in-package :btr)
+         (pp-tut:init-projection)
+         (defun looked-for (item sides)
+           (unless (%reached-grasps (list item) sides :object)
+             (loop for other in (remove item (pw::%objects-of-world))
+                   when (%reached-grasps (list item) sides :object (list other))
+                     collect other)))
+         (defvar *blocked* 0)
+         (defvar *different* '())
+         (dolist (count '(9 5 10 6 11 7))
+           (btr-utils:kill-all-objects)
+           (dotimes (i count)
+             (btr-utils:spawn-object
+              (intern (format nil \"THING-~a\" i)) (nth (random 5) '(:bottle :cup :bowl :mug :milk))
+              :pose (list (list (- -1.0 (random 0.4)) (+ 0.6 (random 0.5)) 0.97) '(0 0 0 1))))
+           (prolog-?w (list 'assert (list 'object-pose '?w :robot
+                                          (list (list (- -0.2 (random 0.4)) (+ 0.7 (random 0.5)) 0)
+                                                '(0 0 1 0)))))
+           (dolist (item (pw::%objects-of-world))
+             (dolist (sides '((:left :right) (:left) (:right)))
+               (let ((others (looked-for item sides)))
+                 (when others (incf *blocked*))
+                 (unless (equal others (blockers item sides))
+                   (push (list item sides others (blockers item sides)) *different*))))))
+         (format t \"~a different, ~a\" *different* (if (> *blocked* 3) \"enough\" *blocked*))",
+    );
+    assert!(told.contains("NIL different, enough"), "{told}");
+}
+
 /// What is stable is where it was after five seconds in which nothing is done, while a ball falls, rolls and comes to
 /// rest: also in the moment in which the hand lets go of it, at which nothing moves yet.
 #[test]

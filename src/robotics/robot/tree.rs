@@ -367,6 +367,27 @@ impl KinematicTree {
         }
     }
 
+    /// The poses of a link and those that carry it as [`Self::forward_kinematics`] gives them, with the same bits.
+    pub(crate) fn place_link(
+        &self,
+        link: LinkId,
+        root: &Pose,
+        q: &JointPositions,
+        out: &mut [Pose],
+    ) {
+        let Some(id) = self.link(link).parent_joint else {
+            out[link.0] = *root;
+            return;
+        };
+        let joint = self.joint(id);
+        self.place_link(joint.parent, root, q, out);
+        let local = match joint.kind {
+            JointKind::Fixed => joint.origin,
+            _ => joint.pose_at(self.position(q, id)),
+        };
+        out[link.0] = out[joint.parent.0] * local;
+    }
+
     /// As [`Self::forward_kinematics`], with the same bits, if `out` holds the poses for other
     /// positions and the same root: only the links that have moved are placed anew.
     pub(crate) fn update_forward_kinematics(

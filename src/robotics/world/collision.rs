@@ -58,7 +58,7 @@ pub struct Clearance {
 ///
 /// Creating one takes a few microseconds, as does a query: keep it for a whole search.
 pub struct CollisionChecker<'w> {
-    surroundings: Surroundings<'w>,
+    pub(super) surroundings: Surroundings<'w>,
     /// The configuration in which a query was made last, and the poses of the links in it.
     last: Option<RobotConfiguration>,
     poses: Vec<Pose>,
@@ -66,6 +66,9 @@ pub struct CollisionChecker<'w> {
     /// Whether the coming search is for `last`, and `moved` says what has moved before it.
     is_update: bool,
     scratch: Scratch,
+    /// For looking at some links again.
+    poses_again: Vec<Pose>,
+    scratch_again: Scratch,
     moving: Option<MovingParts>,
     /// The pairs of solid links that move relative to each other, once they have been listed.
     changing: Option<LinkPairs>,
@@ -119,6 +122,8 @@ impl<'w> CollisionChecker<'w> {
             moved: Vec::new(),
             is_update: false,
             scratch: Scratch::default(),
+            poses_again: Vec::new(),
+            scratch_again: Scratch::default(),
             moving: None,
             changing: None,
             pairs: Pairs::All,
@@ -181,14 +186,62 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> bool {
-        let mut free = true;
-        self.with_poses(robot, |checker, poses| {
-            checker.search(poses, allowed, Wanted::Whether, margin, |_, _| {
-                free = false;
-                ControlFlow::Break(())
+        self.any_near(robot, allowed, margin).is_none()
+    }
+
+    /// A pair that is closer than `margin` (m) and not allowed, any one. Searches for a free configuration ask about
+    /// many that are like each other: the pair that was found last is the first to be looked at, for which little has
+    /// to be placed.
+    pub(super) fn any_near(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<Near> {
+        let mut found = self.last_near(robot, allowed, margin);
+        if found.is_none() {
+            self.with_poses(robot, |checker, poses| {
+                checker.search(poses, allowed, Wanted::Whether, margin, |near, _| {
+                    found = Some(near);
+                    ControlFlow::Break(())
+                });
             });
-        });
-        free
+        }
+        found
+    }
+
+    /// The pair that was found last, if it is still near; otherwise it is forgotten.
+    fn last_near(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<Near> {
+        if self.only.is_some() || self.links.is_some() {
+            return None;
+        }
+        let looked = self.scratch.last?;
+        let tree = &self.surroundings.models.robot;
+        let mut poses = std::mem::take(&mut self.poses_again);
+        poses.resize(tree.links().count(), Pose::identity());
+        for link in self.scratch.last_links() {
+            tree.place_link(link, &robot.base, &robot.joints, &mut poses);
+        }
+        let allowed = self.keys_of(allowed);
+        let mut scratch = std::mem::take(&mut self.scratch_again);
+        let question = self.question(&allowed, Wanted::Whether);
+        let mut found = None;
+        let visit = |near, _: &mut f64| {
+            found = Some(near);
+            ControlFlow::Break(())
+        };
+        let around = &self.surroundings;
+        let next = around.search_again(looked, &poses, question, margin, &mut scratch, visit);
+        (self.poses_again, self.scratch_again) = (poses, scratch);
+        if next.is_continue() {
+            self.scratch.last = None;
+        }
+        found
     }
 
     /// A pair that is closer than `margin` (m) and not allowed, the first one found in a
@@ -240,17 +293,29 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> bool {
+        self.about_links(links, |checker| {
+            let mut touches = false;
+            checker.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
+                touches = true;
+                ControlFlow::Break(())
+            });
+            touches
+        })
+    }
+
+    /// A query about links that are somewhere else than they were.
+    pub(super) fn about_links<T>(
+        &mut self,
+        links: &SomeLinks,
+        query: impl FnOnce(&mut Self) -> T,
+    ) -> T {
         self.last = None;
         self.moved.clone_from(&links.are_some);
         self.is_update = true;
         self.links = Some(Rc::clone(&links.keys));
-        let mut touches = false;
-        self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
-            touches = true;
-            ControlFlow::Break(())
-        });
+        let answer = query(self);
         self.links = None;
-        touches
+        answer
     }
 
     fn first(
@@ -362,7 +427,7 @@ impl<'w> CollisionChecker<'w> {
         result
     }
 
-    fn search(
+    pub(super) fn search(
         &mut self,
         link_poses: &[Pose],
         allowed: &AllowedPairs,
@@ -371,8 +436,18 @@ impl<'w> CollisionChecker<'w> {
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
     ) {
         let allowed = self.keys_of(allowed);
-        let question = Question {
-            allowed: &allowed,
+        let is_update = std::mem::take(&mut self.is_update);
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let question = self.question(&allowed, wanted);
+        let moved = is_update.then_some(self.moved.as_slice());
+        self.surroundings
+            .search(link_poses, moved, question, margin, &mut scratch, visit);
+        self.scratch = scratch;
+    }
+
+    fn question<'q>(&'q self, allowed: &'q [(PartKey, PartKey)], wanted: Wanted) -> Question<'q> {
+        Question {
+            allowed,
             only: self.only.as_deref(),
             links: self.links.as_deref(),
             moving: self.moving.as_ref(),
@@ -382,11 +457,7 @@ impl<'w> CollisionChecker<'w> {
                 _ => &self.surroundings.models.self_pairs,
             },
             wanted,
-        };
-        let moved = std::mem::take(&mut self.is_update).then_some(self.moved.as_slice());
-        let scratch = &mut self.scratch;
-        self.surroundings
-            .search(link_poses, moved, question, margin, scratch, visit);
+        }
     }
 
     /// The keys of the pairs.

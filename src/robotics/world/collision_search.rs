@@ -79,14 +79,33 @@ pub struct Scratch {
     /// The pairs of links with bounds that are near each other.
     near: Vec<(usize, usize)>,
     /// What has been looked at last: after a search that was stopped, the pair that stopped it.
-    last: Option<Looked>,
+    pub(super) last: Option<Looked>,
 }
 
 /// A pair that has been looked at: the place of a mover, and what it may touch.
 #[derive(Clone, Copy)]
-struct Looked {
+pub(super) struct Looked {
     mover: usize,
     at: At,
+}
+
+impl Looked {
+    /// The places of the movers.
+    fn movers(self) -> impl Iterator<Item = usize> {
+        let other = match self.at {
+            At::Mover(other) => Some(other),
+            At::Floor | At::Furniture(_) | At::Object(_) => None,
+        };
+        std::iter::once(self.mover).chain(other)
+    }
+}
+
+impl Scratch {
+    /// The links of what has been looked at last.
+    pub(super) fn last_links(&self) -> impl Iterator<Item = LinkId> {
+        let movers = self.last.into_iter().flat_map(Looked::movers);
+        movers.filter_map(|place| Some(self.movers.get(place)?.link))
+    }
 }
 
 /// What a mover may touch.
@@ -157,6 +176,33 @@ impl<'w> Surroundings<'w> {
         if search.run().is_continue() {
             scratch.last = None;
         }
+    }
+
+    /// Looks at nothing but a pair that another search has looked at, as [`Self::search`] does; of the poses, those of
+    /// its links are enough. `scratch` is for such searches only.
+    pub(super) fn search_again(
+        &self,
+        looked: Looked,
+        link_poses: &[Pose],
+        question: Question<'_>,
+        margin: f64,
+        scratch: &mut Scratch,
+        visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut search = Search {
+            around: self,
+            link_poses,
+            question,
+            margin,
+            scratch,
+            visit,
+        };
+        match search.scratch.movers.is_empty() {
+            true => search.place_all(),
+            false => looked.movers().for_each(|place| search.place_again(place)),
+        }
+        search.scratch.last = Some(looked);
+        search.again()
     }
 }
 
@@ -346,12 +392,17 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             if moved.get(link.index()) == Some(&false) {
                 continue;
             }
-            let (pose, frame, bounds) = self.place(place);
-            self.scratch.bounds[place] = bounds;
-            let mover = &mut self.scratch.movers[place];
-            (mover.pose, mover.frame) = (pose, frame);
-            mover.is_placed = false;
+            self.place_again(place);
         }
+    }
+
+    /// Places the mover with that index where it is now.
+    fn place_again(&mut self, place: usize) {
+        let (pose, frame, bounds) = self.place(place);
+        self.scratch.bounds[place] = bounds;
+        let mover = &mut self.scratch.movers[place];
+        (mover.pose, mover.frame) = (pose, frame);
+        mover.is_placed = false;
     }
 
     /// Whether the question is about a link or a held object and what does not belong to the robot.

@@ -28,6 +28,7 @@ pub mod hash;
 mod headroom;
 pub mod holding;
 mod hollow;
+mod in_the_way;
 mod inside;
 pub mod kitchen_description;
 mod kitchen_description_file;
@@ -89,6 +90,7 @@ pub(crate) use explored_floor::{ExploredGrid, ExploredGrids};
 pub use extent::Extent;
 pub use handle_hold::{HandleHold, HandleSlip};
 pub use holding::Slip;
+pub(crate) use in_the_way::InTheWay;
 
 pub use kitchen_description::KitchenDescription;
 pub use knob::{KNOB_ON, Knob};

@@ -1,6 +1,6 @@
 //! What questions about the world are made of.
 
-use super::reached::reached;
+use super::reached::{hindrances, reached};
 use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
@@ -114,6 +114,15 @@ pub(super) static TABLE: &[Builtin] = &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%reached-grasps '(bottle-1) '(:left :right) :grasp)) => NIL",
         ],
         host!(reached),
+    ),
+    control(
+        "%HINDRANCES",
+        "name sides",
+        "The objects without any of which a hand could grasp an object from where the robot stands that no hand can grasp now; or :UNCLEAR where objects are above that one or in hands, so that each has to be tried.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%hindrances 'bottle-1 '(:left :right))) => NIL",
+        ],
+        host!(hindrances),
     ),
     control(
         "%POINT-HEAD",

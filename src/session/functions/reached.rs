@@ -5,7 +5,7 @@ use crate::host::call::done;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{side, side_keyword};
 use crate::simulation::names::{name_text, type_keyword};
-use crate::simulation::reached_grasps::ReachedGrasps;
+use crate::simulation::reached_grasps::{Hindrances, ReachedGrasps};
 use cram::Reply;
 use lisp::image::Image;
 use lisp::value::Value;
@@ -89,6 +89,53 @@ pub(super) fn reached(
         }
     }
     done(Value::list(rows))
+}
+
+/// The objects without any of which a hand could grasp an object that no hand can grasp now, or `:UNCLEAR`.
+pub(super) fn hindrances(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let sides = args[1].iter_list();
+    let sides: Vec<Side> = sides
+        .map(|value| side(image, &value))
+        .collect::<Result<_>>()?;
+    let simulation = &*simulation;
+    let world = &simulation.world;
+    let kind = world.object(&name).map_err(raise)?.type_name();
+    let others = world.objects().map(|object| object.name().to_owned());
+    let others: Vec<String> = others.filter(|other| *other != name).collect();
+    let mut reached = ReachedGrasps::new(simulation, world, &[]);
+    let mut without = ReachedGrasps::new(simulation, world, &others);
+    let mut without_each: Vec<Option<ReachedGrasps>> = others.iter().map(|_| None).collect();
+    let mut found = vec![false; others.len()];
+    for &side in &sides {
+        for grasp in simulation.defined_grasps(kind, side) {
+            let Some(definition) = simulation.definition(kind, side, &grasp) else {
+                continue;
+            };
+            let some = match reached.hindrances(&mut without, &name, side, &definition)? {
+                Hindrances::Nothing => return done(Value::NIL),
+                Hindrances::Objects(some) => some,
+                Hindrances::Unclear => return done(type_keyword(image, "UNCLEAR")),
+            };
+            let each = others.iter().zip(&mut without_each).zip(&mut found);
+            for ((other, without), is_found) in each {
+                if !*is_found && some.contains(&other.as_str()) {
+                    let absent = std::slice::from_ref(other);
+                    let without = without
+                        .get_or_insert_with(|| ReachedGrasps::new(simulation, world, absent));
+                    *is_found = without.has(&name, side, &definition)?;
+                }
+            }
+        }
+    }
+    let found = others.iter().zip(found).filter(|(_, is_found)| *is_found);
+    done(Value::list(
+        found.map(|(name, _)| simulation.symbol_of(name)),
+    ))
 }
 
 /// A copy of the world without some objects, if hands hold something: what they hold moves with them.

@@ -12,7 +12,7 @@ use crate::motion::planning::planning_group::PlanningGroup;
 use crate::motion::planning::pose_goal::{GoalConfiguration, PathSearch, PoseGoalTask, TORSO_STEP};
 use crate::robot::Side;
 use crate::world::{
-    AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration, SomeLinks, World,
+    AllowedPairs, CollisionChecker, CollisionHit, InTheWay, RobotConfiguration, SomeLinks, World,
 };
 use spatial::Pose;
 
@@ -94,10 +94,25 @@ impl<'w> HandReach<'w> {
         mode: CollisionMode,
         target: Option<&str>,
     ) -> bool {
+        let touches = self.lone_at(tool, mode, target, |lone, links, relaxed, margin| {
+            lone.checker
+                .links_touch_at(&lone.in_map, links, relaxed, margin)
+        });
+        touches == Some(true)
+    }
+
+    /// Asks about the hand at the pose, wherever its arm is; `None` where arms are not placed exactly enough for that.
+    fn lone_at<T>(
+        &mut self,
+        tool: &Pose,
+        mode: CollisionMode,
+        target: Option<&str>,
+        ask: impl FnOnce(&mut LoneLinks<'w>, &SomeLinks, &AllowedPairs, f64) -> T,
+    ) -> Option<T> {
         let arm = self.world.models().description.arm(self.side);
         // Where solutions are searched for, they are less exact.
         if !arm.kinematics.is_closed_form() {
-            return false;
+            return None;
         }
         let at = self.touching_at(mode, target);
         let (world, robot, side) = (self.world, &self.robot, self.side);
@@ -110,18 +125,97 @@ impl<'w> HandReach<'w> {
         }
         let relaxed = self.touching[at].2.relaxed();
         let margin = PLAN_MARGIN - ROUNDING;
-        lone.checker
-            .links_touch_at(&lone.in_map, &self.links, relaxed, margin)
+        Some(ask(lone, &self.links, relaxed, margin))
     }
 
-    fn reaches_pose(&mut self, tool: &Pose, mode: CollisionMode, target: Option<&str>) -> bool {
-        let at = self.touching_at(mode, target);
-        let task = PoseGoalTask {
+    fn task(&self, tool: &Pose) -> PoseGoalTask<'w> {
+        PoseGoalTask {
             world: self.world,
             goals: vec![(self.side, *tool)],
             contacts: ExpectedContacts::default(),
             search: PathSearch::Long,
+        }
+    }
+
+    /// The objects of which one has to be taken away at least for the tool to be at each of the poses, as in
+    /// [`Self::reaches`]: if that is possible without a single object, it is one of these. `None` if the tool could be
+    /// there already.
+    pub fn hindrances(
+        &mut self,
+        way: &[(Pose, CollisionMode)],
+        target: Option<&str>,
+    ) -> Option<Vec<&'w str>> {
+        let is_other = |found: &InTheWay<'w>| match found {
+            InTheWay::Object(name) if Some(*name) != target => Some(*name),
+            InTheWay::Object(_) | InTheWay::Fixed => None,
         };
+        // What the hand alone touches has to go in any case.
+        for (tool, mode) in way {
+            if let Some(touched) = self.touched_at(tool, *mode, target) {
+                return Some(is_other(&touched).into_iter().collect());
+            }
+        }
+        let mut all: Option<Vec<&'w str>> = None;
+        for (tool, mode) in way {
+            let Some(met) = self.met_at(tool, *mode, target) else {
+                continue;
+            };
+            let met = met.iter().filter_map(is_other);
+            let some: Vec<&str> = match &all {
+                Some(all) => met.filter(|name| all.contains(name)).collect(),
+                None => met.collect(),
+            };
+            if some.is_empty() {
+                return Some(some);
+            }
+            all = Some(some);
+        }
+        all
+    }
+
+    /// What is met by the configurations with the tool at the pose, one thing of each; `None` if one is free.
+    fn met_at(
+        &mut self,
+        tool: &Pose,
+        mode: CollisionMode,
+        target: Option<&str>,
+    ) -> Option<Vec<InTheWay<'w>>> {
+        let mut met = Vec::new();
+        let at = self.touching_at(mode, target);
+        let task = self.task(tool);
+        for height in task.heights(TORSO_STEP) {
+            let moves = usize::from(height != task.torso_now());
+            let configurations = self.configurations(&task, height, moves, at);
+            let Some(Group { checker, .. }) = &mut self.groups[moves] else {
+                continue;
+            };
+            checker.set_touching(&self.robot, &self.touching[at].2);
+            for configuration in configurations {
+                let found = checker.in_the_way(&configuration.positions)?;
+                if !met.contains(&found) {
+                    met.push(found);
+                }
+            }
+        }
+        Some(met)
+    }
+
+    /// What the hand would touch at the pose, wherever its arm is, one of all.
+    fn touched_at(
+        &mut self,
+        tool: &Pose,
+        mode: CollisionMode,
+        target: Option<&str>,
+    ) -> Option<InTheWay<'w>> {
+        self.lone_at(tool, mode, target, |lone, links, relaxed, margin| {
+            lone.checker
+                .in_the_way_at(&lone.in_map, links, relaxed, margin)
+        })?
+    }
+
+    fn reaches_pose(&mut self, tool: &Pose, mode: CollisionMode, target: Option<&str>) -> bool {
+        let at = self.touching_at(mode, target);
+        let task = self.task(tool);
         let heights = task.heights(TORSO_STEP);
         // The first one is the present one, at which the torso need not move.
         let (now, others) = heights.split_at(1);

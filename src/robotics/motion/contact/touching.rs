@@ -5,7 +5,7 @@
 
 use super::expected_contacts::ExpectedContacts;
 use super::guard::GREATEST_LAG;
-use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration};
+use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, InTheWay, RobotConfiguration};
 
 /// A pair may seem to overlap this much (m) more: rounding, not motion.
 const SAME_DEPTH: f64 = 5e-5;
@@ -142,6 +142,23 @@ impl TouchingPairs {
             let mut before = self.hits.iter();
             let before = before.find(|b| b.moving == hit.moving && b.other == hit.other);
             hit.depth > before.map_or(0.0, |b| b.depth).max(self.depth) + SAME_DEPTH
+        })
+    }
+
+    /// What keeps the configuration from being free, one of all, where [`Self::first_hit`] finds something.
+    pub(crate) fn in_the_way<'w>(
+        &self,
+        checker: &mut CollisionChecker<'w>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) -> Option<InTheWay<'w>> {
+        let near = checker.in_the_way(robot, &self.relaxed, margin);
+        near.or_else(|| {
+            let deep = self.first_deep(checker, robot)?;
+            Some(match checker.as_in_the_way(&deep.other) {
+                InTheWay::Fixed => checker.as_in_the_way(&deep.moving),
+                object => object,
+            })
         })
     }
 }

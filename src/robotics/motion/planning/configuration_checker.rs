@@ -6,8 +6,8 @@ use crate::motion::contact::level::LevelHands;
 use crate::motion::contact::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{
-    AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, RobotConfiguration,
-    SomeLinks, Tilt, World,
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, InTheWay, MovingParts, Pairs,
+    RobotConfiguration, SomeLinks, Tilt, World,
 };
 
 /// Clearance (m) of planned configurations from everything.
@@ -183,6 +183,13 @@ impl<'w> ConfigurationChecker<'w> {
         self.set(positions);
         self.touching
             .is_free(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// What keeps the joint positions from being free, one of all.
+    pub(crate) fn in_the_way(&mut self, positions: &[f64]) -> Option<InTheWay<'w>> {
+        self.set(positions);
+        self.touching
+            .in_the_way(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
     /// Whether one of the links is too close to what is no part of the robot in that
