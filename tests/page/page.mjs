@@ -168,6 +168,8 @@ async function isKept(browser, tab) {
 
 async function sameBits(browser) {
   const tab = await opened(browser, page);
+  // Whoever runs a plan has looked around before; until then the page warms up.
+  await sleep(3);
   const fresh = () => tab.value('planwright.engine.begin()');
   const compare = async (what, inputs) => {
     await fresh();

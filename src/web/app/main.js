@@ -9,6 +9,7 @@ import { keepSession, lastSession, ownSession } from './sessions.js';
 import { linkOf, sharedSession } from './share.js';
 import { Sweeper } from './sweep.js';
 import { Tutorial } from './tutorial.js';
+import { warmUp } from './warm_up.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -48,6 +49,7 @@ document.addEventListener('keydown', (event) => {
 });
 
 engine.addEventListener('done', () => keepSession(engine));
+engine.addEventListener('idle', () => warmUp(engine), { once: true });
 window.addEventListener('beforeunload', (event) => { if (!files.isSaved) event.preventDefault(); });
 // For tests and for the curious.
 window.planwright = { engine, prompt, view, tutorial, files, sweeper, showPane };
