@@ -3,13 +3,15 @@
 //!
 //! Whatever is asked, what rules out most poses comes first: the hand alone, wherever its arm may be.
 
+use std::ops::ControlFlow;
+
 use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts};
 use crate::motion::contact::touching::TouchingPairs;
 use crate::motion::planning::configuration_checker::{
     ConfigurationChecker, PLAN_MARGIN, TOUCH_DEPTH,
 };
 use crate::motion::planning::planning_group::PlanningGroup;
-use crate::motion::planning::pose_goal::{GoalConfiguration, PathSearch, PoseGoalTask, TORSO_STEP};
+use crate::motion::planning::pose_goal::{PathSearch, PoseGoalTask, TORSO_STEP};
 use crate::robot::Side;
 use crate::world::{
     AllowedPairs, CollisionChecker, CollisionHit, InTheWay, RobotConfiguration, SomeLinks, World,
@@ -185,16 +187,19 @@ impl<'w> HandReach<'w> {
         let task = self.task(tool);
         for height in task.heights(TORSO_STEP) {
             let moves = usize::from(height != task.torso_now());
-            let configurations = self.configurations(&task, height, moves, at);
-            let Some(Group { checker, .. }) = &mut self.groups[moves] else {
-                continue;
-            };
-            checker.set_touching(&self.robot, &self.touching[at].2);
-            for configuration in configurations {
-                let found = checker.in_the_way(&configuration.positions)?;
+            let Group { group, checker } = self.group(&task, height, moves, at);
+            let now = group.now(task.world);
+            let next = task.visit_configurations(height, &now, |positions| {
+                let Some(found) = checker.in_the_way(positions) else {
+                    return ControlFlow::Break(());
+                };
                 if !met.contains(&found) {
                     met.push(found);
                 }
+                ControlFlow::Continue(())
+            });
+            if next.is_break() {
+                return None;
             }
         }
         Some(met)
@@ -235,46 +240,49 @@ impl<'w> HandReach<'w> {
             return Reach::Fails;
         };
         let moves = usize::from(*first != task.torso_now());
-        let mut is_new = true;
+        let links = self.links.clone();
+        let Group { group, checker } = self.group(task, *first, moves, at);
+        let now = group.now(task.world);
+        let (mut is_new, mut reach) = (true, Reach::Fails);
         for height in heights {
-            for configuration in self.configurations(task, *height, moves, at) {
-                let positions = &configuration.positions;
-                let Some(Group { checker, .. }) = &mut self.groups[moves] else {
-                    return Reach::Fails;
-                };
-                if is_new {
-                    checker.set_touching(&self.robot, &self.touching[at].2);
-                    if checker.touches_surroundings(positions, &self.links) {
-                        return Reach::HandBlocked;
-                    }
-                    is_new = false;
+            let next = task.visit_configurations(*height, &now, |positions| {
+                if is_new && checker.touches_surroundings(positions, &links) {
+                    reach = Reach::HandBlocked;
+                    return ControlFlow::Break(());
                 }
+                is_new = false;
                 if checker.is_free(positions) {
-                    return Reach::Reaches;
+                    reach = Reach::Reaches;
+                    return ControlFlow::Break(());
                 }
+                ControlFlow::Continue(())
+            });
+            if next.is_break() {
+                break;
             }
         }
-        Reach::Fails
+        reach
     }
 
-    /// All configurations at a height, for which the torso moves or not.
-    fn configurations(
+    /// The joints for which the torso moves or not, with what may be close.
+    fn group(
         &mut self,
         task: &PoseGoalTask<'_>,
         height: f64,
         moves: usize,
         at: usize,
-    ) -> Vec<GoalConfiguration> {
+    ) -> &mut Group<'w> {
+        let touching = &self.touching[at].2;
         let group = self.groups[moves].get_or_insert_with(|| {
             let group = task.group(height);
             let joints = group.joints.clone();
             let checker = self.world.collision_checker().without(self.absent);
-            let touching = self.touching[at].2.clone();
             let robot = self.robot.clone();
-            let checker = ConfigurationChecker::with(checker, robot, joints, touching);
+            let checker = ConfigurationChecker::with(checker, robot, joints, touching.clone());
             Group { group, checker }
         });
-        task.configurations(height, &group.group)
+        group.checker.set_touching(&self.robot, touching);
+        group
     }
 
     /// The place in the list of what may be close.

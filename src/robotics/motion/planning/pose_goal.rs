@@ -5,6 +5,8 @@
 //! height all configurations over the arm's redundant angle are considered; those in collision
 //! are left out, the rest are ranked by how far away they are and how much clearance they have.
 
+use std::ops::ControlFlow;
+
 use nalgebra::Translation3;
 
 use super::cartesian_path::{
@@ -25,7 +27,7 @@ use crate::motion::trajectories::axis_group::AxisGroup;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
 use crate::robot::description::Speed;
-use crate::robot::{self, JointId, Limits, RobotDescription, Side};
+use crate::robot::{self, ArmPositions, JointId, Limits, RobotDescription, Side};
 use crate::world::{CollisionHit, World};
 use spatial::{Pose, trig};
 
@@ -172,18 +174,13 @@ impl PoseGoalTask<'_> {
         group: &PlanningGroup,
     ) -> Vec<GoalConfiguration> {
         let now = group.now(self.world);
-        let arms = self.goals.iter();
-        let joints = arms.map(|(side, _)| self.body().arm(*side).joints().len());
-        let lead = now.len() - joints.sum::<usize>();
-        let torso = if lead > 0 { vec![height] } else { Vec::new() };
         let mut all = vec![GoalConfiguration {
             cost: 0.0,
-            positions: torso,
+            positions: self.torso_at(height, &now),
         }];
         for (side, tcp) in &self.goals {
             let kinematics = &self.body().arm(*side).kinematics;
-            let wrist = self.wrist(*side, tcp, height);
-            let found = kinematics.solutions(&wrist, CONFIGURATION_STEP);
+            let found = self.arm_solutions(*side, tcp, height);
             let mut next = Vec::with_capacity(all.len() * found.len());
             for before in &all {
                 for solution in &found {
@@ -193,10 +190,7 @@ impl PoseGoalTask<'_> {
                     for (q, limits) in solution.iter().zip(kinematics.limits()) {
                         // There is one axis per joint of every arm with a goal, so one is left.
                         let from = now[positions.len()];
-                        let to = match limits {
-                            Some(_) => *q,
-                            None => from + trig::wrap(q - from),
-                        };
+                        let to = turned_to(*q, *limits, from);
                         cost += (to - from).abs() + limits.map_or(0.0, |l| limit_cost(&l, to));
                         positions.push(to);
                     }
@@ -209,6 +203,44 @@ impl PoseGoalTask<'_> {
             all = next;
         }
         all
+    }
+
+    /// The position of the torso at the height, if it is one of the axes, which are where they are `now`.
+    fn torso_at(&self, height: f64, now: &[f64]) -> Vec<f64> {
+        let arms = self.goals.iter();
+        let joints = arms.map(|(side, _)| self.body().arm(*side).joints().len());
+        match now.len() > joints.sum::<usize>() {
+            true => vec![height],
+            false => Vec::new(),
+        }
+    }
+
+    fn arm_solutions(&self, side: Side, tcp: &Pose, height: f64) -> Vec<ArmPositions> {
+        let kinematics = &self.body().arm(side).kinematics;
+        let wrist = self.wrist(side, tcp, height);
+        kinematics.solutions(&wrist, CONFIGURATION_STEP)
+    }
+
+    /// As [`Self::configurations`] of a single arm, in no order, until `visit` has enough.
+    pub(crate) fn visit_configurations(
+        &self,
+        height: f64,
+        now: &[f64],
+        mut visit: impl FnMut(&[f64]) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some((side, tcp)) = self.goals.first() else {
+            return ControlFlow::Continue(());
+        };
+        let mut positions = self.torso_at(height, now);
+        let lead = positions.len();
+        let limits = self.body().arm(*side).kinematics.limits();
+        for solution in self.arm_solutions(*side, tcp, height) {
+            positions.truncate(lead);
+            let axes = solution.iter().zip(limits).zip(now.iter().skip(lead));
+            positions.extend(axes.map(|((q, limits), from)| turned_to(*q, *limits, *from)));
+            visit(&positions)?;
+        }
+        ControlFlow::Continue(())
     }
 
     /// The finger joints of the moving hands: wide open, or, if they hold something, as far as they
@@ -555,6 +587,14 @@ impl PoseGoalTask<'_> {
                 }
             }
         }
+    }
+}
+
+/// The position of an axis nearest to where it is `from`: without limits, it turns the short way.
+fn turned_to(q: f64, limits: Option<Limits>, from: f64) -> f64 {
+    match limits {
+        Some(_) => q,
+        None => from + trig::wrap(q - from),
     }
 }
 
