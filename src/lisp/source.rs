@@ -1,6 +1,7 @@
 //! Source texts and places in them.
 
 use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -99,13 +100,43 @@ struct Span {
     end: u32,
 }
 
+/// The places of what several images read, each for itself or for all: the first to read it registers them.
+#[derive(Default)]
+struct CommonPlaces {
+    spans: Vec<Span>,
+    /// What has been read, by its address, and how many places there were before it.
+    read: HashMap<usize, usize>,
+}
+
+/// The places of one thing that copies of an image have in common, in the order in which they are asked for.
+pub(crate) struct CommonReading {
+    common: Rc<RefCell<CommonPlaces>>,
+    next: usize,
+}
+
+impl CommonReading {
+    /// The place of the bytes `start..end` of a source that all copies have.
+    pub(crate) fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+        let spans = &mut self.common.borrow_mut().spans;
+        if self.next == spans.len() {
+            spans.push(Span {
+                source,
+                start: offset(start),
+                end: offset(end),
+            });
+        }
+        self.next += 1;
+        Place(offset(self.next) | COMMON)
+    }
+}
+
 /// All source texts of an image, and the places in them.
 #[derive(Clone, Default)]
 pub struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
-    /// The places that copies have in common: those of code that they share, whichever reads it first.
-    common: Rc<RefCell<Vec<Span>>>,
+    /// The places that copies have in common.
+    common: Rc<RefCell<CommonPlaces>>,
     /// Files that have been loaded, and of which nobody has been told yet.
     loaded: RefCell<Vec<SourceId>>,
 }
@@ -183,16 +214,16 @@ impl Sources {
         Place(offset(self.spans.len()))
     }
 
-    /// Registers the bytes `start..end` of a source as a place for this image and all its copies; the source
-    /// must be one that all of them have.
-    pub(crate) fn common_place(&self, source: SourceId, start: usize, end: usize) -> Place {
+    /// Begins to read something that stays where it is, and is the same for this image and all its copies. Whoever reads
+    /// it again gets the same places.
+    pub(crate) fn read_common(&self, bytes: &'static [u8]) -> CommonReading {
         let mut common = self.common.borrow_mut();
-        common.push(Span {
-            source,
-            start: offset(start),
-            end: offset(end),
-        });
-        Place(offset(common.len()) | COMMON)
+        let next = common.spans.len();
+        let next = *common.read.entry(bytes.as_ptr().addr()).or_insert(next);
+        CommonReading {
+            common: Rc::clone(&self.common),
+            next,
+        }
     }
 
     /// Is this a place in a program, not in the part of the language written in Lisp?
@@ -239,7 +270,7 @@ impl Sources {
         let at = ((place.0 & !COMMON) as usize).checked_sub(1)?;
         match place.0 & COMMON {
             0 => self.spans.get(at).copied(),
-            _ => self.common.borrow().get(at).copied(),
+            _ => self.common.borrow().spans.get(at).copied(),
         }
     }
 

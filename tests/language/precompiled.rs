@@ -68,26 +68,54 @@ fn functions_are_read_when_they_are_needed_whichever_copy_needs_them_first() {
     assert_eq!(self::unread(&second).0, 0);
     let alone = known_names(&mut open_default().expect("a session"));
     assert!(of_first == of_second && of_first == alone);
+    // What each reads for itself, since it could be changed, has the same places, however many copies there are.
+    let (places, own) = places_of_contents(&first, &second);
+    assert!(
+        places > 5000 && own > 300,
+        "{places} places, {own} contents"
+    );
+}
+
+/// How many places the contents of functions have that are the same in two sessions, and how many contents both have
+/// read for themselves.
+fn places_of_contents(first: &Session, second: &Session) -> (usize, usize) {
+    let (mut places, mut own) = (0, 0);
+    for (one, two) in codes(first).zip(codes(second)) {
+        let contents = one.content().zip(two.content());
+        let (of_one, of_two) = contents.expect("all has been read");
+        assert!(
+            of_one.places == of_two.places,
+            "{:?} {:?}",
+            of_one.places,
+            of_two.places
+        );
+        places += of_one.places.len();
+        own += usize::from(!std::ptr::eq(one, two));
+    }
+    (places, own)
 }
 
 /// How many of the functions of the plans have not been read, and how many there are.
 fn unread(session: &Session) -> (usize, usize) {
+    let unread = codes(session).filter(|code| code.content().is_none());
+    (unread.count(), codes(session).count())
+}
+
+/// The code of the functions and macros of the plans, in the order of packages and names.
+fn codes(session: &Session) -> impl Iterator<Item = &Code> {
     let image = session.image();
-    let mut counts = (0, 0);
-    for id in image.packages.ids() {
-        for (sym, _) in image.packages.get(id).symbols.values() {
-            let data = image.symbol(*sym);
-            let (FunctionCell::Function(function) | FunctionCell::Macro(function)) = &data.function
-            else {
-                continue;
-            };
-            if let (true, Body::Closure { code, .. }) = (data.package == Some(id), &function.body) {
-                counts.0 += usize::from(code.content().is_none());
-                counts.1 += 1;
-            }
-        }
-    }
-    counts
+    let at_home = image.packages.ids().flat_map(move |id| {
+        let symbols = image.packages.get(id).symbols.values();
+        let data = symbols.map(|(sym, _)| image.symbol(*sym));
+        data.filter(move |data| data.package == Some(id))
+    });
+    at_home.filter_map(|data| match &data.function {
+        FunctionCell::Function(function) | FunctionCell::Macro(function) => match &function.body {
+            Body::Closure { code, .. } => Some(&**code),
+            _ => None,
+        },
+        FunctionCell::Unbound | FunctionCell::Builtin => None,
+    })
 }
 
 /// All symbols with what they mean; without the helpers of the language, and without keywords, which

@@ -49,12 +49,9 @@ impl Machine<'_> {
             let Body::Closure { code, captured } = &function.body else {
                 return Next::Run;
             };
-            let content = match code.content() {
-                Some(content) => content,
-                None => match self.image.content(code) {
-                    Ok(content) => content,
-                    Err(raise) => return self.raise(raise),
-                },
+            let content = match self.image.content(code) {
+                Ok(content) => content,
+                Err(raise) => return self.raise(raise),
             };
             let mut pc = noted.get();
             let mut window = fiber.stack.window(frame.base, code.room);

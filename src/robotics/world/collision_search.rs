@@ -3,11 +3,15 @@
 //! Bounds are compared first, from all links together down to primitives, then the boxes about what
 //! is left; the primitives of moving parts are placed only when they are needed.
 
+mod again;
+
 use std::ops::ControlFlow;
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
 
+use self::again::At;
+pub(super) use self::again::Looked;
 use super::frame::Frame;
 use super::link_pairs::{BLOCK, LinkPairs, blocks_of, meet};
 use super::models::Footing;
@@ -82,44 +86,6 @@ pub struct Scratch {
     pub(super) last: Option<Looked>,
 }
 
-/// A pair that has been looked at: the place of a mover, and what it may touch.
-#[derive(Clone, Copy)]
-pub(super) struct Looked {
-    mover: usize,
-    at: At,
-}
-
-impl Looked {
-    /// The places of the movers.
-    fn movers(self) -> impl Iterator<Item = usize> {
-        let other = match self.at {
-            At::Mover(other) => Some(other),
-            At::Floor | At::Furniture(_) | At::Object(_) => None,
-        };
-        std::iter::once(self.mover).chain(other)
-    }
-}
-
-impl Scratch {
-    /// The links of what has been looked at last.
-    pub(super) fn last_links(&self) -> impl Iterator<Item = LinkId> {
-        let movers = self.last.into_iter().flat_map(Looked::movers);
-        movers.filter_map(|place| Some(self.movers.get(place)?.link))
-    }
-}
-
-/// What a mover may touch.
-#[derive(Clone, Copy)]
-enum At {
-    Floor,
-    /// By its place in the list of all furniture.
-    Furniture(usize),
-    /// By its place in the list of objects.
-    Object(usize),
-    /// Another mover, by its place.
-    Mover(usize),
-}
-
 /// A link or a held object, placed for one query.
 struct Mover {
     key: PartKey,
@@ -176,33 +142,6 @@ impl<'w> Surroundings<'w> {
         if search.run().is_continue() {
             scratch.last = None;
         }
-    }
-
-    /// Looks at nothing but a pair that another search has looked at, as [`Self::search`] does; of the poses, those of
-    /// its links are enough. `scratch` is for such searches only.
-    pub(super) fn search_again(
-        &self,
-        looked: Looked,
-        link_poses: &[Pose],
-        question: Question<'_>,
-        margin: f64,
-        scratch: &mut Scratch,
-        visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let mut search = Search {
-            around: self,
-            link_poses,
-            question,
-            margin,
-            scratch,
-            visit,
-        };
-        match search.scratch.movers.is_empty() {
-            true => search.place_all(),
-            false => looked.movers().for_each(|place| search.place_again(place)),
-        }
-        search.scratch.last = Some(looked);
-        search.again()
     }
 }
 
@@ -263,37 +202,6 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             }
         }
         ControlFlow::Continue(())
-    }
-
-    /// Looks first at the pair that has stopped the last search, where any pair is as good as another one: searches for
-    /// a free configuration ask about many that are like each other.
-    fn again(&mut self) -> ControlFlow<()> {
-        let last = self.scratch.last.take();
-        if self.question.wanted != Wanted::Whether || self.question.only.is_some() {
-            return ControlFlow::Continue(());
-        }
-        match last {
-            Some(Looked {
-                mover,
-                at: At::Mover(other),
-            }) if self.question.links.is_none() => self.against_each_other(mover, other),
-            Some(Looked { mover, at }) => {
-                let scratch = &self.scratch;
-                let (Some(bounds), true) = (
-                    scratch.bounds.get(mover),
-                    (scratch.movers.get(mover)).is_some_and(|mover| self.asks_of_mover(mover)),
-                ) else {
-                    return ControlFlow::Continue(());
-                };
-                let bounds = with_slack(bounds, self.margin);
-                match at {
-                    At::Furniture(place) => self.against_furniture(mover, &bounds, place),
-                    At::Object(place) => self.against_object(mover, &bounds, place),
-                    At::Floor | At::Mover(_) => ControlFlow::Continue(()),
-                }
-            }
-            None => ControlFlow::Continue(()),
-        }
     }
 
     /// Whether the question is about any pair with the mover of that index.

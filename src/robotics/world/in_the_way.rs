@@ -1,12 +1,11 @@
 //! What keeps a configuration from being free: an object that could be taken away, or something else.
 
-use std::ops::ControlFlow;
-
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
-use super::collision::{CollisionChecker, SomeLinks};
-use super::collision_search::{Near, Wanted};
+use super::collision::{CollisionChecker, CollisionHit, SomeLinks};
+use super::collision_search::Near;
 use super::robot_configuration::RobotConfiguration;
+use super::surroundings::ObjectAt;
 use spatial::Pose;
 
 /// Something that is too close.
@@ -38,28 +37,26 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Option<InTheWay<'w>> {
-        let mut found = None;
-        self.about_links(links, |checker| {
-            checker.search(link_poses, allowed, Wanted::Whether, margin, |near, _| {
-                found = Some(near);
-                ControlFlow::Break(())
-            });
-        });
-        Some(self.what_is(&found?))
+        let near = self.any_near_at(link_poses, links, allowed, margin)?;
+        Some(self.what_is(&near))
     }
 
     fn what_is(&self, near: &Near) -> InTheWay<'w> {
-        let mut objects = self.surroundings.objects.iter();
-        match objects.find(|object| object.key == near.moving || object.key == near.other) {
-            Some(object) => InTheWay::Object(object.name),
-            None => InTheWay::Fixed,
-        }
+        self.lying(|object| object.key == near.moving || object.key == near.other)
     }
 
-    /// The body as something in the way.
-    pub(crate) fn as_in_the_way(&self, body: &BodyName) -> InTheWay<'w> {
+    /// What a pair is too close by.
+    pub(crate) fn as_in_the_way(&self, hit: &CollisionHit) -> InTheWay<'w> {
+        let is_named = |body: &BodyName, object: &ObjectAt<'_>| match body {
+            BodyName::Object(name) => name == object.name,
+            BodyName::Floor | BodyName::Robot(_) | BodyName::Furniture(_) => false,
+        };
+        self.lying(|object| is_named(&hit.moving, object) || is_named(&hit.other, object))
+    }
+
+    fn lying(&self, is_met: impl Fn(&ObjectAt<'_>) -> bool) -> InTheWay<'w> {
         let mut objects = self.surroundings.objects.iter();
-        match objects.find(|object| *body == BodyName::Object(object.name.to_owned())) {
+        match objects.find(|object| is_met(object)) {
             Some(object) => InTheWay::Object(object.name),
             None => InTheWay::Fixed,
         }

@@ -49,7 +49,10 @@ document.addEventListener('keydown', (event) => {
 });
 
 engine.addEventListener('done', () => keepSession(engine));
-engine.addEventListener('idle', () => warmUp(engine), { once: true });
+engine.addEventListener('idle', () => {
+  performance.mark('prompt');
+  window.planwright.warm = warmUp(engine);
+}, { once: true });
 window.addEventListener('beforeunload', (event) => { if (!files.isSaved) event.preventDefault(); });
 // For tests and for the curious.
 window.planwright = { engine, prompt, view, tutorial, files, sweeper, showPane };

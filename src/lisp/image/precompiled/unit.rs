@@ -8,7 +8,7 @@ use num_bigint::BigInt;
 use super::encode::tag;
 use super::{Form, Precompiled};
 use crate::image::Image;
-use crate::source::{Place, SourceId};
+use crate::source::{CommonReading, Place, SourceId};
 use crate::value::Value;
 use crate::value::array::Vector;
 use crate::value::code::{Capture, Code, Content, Local, Parameters, Signature, Unread};
@@ -131,38 +131,21 @@ impl Target for Image {
     }
 }
 
-/// An image whose copies have the code, too.
-struct Common<'a>(&'a mut Image);
+/// An image whose copies read the code, too: where its symbols are found, and the places of what is read.
+struct Common<S>(S, CommonReading);
 
-impl Target for Common<'_> {
-    fn symbol(&mut self, from: &'static Precompiled, number: u32) -> Option<Sym> {
-        resolve(self.0, from, number)
-    }
-
-    fn source(&self, name: &str) -> Option<SourceId> {
-        self.0.sources.named(name)
-    }
-
-    fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
-        self.0.sources.common_place(source, start, end)
-    }
-}
-
-/// The same, once all files are loaded: what there is to be found has been found.
-struct Settled<'a>(&'a Image);
-
-impl Target for Settled<'_> {
+impl<S: FnMut(u32) -> Option<Sym>> Target for Common<S> {
     fn symbol(&mut self, _: &'static Precompiled, number: u32) -> Option<Sym> {
-        let at = usize::try_from(number).ok()?;
-        self.0.library.resolved.get(at).copied()?
+        self.0(number)
     }
 
-    fn source(&self, name: &str) -> Option<SourceId> {
-        self.0.sources.named(name)
+    /// There is no other source than that of the form.
+    fn source(&self, _: &str) -> Option<SourceId> {
+        None
     }
 
     fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
-        self.0.sources.common_place(source, start, end)
+        self.1.place(source, start, end)
     }
 }
 
@@ -172,34 +155,53 @@ impl Image {
     /// # Errors
     ///
     /// It cannot be read.
+    #[inline]
     pub(crate) fn content<'a>(&mut self, code: &'a Code) -> Result<&'a Content, Box<Raise>> {
-        let from = self.library.precompiled;
-        content(&mut Common(self), from, code).ok_or_else(malformed)
+        match code.content() {
+            Some(content) => Ok(content),
+            None => self.read_content(code).ok_or_else(malformed),
+        }
     }
 
-    /// The content of code, once all files are loaded.
+    #[cold]
+    fn read_content<'a>(&mut self, code: &'a Code) -> Option<&'a Content> {
+        let (unread, from) = (code.unread?, self.library.precompiled?);
+        let places = self.sources.read_common(unread.bytes);
+        unread.read(code, from, places, |number| resolve(self, from, number))
+    }
+
+    /// The content of code, once all files are loaded: what symbols there are to be found have been found.
     pub fn content_to_look_at<'a>(&self, code: &'a Code) -> Option<&'a Content> {
-        content(&mut Settled(self), self.library.precompiled, code)
+        if let Some(content) = code.content() {
+            return Some(content);
+        }
+        let (unread, from) = (code.unread?, self.library.precompiled?);
+        let places = self.sources.read_common(unread.bytes);
+        unread.read(code, from, places, |number| {
+            let at = usize::try_from(number).ok()?;
+            self.library.resolved.get(at).copied()?
+        })
     }
 }
 
-fn content<'a>(
-    target: &mut impl Target,
-    from: Option<&'static Precompiled>,
-    code: &'a Code,
-) -> Option<&'a Content> {
-    if let Some(content) = code.content() {
-        return Some(content);
+impl Unread {
+    /// Reads it as the content of code.
+    fn read<'a>(
+        self,
+        code: &'a Code,
+        from: &'static Precompiled,
+        places: CommonReading,
+        symbol: impl FnMut(u32) -> Option<Sym>,
+    ) -> Option<&'a Content> {
+        let mut unit = Unit {
+            from,
+            bytes: Bytes(self.bytes),
+            sources: self.source.into_iter().collect(),
+            objects: Vec::new(),
+        };
+        let content = unit.content(&mut Common(symbol, places))?;
+        Some(code.content.get_or_init(|| content))
     }
-    let unread = code.unread?;
-    let mut unit = Unit {
-        from: from?,
-        bytes: Bytes(unread.bytes),
-        sources: unread.source.into_iter().collect(),
-        objects: Vec::new(),
-    };
-    let content = unit.content(target)?;
-    Some(code.content.get_or_init(|| content))
 }
 
 #[cold]

@@ -9,7 +9,7 @@ use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts}
 use crate::motion::contact::hand::{arm_names, hand_names};
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
-use crate::motion::planning::pose_goal::CONFIGURATION_STEP;
+use crate::motion::planning::goal_configurations::CONFIGURATION_STEP;
 use crate::robot::torso_search::TorsoSearch;
 use crate::robot::{ArmPositions, JointId, Side};
 use crate::world::{BodyName, CollisionHit, RobotConfiguration, World};

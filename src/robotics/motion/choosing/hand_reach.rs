@@ -96,21 +96,16 @@ impl<'w> HandReach<'w> {
         mode: CollisionMode,
         target: Option<&str>,
     ) -> bool {
-        let touches = self.lone_at(tool, mode, target, |lone, links, relaxed, margin| {
-            lone.checker
-                .links_touch_at(&lone.in_map, links, relaxed, margin)
-        });
-        touches == Some(true)
+        self.touched_at(tool, mode, target).is_some()
     }
 
-    /// Asks about the hand at the pose, wherever its arm is; `None` where arms are not placed exactly enough for that.
-    fn lone_at<T>(
+    /// What the hand would touch at the pose, wherever its arm is, one of all.
+    fn touched_at(
         &mut self,
         tool: &Pose,
         mode: CollisionMode,
         target: Option<&str>,
-        ask: impl FnOnce(&mut LoneLinks<'w>, &SomeLinks, &AllowedPairs, f64) -> T,
-    ) -> Option<T> {
+    ) -> Option<InTheWay<'w>> {
         let arm = self.world.models().description.arm(self.side);
         // Where solutions are searched for, they are less exact.
         if !arm.kinematics.is_closed_form() {
@@ -127,7 +122,8 @@ impl<'w> HandReach<'w> {
         }
         let relaxed = self.touching[at].2.relaxed();
         let margin = PLAN_MARGIN - ROUNDING;
-        Some(ask(lone, &self.links, relaxed, margin))
+        lone.checker
+            .in_the_way_at(&lone.in_map, &self.links, relaxed, margin)
     }
 
     fn task(&self, tool: &Pose) -> PoseGoalTask<'w> {
@@ -203,19 +199,6 @@ impl<'w> HandReach<'w> {
             }
         }
         Some(met)
-    }
-
-    /// What the hand would touch at the pose, wherever its arm is, one of all.
-    fn touched_at(
-        &mut self,
-        tool: &Pose,
-        mode: CollisionMode,
-        target: Option<&str>,
-    ) -> Option<InTheWay<'w>> {
-        self.lone_at(tool, mode, target, |lone, links, relaxed, margin| {
-            lone.checker
-                .in_the_way_at(&lone.in_map, links, relaxed, margin)
-        })?
     }
 
     fn reaches_pose(&mut self, tool: &Pose, mode: CollisionMode, target: Option<&str>) -> bool {

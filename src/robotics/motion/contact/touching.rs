@@ -155,10 +155,7 @@ impl TouchingPairs {
         let near = checker.in_the_way(robot, &self.relaxed, margin);
         near.or_else(|| {
             let deep = self.first_deep(checker, robot)?;
-            Some(match checker.as_in_the_way(&deep.other) {
-                InTheWay::Fixed => checker.as_in_the_way(&deep.moving),
-                object => object,
-            })
+            Some(checker.as_in_the_way(&deep))
         })
     }
 }

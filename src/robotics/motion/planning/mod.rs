@@ -10,6 +10,7 @@ pub(crate) mod configuration;
 pub(crate) mod configuration_checker;
 mod drive_legs;
 pub(crate) mod drive_plan;
+pub(crate) mod goal_configurations;
 pub(crate) mod handle_way;
 pub mod interruption;
 pub(crate) mod joint_path;
