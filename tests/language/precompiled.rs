@@ -84,7 +84,7 @@ fn places_of_contents(first: &Session, second: &Session) -> (usize, usize) {
         let contents = one.content().zip(two.content());
         let (of_one, of_two) = contents.expect("all has been read");
         assert!(
-            of_one.places == of_two.places,
+            *of_one.places == *of_two.places,
             "{:?} {:?}",
             of_one.places,
             of_two.places

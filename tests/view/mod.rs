@@ -6,5 +6,6 @@ mod live_view;
 mod pictures;
 mod pictures_at_the_prompt;
 mod recording;
+mod recording_attachment;
 mod run_file;
 mod viewed;

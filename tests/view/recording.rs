@@ -31,7 +31,7 @@ fn file(name: &str) -> PathBuf {
 }
 
 /// The bytes of a recording of the exercise, and the hash of the world after it.
-fn recorded(name: &str) -> (Vec<u8>, u64) {
+pub(super) fn recorded(name: &str) -> (Vec<u8>, u64) {
     let path = file(name);
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     session.begin_recording(&path).unwrap();
@@ -164,7 +164,7 @@ fn a_full_disk_is_called_so() {
 }
 
 /// The recording with its chunks compressed otherwise, as other tools rewrite it.
-fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+pub(super) fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     const CHUNK: u8 = 6;
     let number = |at: usize| {
         let bytes = bytes[at..at + 8].try_into().unwrap();
@@ -248,7 +248,7 @@ fn what_other_tools_have_compressed_is_read() {
 }
 
 /// The rows of a relation of an episode.
-fn rows<'e>(episode: &'e Episode, name: &str) -> &'e view::watch::recording::Rows {
+pub(super) fn rows<'e>(episode: &'e Episode, name: &str) -> &'e view::watch::recording::Rows {
     let mut relations = episode.relations.iter();
     &relations.find(|(known, _)| *known == name).unwrap().1
 }

@@ -42,6 +42,7 @@ use crate::task::{Status, TaskRef};
 use advance::Alarm;
 use lisp::image::Image;
 use lisp::value::Value;
+use lisp::vm::fiber::Fiber;
 use live::{Live, Slot};
 
 /// Runs tasks in an image; `C` is a call of the host ([`Host::Call`](crate::Host::Call)).
@@ -59,6 +60,8 @@ pub struct Scheduler<C> {
     must_stand_still: bool,
     /// Evaluations at the prompt that have not ended, innermost last.
     roots: Vec<Slot>,
+    /// The fiber of a root that is over, for the next one.
+    idle: Option<Fiber>,
     /// The entry that an interrupt stopped.
     interrupted: Option<Slot>,
     /// Whether a task with an unhandled condition stays where it is.
@@ -90,6 +93,7 @@ impl<C> Default for Scheduler<C> {
             tickets: Vec::new(),
             must_stand_still: false,
             roots: Vec::new(),
+            idle: None,
             interrupted: None,
             stops_in_place: false,
             time_stands_still: false,

@@ -45,7 +45,9 @@ impl<C: 'static> Scheduler<C> {
         args: Vec<Value>,
     ) -> Evaluation {
         let id = self.next_id();
-        let slot = self.add(Live::new(id, Answer::Start(function, args)));
+        let mut live = Live::new(id, Answer::Start(function, args));
+        live.fiber = self.idle.take().unwrap_or_default();
+        let slot = self.add(live);
         self.roots.push(slot);
         self.enqueue(slot);
         self.go_on(image, host)
@@ -185,6 +187,7 @@ impl<C: 'static> Scheduler<C> {
         }
         self.stand_still(image, host);
         let live = self.discard(root)?;
+        self.idle = live.fiber.idle();
         let value = match live.ending {
             Some(Ending::Succeeded(value)) => value,
             _ => Value::values(Vec::new()),

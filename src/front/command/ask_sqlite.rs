@@ -10,7 +10,7 @@ use super::outputs::Outputs;
 use super::watching::INTERRUPTED;
 use sweep::relations::Relations;
 use sweep::sqlite::{Sqlite, SqliteError};
-use view::watch::recording::{Wanted, read_episode};
+use view::watch::recording::{Wanted, read_episode_of_file};
 
 /// Maximum length (bytes) of a line.
 const MAX_LINE: u64 = 1 << 28;
@@ -211,8 +211,8 @@ fn add_recording(facts: &mut Facts, output: &Path, input: &Path) -> Result<(), C
         path: input.to_owned(),
         error,
     })?;
-    let episode =
-        read_episode(BufReader::new(file), Wanted::ALL).map_err(|error| wrong(input, error))?;
+    let episode = read_episode_of_file(BufReader::new(file), Wanted::ALL)
+        .map_err(|error| wrong(input, error))?;
     if episode.is_cut_off {
         let text = "WARNING: {} ends abruptly: what came after that is not known.";
         // If standard error is closed, nobody wants to know.

@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind, Read, Result};
 use std::time::UNIX_EPOCH;
 
-use super::{Contents, FileFacts, Files, Opening, Output};
+use super::{Contents, FileFacts, FileReader, Files, Opening, Output};
 use super::{plan, waiting};
 
 /// The file system that the process sees.
@@ -27,7 +27,7 @@ impl Files for Disk {
         waiting::read(name)
     }
 
-    fn reader(&self, name: &str) -> Result<Box<dyn Read>> {
+    fn reader(&self, name: &str) -> Result<Box<dyn FileReader>> {
         waiting::reader(name)
     }
 

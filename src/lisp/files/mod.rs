@@ -18,6 +18,11 @@ pub use closed::Closed;
 pub use disk::Disk;
 pub use plan::{MAX_PLAN_BYTES, permit_plan_length, permit_regular, utf8};
 
+/// What can be read in parts.
+pub trait FileReader: Read + Seek {}
+
+impl<T: Read + Seek> FileReader for T {}
+
 /// Files, by their names.
 ///
 /// All functions fail as those of [`std::fs`] do, with the same kinds of errors.
@@ -28,8 +33,8 @@ pub trait Files: Debug + Send + Sync {
     /// All bytes of a file.
     fn read(&self, name: &str) -> io::Result<Vec<u8>>;
 
-    /// The bytes of a file, one after the other. Reading ends long work as [`crate::guard::look`] does.
-    fn reader(&self, name: &str) -> io::Result<Box<dyn Read>> {
+    /// The bytes of a file, to be read in parts. Reading ends long work as [`crate::guard::look`] does.
+    fn reader(&self, name: &str) -> io::Result<Box<dyn FileReader>> {
         Ok(Box::new(io::Cursor::new(self.read(name)?)))
     }
 

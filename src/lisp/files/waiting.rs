@@ -4,8 +4,9 @@
 #[cfg(unix)]
 use std::fs;
 use std::fs::{File, OpenOptions};
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
+use super::FileReader;
 use crate::guard;
 
 /// How much is read between two looks at what ends long work.
@@ -35,7 +36,7 @@ pub(super) fn read(path: &str) -> io::Result<Vec<u8>> {
 }
 
 /// The bytes of a file as they are read, up to a reason to stop.
-pub(super) fn reader(path: &str) -> io::Result<Box<dyn Read>> {
+pub(super) fn reader(path: &str) -> io::Result<Box<dyn FileReader>> {
     #[cfg(unix)]
     if keeps_waiting(path) {
         return Ok(Box::new(io::Cursor::new(interruptible::read(path)?)));
@@ -53,6 +54,12 @@ impl Read for Looking {
     fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
         guard::look();
         self.0.read(to)
+    }
+}
+
+impl Seek for Looking {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to)
     }
 }
 

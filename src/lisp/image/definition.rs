@@ -38,8 +38,6 @@ pub struct Definition {
     pub start: usize,
     /// The byte after it; blanks and comments that follow it are included.
     pub end: usize,
-    /// The line on which it begins, from one.
-    pub line: usize,
     /// The package in which it is read, in upper case.
     pub(crate) reading_package: String,
     /// The package of its name, in upper case.
@@ -125,12 +123,11 @@ const EXAMPLES: &str = "Examples:";
 
 impl Definition {
     /// A form that has no name yet.
-    pub fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
+    pub fn new(file: &'static File, start: usize, end: usize) -> Definition {
         Definition {
             file,
             start,
             end,
-            line,
             reading_package: String::new(),
             package: String::new(),
             name: String::new(),
@@ -144,9 +141,15 @@ impl Definition {
         self.file.text.get(self.start..self.end).unwrap_or("")
     }
 
+    /// The line on which it begins, from one.
+    pub fn line(&self) -> usize {
+        let before = self.file.text.get(..self.start).unwrap_or("");
+        1 + before.matches('\n').count()
+    }
+
     /// The location in the form `file:line`.
     pub fn location(&self) -> String {
-        format!("{}:{}", self.file.name, self.line)
+        format!("{}:{}", self.file.name, self.line())
     }
 
     /// Is it a helper for the library only?

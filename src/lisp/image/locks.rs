@@ -8,7 +8,7 @@ use crate::value::Value;
 use crate::value::known;
 use crate::value::package::{PackageId, PackageTable};
 use crate::value::raise::Raise;
-use crate::value::symbol::{FunctionCell, Sym, SymSet, VariableKind};
+use crate::value::symbol::{FunctionCell, Sym, SymSet, SymbolData, VariableKind};
 
 /// What a name is to mean.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,22 +25,23 @@ pub enum Meaning {
     Variable,
 }
 
-/// Names with a built-in meaning.
+/// Names with a built-in meaning, in order.
 #[derive(Clone, Default)]
 struct Names {
-    functions: SymSet,
-    setters: SymSet,
-    types: SymSet,
+    functions: Vec<Sym>,
+    setters: Vec<Sym>,
+    types: Vec<Sym>,
 }
 
 impl Names {
     fn has(&self, name: Sym, meaning: Meaning) -> bool {
-        match meaning {
-            Meaning::Function => self.functions.contains(&name),
-            Meaning::Setter => self.setters.contains(&name),
-            Meaning::Type => self.types.contains(&name),
-            Meaning::LocalFunction | Meaning::Variable => false,
-        }
+        let names = match meaning {
+            Meaning::Function => &self.functions,
+            Meaning::Setter => &self.setters,
+            Meaning::Type => &self.types,
+            Meaning::LocalFunction | Meaning::Variable => return false,
+        };
+        names.binary_search(&name).is_ok()
     }
 }
 
@@ -72,10 +73,11 @@ impl Image {
     /// Locks what all packages define by now, except those that are named.
     pub fn lock_packages(&mut self, open: &[&str]) {
         let open: Vec<PackageId> = open.iter().filter_map(|p| self.packages.find(p)).collect();
+        let package = |data: &SymbolData| data.package.filter(|p| *p != PackageTable::KEYWORD);
         let mut locked = Names::default();
         let mut free = SymSet::default();
         for (sym, data) in self.symbols.iter() {
-            let Some(package) = data.package.filter(|p| *p != PackageTable::KEYWORD) else {
+            let Some(package) = package(data) else {
                 continue;
             };
             let is_function = !matches!(data.function, FunctionCell::Unbound);
@@ -86,15 +88,28 @@ impl Image {
                 continue;
             }
             if is_function {
-                locked.functions.insert(sym);
+                locked.functions.push(sym);
             }
-            if data.setf_function.is_some() || self.setf_expanders.contains_key(&sym) {
-                locked.setters.insert(sym);
+            if data.setf_function.is_some() {
+                locked.setters.push(sym);
             }
-            let is_class = self.class(sym).is_some_and(|class| class.is_defined.get());
-            if is_class || self.types.contains_key(&sym) {
-                locked.types.insert(sym);
-            }
+        }
+        let is_locked = |sym: &Sym| {
+            let package = package(self.symbols.get(*sym));
+            package.is_some_and(|package| !open.contains(&package))
+        };
+        let setters = self.setf_expanders.keys().copied();
+        locked.setters.extend(setters.filter(is_locked));
+        let classes = self.classes.iter();
+        let classes = classes.filter(|(_, class)| class.is_defined.get());
+        let types = self.types.keys().chain(classes.map(|(name, _)| name));
+        locked.types.extend(types.copied().filter(is_locked));
+        for names in [
+            &mut locked.functions,
+            &mut locked.setters,
+            &mut locked.types,
+        ] {
+            names.sort_unstable();
         }
         self.locks.locked = Some(Rc::new(locked));
         self.locks.packages = self.packages.made();
@@ -138,7 +153,7 @@ impl Image {
     /// Is it a function that is built in and that no program has redefined?
     pub fn is_built_in_function(&self, name: Sym) -> bool {
         let locked = self.locks.locked.as_ref();
-        locked.is_some_and(|names| names.functions.contains(&name))
+        locked.is_some_and(|names| names.has(name, Meaning::Function))
             || self.locks.open.contains(&name)
     }
 

@@ -293,9 +293,8 @@ impl Image {
 
     /// The symbol of that name in the named package, exported; the package must exist.
     pub fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
-        let sym = self.intern(package, name);
-        self.packages.export(&mut self.symbols, package, sym);
-        sym
+        self.packages
+            .intern_external(&mut self.symbols, package, name)
     }
 
     /// Is the symbol a keyword?

@@ -8,9 +8,9 @@ use super::definition::{Definition, File, Kind, take_item};
 pub(super) fn find(file: &'static File, library: &mut Library) {
     let mut package = String::new();
     let mut starts = starts(file.text).peekable();
-    while let Some((start, line)) = starts.next() {
-        let end = starts.peek().map_or(file.text.len(), |(end, _)| *end);
-        let mut definition = Definition::new(file, start, end, line);
+    while let Some(start) = starts.next() {
+        let end = starts.peek().copied().unwrap_or(file.text.len());
+        let mut definition = Definition::new(file, start, end);
         let mut rest = &file.text[start + 1..end];
         let operator = take_item(&mut rest);
         let name = take_item(&mut rest);
@@ -42,15 +42,10 @@ pub(super) fn find(file: &'static File, library: &mut Library) {
     }
 }
 
-/// The bytes at which forms begin, and their lines, from one.
-fn starts(text: &str) -> impl Iterator<Item = (usize, usize)> {
-    let lines = text.split_inclusive('\n').scan(0, |next, line| {
-        let start = *next;
-        *next += line.len();
-        Some((start, line))
-    });
-    lines
-        .zip(1..)
-        .filter(|((_, line), _)| line.starts_with('('))
-        .map(|((start, _), line)| (start, line))
+/// The bytes at which forms begin.
+fn starts(text: &str) -> impl Iterator<Item = usize> {
+    let bytes = text.as_bytes();
+    let lines = memchr::memchr_iter(b'\n', bytes).map(|end| end + 1);
+    let lines = std::iter::once(0).chain(lines);
+    lines.filter(|start| bytes.get(*start) == Some(&b'('))
 }

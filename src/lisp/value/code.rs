@@ -5,6 +5,7 @@
 //! Slots are counted from the base.
 
 use std::cell::OnceCell;
+use std::ops::Deref;
 use std::rc::Rc;
 
 use crate::source::{Place, SourceId};
@@ -14,6 +15,43 @@ use crate::value::copy::{Copied, Copier, is_fixed};
 use crate::value::operation::Op;
 use crate::value::string::LispString;
 use crate::value::symbol::Sym;
+
+/// A list that copies have in common. One without items takes no memory.
+#[derive(Debug)]
+pub struct SharedList<T>(Option<Rc<[T]>>);
+
+impl<T> From<Vec<T>> for SharedList<T> {
+    fn from(items: Vec<T>) -> Self {
+        Self((!items.is_empty()).then(|| items.into()))
+    }
+}
+
+impl<T> FromIterator<T> for SharedList<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
+        items.into_iter().collect::<Vec<T>>().into()
+    }
+}
+
+impl<T> Deref for SharedList<T> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        self.0.as_deref().unwrap_or_default()
+    }
+}
+
+impl<T> Clone for SharedList<T> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+impl<T> Default for SharedList<T> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
 
 /// How a closure gets the value of a free variable of its code.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +72,7 @@ pub struct Parameters {
     /// Is there a rest parameter?
     pub rest: bool,
     /// Keywords of the key parameters.
-    pub keys: Rc<[Sym]>,
+    pub keys: SharedList<Sym>,
     /// Does the lambda list have `&key`?
     pub has_keys: bool,
     /// Are other keywords allowed?
@@ -164,15 +202,15 @@ pub struct Content {
     pub ops: Rc<[Op]>,
     pub constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
-    pub inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
+    pub inner: Vec<(Rc<Code>, SharedList<Capture>)>,
     /// For each tagbody that closures jump into: the positions of its tags.
-    pub tags: Rc<[Vec<u32>]>,
+    pub tags: SharedList<Vec<u32>>,
     /// Places of calls: (first operation, place), in ascending order.
-    pub places: Rc<[(u32, Place)]>,
+    pub places: SharedList<(u32, Place)>,
     /// Local variables, for the debugger, in the order of binding.
-    pub locals: Rc<[Local]>,
+    pub locals: SharedList<Local>,
     /// Names of the free variables, in the order of the closure's captures.
-    pub free: Rc<[Sym]>,
+    pub free: SharedList<Sym>,
     /// The lambda list as written.
     pub lambda_list: Signature,
     /// The documentation string.

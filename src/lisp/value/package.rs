@@ -174,7 +174,7 @@ impl PackageTable {
         if let Some((sym, _)) = self.find_symbol(package, name) {
             return sym;
         }
-        self.make_present(symbols, package, name)
+        self.make_present(symbols, package, name, false)
     }
 
     /// The symbol under a name whose home is the package, where it is known that the package inherits none of
@@ -187,11 +187,17 @@ impl PackageTable {
     ) -> Sym {
         match self.get(home).symbols.get(name) {
             Some((sym, _)) => *sym,
-            None => self.make_present(symbols, home, name),
+            None => self.make_present(symbols, home, name, false),
         }
     }
 
-    fn make_present(&mut self, symbols: &mut SymbolTable, package: PackageId, name: &str) -> Sym {
+    fn make_present(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        name: &str,
+        is_external: bool,
+    ) -> Sym {
         let name: Rc<str> = name.into();
         let sym = symbols.make(name.clone());
         let is_keyword = package == Self::KEYWORD;
@@ -202,8 +208,25 @@ impl PackageTable {
             data.kind = crate::value::symbol::VariableKind::Constant;
         }
         let present = self.get_mut(package).symbols.get_or_insert(&name, sym);
-        *present = (sym, is_keyword);
+        *present = (sym, is_external || is_keyword);
         sym
+    }
+
+    /// The symbol accessible under a name, made as [`PackageTable::intern`] does, and exported.
+    pub(crate) fn intern_external(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        name: &str,
+    ) -> Sym {
+        match self.find_symbol(package, name) {
+            Some((sym, Access::External)) => sym,
+            Some((sym, _)) => {
+                self.export(symbols, package, sym);
+                sym
+            }
+            None => self.make_present(symbols, package, name, true),
+        }
     }
 
     /// Makes a symbol present in a package (`import`), keeping its home.

@@ -27,13 +27,11 @@ impl PresentSymbols {
 
     /// The symbol with a name, which becomes present if there is none.
     pub(super) fn get_or_insert(&mut self, name: &Rc<str>, sym: Sym) -> &mut (Sym, bool) {
-        let found = self.symbols.get_index_of(&**name);
-        let at = found.unwrap_or_else(|| {
-            self.order.take();
-            self.symbols.insert_full(name.clone(), (sym, false)).0
-        });
-        // An entry of the table at its own place.
-        &mut self.symbols[at]
+        let order = &mut self.order;
+        self.symbols.entry(name.clone()).or_insert_with(|| {
+            order.take();
+            (sym, false)
+        })
     }
 
     /// The symbol with a name, to be changed.

@@ -68,7 +68,6 @@ pub enum VariableKind {
 }
 
 /// What an image knows about a symbol.
-#[derive(Default)]
 pub struct SymbolData {
     pub name: Rc<str>,
     /// The home package; none if uninterned.
@@ -97,8 +96,16 @@ impl SymbolData {
     fn named(name: Rc<str>) -> SymbolData {
         SymbolData {
             name,
+            package: None,
+            value: Value::Unbound,
+            kind: VariableKind::Lexical,
+            function: FunctionCell::Unbound,
+            setf_function: None,
             plist: Value::NIL,
-            ..SymbolData::default()
+            symbol_macro: None,
+            variable_doc: None,
+            function_doc: None,
+            is_kept: Cell::new(false),
         }
     }
 

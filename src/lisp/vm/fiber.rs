@@ -128,7 +128,23 @@ pub struct Fiber {
 /// Frames that are cut off at once; more than these are freed later, a part at a time.
 const CUT_AT_ONCE: usize = 1000;
 
+/// Places of stack and frames up to which it pays to use a fiber again.
+const MAX_PLACES: usize = 256;
+
 impl Fiber {
+    /// The fiber for another call, if what it has run is over and it has not become large.
+    pub fn idle(mut self) -> Option<Fiber> {
+        let is_over = self.stack.is_empty()
+            && self.frames.is_empty()
+            && self.dynamic.is_empty()
+            && self.pending.is_empty()
+            && self.undelivered.is_none();
+        let is_small = self.stack.room() <= MAX_PLACES && self.frames.room() <= MAX_PLACES;
+        self.wants_all = false;
+        self.in_force = false;
+        (is_over && is_small).then_some(self)
+    }
+
     /// Drops the innermost frames, down to so many.
     pub(crate) fn cut_frames(&mut self, count: usize) {
         while self.frames.len() > count + CUT_AT_ONCE {

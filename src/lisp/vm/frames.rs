@@ -67,6 +67,11 @@ pub struct Frames {
 const FEWEST: usize = 16;
 
 impl Frames {
+    /// How many frames it has places for.
+    pub(crate) fn room(&self) -> usize {
+        self.places.len()
+    }
+
     /// Makes a frame the innermost one.
     pub fn push(&mut self, frame: Frame) {
         *self.next() = frame;

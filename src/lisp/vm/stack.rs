@@ -54,6 +54,11 @@ impl Stack {
         self.places.resize(count, Value::Unbound);
     }
 
+    /// How many values it has places for.
+    pub(crate) fn room(&self) -> usize {
+        self.places.len()
+    }
+
     /// Pushes a value.
     #[inline]
     pub fn push(&mut self, value: Value) {

@@ -45,13 +45,19 @@ impl Stretch {
     }
 }
 
-/// A point of the curve: the shoulder and elbow angles (rad) that lead to it.
+/// A point of the curve. Shoulder and elbow angles are computed only where they are needed.
 #[derive(Clone, Copy, Debug)]
 struct ArmPoint {
-    pan: f64,
     lift: f64,
-    roll: f64,
-    elbow: f64,
+    /// The elbow, seen from above (m): along the direction of the wrist, and beside it.
+    ahead: f64,
+    beside: f64,
+    /// The wrist in the frame that pan and lift move (m): beside and above the upper arm, how far from its axis that is, and
+    /// along it from the elbow.
+    side: f64,
+    above: f64,
+    bent: f64,
+    along: f64,
     /// Axes of the forearm (columns) in the frame of the arm's base.
     forearm: Matrix3<f64>,
 }
@@ -256,12 +262,31 @@ impl<'a> ElbowCurve<'a> {
         let forearm_x = upper_x * c4 - rolled_z * s4;
         let forearm_z = upper_x * s4 + rolled_z * c4;
         Some(ArmPoint {
-            pan: self.turned_into(PAN, self.direction - trig::atan2(beside, ahead)),
             lift,
-            roll: self.turned_into(ROLL, trig::atan2(-y, above)),
-            elbow: -trig::atan2(bent, along - l1),
+            ahead,
+            beside,
+            side: y,
+            above,
+            bent,
+            along: along - l1,
             forearm: Matrix3::from_columns(&[forearm_x, rolled_y, forearm_z]),
         })
+    }
+
+    /// The shoulder pan (rad) that leads to a point.
+    fn pan(&self, point: &ArmPoint) -> f64 {
+        let beside = trig::atan2(point.beside, point.ahead);
+        self.turned_into(PAN, self.direction - beside)
+    }
+
+    /// The roll (rad) of the upper arm that leads to a point.
+    fn roll(&self, point: &ArmPoint) -> f64 {
+        self.turned_into(ROLL, trig::atan2(-point.side, point.above))
+    }
+
+    /// The elbow angle (rad) that leads to a point.
+    fn elbow(&self, point: &ArmPoint) -> f64 {
+        -trig::atan2(point.bent, point.along)
     }
 
     /// The angle, moved by full turns into the limits of the joint, or as near to them as possible.
@@ -273,22 +298,19 @@ impl<'a> ElbowCurve<'a> {
 
     fn with_wrist(&self, point: &ArmPoint) -> ArmPositions {
         let [forearm, flex, wrist] = wrist_angles(&point.forearm, &self.rotation);
-        let ArmPoint {
-            pan,
-            lift,
-            roll,
-            elbow,
-            ..
-        } = *point;
-        [pan, lift, roll, elbow, forearm, flex, wrist].into()
+        let (pan, roll, elbow) = (self.pan(point), self.roll(point), self.elbow(point));
+        [pan, point.lift, roll, elbow, forearm, flex, wrist].into()
     }
 
     /// Whether pan, roll and elbow are within their limits at the lift angle.
     fn shoulder_allows(&self, lift: f64, bend: f64) -> bool {
         let allows =
             |joint: usize, position: f64| self.chain.limits(joint).excess(position) <= SLACK;
-        self.point(lift, bend)
-            .is_some_and(|p| allows(PAN, p.pan) && allows(ROLL, p.roll) && allows(ELBOW, p.elbow))
+        self.point(lift, bend).is_some_and(|point| {
+            allows(PAN, self.pan(&point))
+                && allows(ROLL, self.roll(&point))
+                && allows(ELBOW, self.elbow(&point))
+        })
     }
 
     /// Keeps the parts of a stretch on which the wrist flex is within its limits.

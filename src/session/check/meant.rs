@@ -23,6 +23,30 @@ const MAX_ENTRIES: usize = 10_000;
 const MAX_NESTED: usize = 20;
 const MAX_PARTS: usize = 100;
 
+/// Words that people try, and what there is for it.
+const OTHER_WORDS: &[(&str, &str)] = &[
+    (
+        "UNDO",
+        "(rewind) takes the world back to before the last form that changed it.",
+    ),
+    (
+        "REDO",
+        "There is no way back after (rewind), unless (snapshot 'name) has saved the world for (restore 'name).",
+    ),
+    (
+        "RESET",
+        "(init-projection) begins again with a kitchen without objects, (rewind) takes the world back by a form.",
+    ),
+    (
+        "CLEAR",
+        "(init-projection) begins again with a kitchen without objects.",
+    ),
+    (
+        "SAVE",
+        "(snapshot 'name) saves the world for (restore 'name), (save-transcript \"file\") writes the session.",
+    ),
+];
+
 /// What may be meant by a name.
 pub(super) enum Meant {
     /// The same name, exported by another package.
@@ -105,6 +129,11 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
         let signature = help::signature(image, name)?;
         Some(format!("A call of it: {}", signature.call(image, name)))
     };
+    if instance.class().name == known::UNDEFINED_FUNCTION
+        && let Some(told) = other_word(image.name(name))
+    {
+        return Some(told.to_owned());
+    }
     let meant = match instance.class().name {
         known::SIMPLE_PROGRAM_ERROR => return call(),
         known::UNDEFINED_FUNCTION if image.name(name) == "RETRY" => {
@@ -133,6 +162,13 @@ pub(crate) fn hint(image: &Image, condition: &Value) -> Option<String> {
         _ => None,
     };
     Some(meant?.question(image, name))
+}
+
+/// What there is for a word that people try.
+fn other_word(name: &str) -> Option<&'static str> {
+    let mut words = OTHER_WORDS.iter();
+    let (_, told) = words.find(|(word, _)| *word == name)?;
+    Some(told)
 }
 
 /// What to say to somebody who has evaluated a form in which a name without a value is an argument of

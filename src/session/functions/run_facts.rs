@@ -17,7 +17,7 @@ use lisp::value::known;
 use lisp::value::raise::Raise;
 use sweep::relations::{Cell, Relation, Relations};
 use sweep::sqlite::{Sqlite, SqliteError};
-use view::watch::recording::{Datum, Episode, Wanted, read_episode};
+use view::watch::recording::{Datum, Episode, Wanted, read_episode_of_file};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -130,7 +130,8 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         true => Wanted::ALL,
         false => Wanted::of(|name| names.iter().any(|other| other == name)),
     };
-    let episode = read_episode(reader, wanted).map_err(|error| Raise::simple(error.to_string()))?;
+    let episode =
+        read_episode_of_file(reader, wanted).map_err(|error| Raise::simple(error.to_string()))?;
     let facts = Rc::make_mut(&mut simulation.facts);
     let is_cut_off = episode.is_cut_off;
     add_episode(facts, episode);

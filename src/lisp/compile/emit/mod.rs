@@ -19,7 +19,7 @@ use super::node::{LambdaNode, Node};
 use super::scope::{Block, Tagbody, Var};
 use crate::source::Place;
 use crate::value::Value;
-use crate::value::code::{Capture, Code, Content, Local, Signature};
+use crate::value::code::{Capture, Code, Content, Local, SharedList, Signature};
 use crate::value::known;
 use crate::value::operation::Op;
 use crate::value::raise::Raise;
@@ -56,7 +56,7 @@ struct Emitter<'a> {
     free: &'a [Rc<Var>],
     ops: Vec<Op>,
     constants: Vec<Value>,
-    inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
+    inner: Vec<(Rc<Code>, SharedList<Capture>)>,
     tags: Vec<Vec<u32>>,
     places: Vec<(u32, Place)>,
     locals: Vec<Local>,

@@ -1,7 +1,7 @@
 //! Writing code as bytes.
 //!
-//! Numbers are written seven bits at a time, the lowest first. Pairs, strings and vectors of a form
-//! are numbered in the order in which they are met; a further reference to one is its number.
+//! Numbers are written seven bits at a time, the lowest first. A further reference to a pair, string or vector of a
+//! form is the byte at which that is written, which says then that it is referred to again.
 //!
 //! The content of the functions that a form makes can be written so that each is read by itself, when it is
 //! first needed. It is numbered from the start: a literal object that it has in common with the rest of the form
@@ -36,9 +36,11 @@ pub(super) mod tag {
     pub(crate) const CONS: u8 = 10;
     /// A pair with its place.
     pub(crate) const PLACED: u8 = 11;
-    /// What has been written already, by number.
+    /// What has been written already, by the byte of its tag.
     pub(crate) const AGAIN: u8 = 12;
     pub(crate) const RATIO: u8 = 13;
+    /// Beside the tag of what is referred to again.
+    pub(crate) const SHARED: u8 = 0x80;
 }
 
 /// How deeply values may be nested in what is written.
@@ -78,8 +80,8 @@ pub(super) struct Encoding {
     bytes: Vec<u8>,
     /// The sources of the places so far; first that of the form.
     sources: Vec<SourceId>,
-    /// The numbers of the objects that have been written, by address.
-    objects: HashMap<usize, u32>,
+    /// The bytes at which objects have been written, by address.
+    objects: HashMap<usize, usize>,
     /// Are the functions that the form makes read by themselves?
     apart: bool,
     /// What has been written, so that no address is used again.
@@ -322,41 +324,43 @@ impl Writer<'_> {
         loop {
             let address = address(&value);
             let known = address.and_then(|address| self.encoding.objects.get(&address));
-            if let Some(number) = known.copied() {
+            if let Some(at) = known.copied() {
+                *self.bytes().get_mut(at)? |= tag::SHARED;
                 self.bytes().push(tag::AGAIN);
-                self.number(number);
+                self.count(at);
                 return Some(());
             }
+            let at = self.bytes().len();
             match (&value, address) {
                 (Value::Cons(cons), Some(address)) => {
-                    self.note(address)?;
+                    self.note(address, at);
                     self.pair(cons)?;
                     let rest = cons.cdr();
                     value = rest;
                 }
                 (Value::Vector(vector), Some(address)) => {
-                    // A vector gets its number after its elements, and so it cannot have itself.
+                    // A vector is there after its elements, and so it cannot have itself.
                     if !self.open.insert(address) {
                         return None;
                     }
                     self.vector(vector)?;
                     self.open.remove(&address);
-                    return self.note(address);
+                    self.note(address, at);
+                    return Some(());
                 }
                 (_, Some(address)) => {
                     self.no_pair(&value)?;
-                    return self.note(address);
+                    self.note(address, at);
+                    return Some(());
                 }
                 (_, None) => return self.no_pair(&value),
             }
         }
     }
 
-    /// Numbers an object.
-    fn note(&mut self, address: usize) -> Option<()> {
-        let number = u32::try_from(self.encoding.objects.len()).ok()?;
-        self.encoding.objects.insert(address, number);
-        Some(())
+    /// Notes where an object is written.
+    fn note(&mut self, address: usize, at: usize) {
+        self.encoding.objects.insert(address, at);
     }
 
     /// A pair up to its second half.

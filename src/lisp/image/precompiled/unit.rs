@@ -11,7 +11,9 @@ use crate::image::Image;
 use crate::source::{CommonReading, Place, SourceId};
 use crate::value::Value;
 use crate::value::array::Vector;
-use crate::value::code::{Capture, Code, Content, Local, Parameters, Signature, Unread};
+use crate::value::code::{
+    Capture, Code, Content, Local, Parameters, SharedList, Signature, Unread,
+};
 use crate::value::cons::Cons;
 use crate::value::number;
 use crate::value::operation::Op;
@@ -196,6 +198,7 @@ impl Unread {
         let mut unit = Unit {
             from,
             bytes: Bytes(self.bytes),
+            length: self.bytes.len(),
             sources: self.source.into_iter().collect(),
             objects: Vec::new(),
         };
@@ -213,18 +216,22 @@ fn malformed() -> Box<Raise> {
 pub struct Unit {
     from: &'static Precompiled,
     bytes: Bytes,
+    /// How many bytes there were.
+    length: usize,
     /// The sources of the places so far; first that of the form.
     sources: Vec<SourceId>,
-    /// The pairs, strings and vectors so far, by number.
-    objects: Vec<Value>,
+    /// The pairs, strings and vectors so far that are referred to again, by the bytes of their tags.
+    objects: Vec<(usize, Value)>,
 }
 
 impl Unit {
     /// The code of a form of a source, or of a text that is read without places.
     pub fn of(from: &'static Precompiled, form: &Form, source: Option<SourceId>) -> Option<Unit> {
+        let bytes = form.code?;
         Some(Unit {
             from,
-            bytes: Bytes(form.code?),
+            bytes: Bytes(bytes),
+            length: bytes.len(),
             sources: source.into_iter().collect(),
             objects: Vec::new(),
         })
@@ -299,7 +306,7 @@ impl Unit {
         })
     }
 
-    fn inner(&mut self, image: &mut impl Target) -> Option<(Rc<Code>, Rc<[Capture]>)> {
+    fn inner(&mut self, image: &mut impl Target) -> Option<(Rc<Code>, SharedList<Capture>)> {
         let code = match self.bytes.flag()? {
             true => self.unread(image)?,
             false => self.code(image)?,
@@ -419,10 +426,14 @@ impl Unit {
 
     /// A value, and whether it is a pair whose second half comes next.
     fn single(&mut self, image: &mut impl Target) -> Option<(Value, bool)> {
+        let at = self.length - self.bytes.0.len();
         let tag = self.bytes.byte()?;
+        let (tag, is_shared) = (tag & !tag::SHARED, tag & tag::SHARED != 0);
         if let tag::CONS | tag::PLACED = tag {
             let cons = Cons::shared(Value::NIL, Value::NIL);
-            self.objects.push(Value::Cons(cons.clone()));
+            if is_shared {
+                self.objects.push((at, Value::Cons(cons.clone())));
+            }
             if tag == tag::PLACED {
                 cons.set_place(self.place(image)?);
             }
@@ -442,13 +453,14 @@ impl Unit {
             tag::STRING => Value::Str(Rc::new(LispString::new(self.bytes.text()?.to_owned()))),
             tag::VECTOR => Value::Vector(Rc::new(Vector::simple(self.all(image, Unit::value)?))),
             tag::AGAIN => {
-                let number = self.bytes.count()?;
-                return Some((self.objects.get(number)?.clone(), false));
+                let at = self.bytes.count()?;
+                let (_, object) = self.objects.iter().find(|(known, _)| *known == at)?;
+                return Some((object.clone(), false));
             }
             _ => return None,
         };
-        if let tag::STRING | tag::VECTOR = tag {
-            self.objects.push(value.clone());
+        if is_shared {
+            self.objects.push((at, value.clone()));
         }
         Some((value, false))
     }

@@ -1,14 +1,15 @@
 //! What was performed in a recording, as relations: rows as an exported episode has them. Pictures are passed over, and
 //! so are poses unless they are wanted.
 
-use std::io::Read;
+use std::io::{Read, Seek};
 
 use super::RecordingError;
+use super::attachment;
 use super::channel::Channel;
 use super::message::{Log, Shown, Task};
-use super::messages::walk;
+use super::messages::{Message, walk};
 use super::places::Places;
-use super::rows::{Datum, Rows};
+use super::rows::{self, Datum, Rows};
 use super::told::told;
 use crate::watch::TaskState;
 use indexmap::IndexMap;
@@ -53,69 +54,143 @@ impl Wanted {
             places: any(&["object", "robot"]),
         }
     }
+
+    /// Must the messages of a channel be read?
+    pub(super) fn needs(self, channel: Channel) -> bool {
+        match channel {
+            Channel::Tasks => self.tasks || self.places,
+            Channel::Shown => self.events || self.places,
+            Channel::Log => self.log,
+            Channel::Transforms | Channel::Objects => self.places,
+            _ => false,
+        }
+    }
+
+    /// Is a relation wanted?
+    pub(super) fn has(self, relation: &str) -> bool {
+        match relation {
+            "task" | "param" | "failure" => self.tasks,
+            "event" | "contact" => self.events,
+            "log" => self.log,
+            "object" | "robot" => self.places,
+            _ => false,
+        }
+    }
 }
 
-/// Reads the relations of a recording.
+/// Reads the relations of a recording as it comes, from its messages.
 pub fn read_episode(mut file: impl Read, wanted: Wanted) -> Result<Episode, RecordingError> {
-    let mut rows = Found::default();
-    let mut places = Places::default();
-    let mut last_shown = Vec::new();
-    let is_wanted = |channel| match channel {
-        Channel::Tasks => wanted.tasks || wanted.places,
-        Channel::Shown => wanted.events || wanted.places,
-        Channel::Log => wanted.log,
-        Channel::Transforms | Channel::Objects => wanted.places,
-        _ => false,
-    };
-    let walked = walk(&mut file, &is_wanted, &mut |message| {
+    let mut found = EpisodeBuilder::new(wanted);
+    let walked = walk(
+        &mut file,
+        &|channel| wanted.needs(channel),
+        &mut |message| found.take(message),
+    )?;
+    if !walked.is_ours {
+        return Err(RecordingError::Foreign);
+    }
+    Ok(Episode {
+        relations: found.relations(),
+        is_cut_off: walked.is_cut_off,
+    })
+}
+
+/// Reads the relations of a recording from its end, where recordings that have been closed keep them, or else from its
+/// messages. Both ways find the same rows.
+pub fn read_episode_of_file(
+    mut file: impl Read + Seek,
+    wanted: Wanted,
+) -> Result<Episode, RecordingError> {
+    if let Some(relations) = attachment::read(&mut file, wanted) {
+        return Ok(Episode {
+            relations,
+            is_cut_off: false,
+        });
+    }
+    file.rewind()?;
+    read_episode(file, wanted)
+}
+
+/// Makes relations of the messages of a recording.
+pub(super) struct EpisodeBuilder {
+    wanted: Wanted,
+    rows: Found,
+    places: Places,
+    last_shown: Vec<u8>,
+    /// The size (bytes) of the messages of which texts have been kept.
+    kept: usize,
+}
+
+/// About how many bytes a row without long texts takes.
+const ROW_BYTES: usize = 300;
+
+impl EpisodeBuilder {
+    pub(super) fn new(wanted: Wanted) -> Self {
+        Self {
+            wanted,
+            rows: Found::default(),
+            places: Places::default(),
+            last_shown: Vec::new(),
+            kept: 0,
+        }
+    }
+
+    /// Takes the next message of a channel that is needed.
+    pub(super) fn take(&mut self, message: &Message<'_>) -> Result<(), RecordingError> {
         let (channel, time) = (message.channel, message.time);
-        if channel == Channel::Transforms {
-            return places.transforms(message);
-        }
-        if channel == Channel::Shown {
-            let shown = without_time(message.data);
-            if shown == last_shown {
-                return Ok(());
-            }
-            last_shown.clear();
-            last_shown.extend_from_slice(shown);
-        }
         let (encoding, data) = (message.encoding, message.data);
         match channel {
-            Channel::Tasks => {
-                if let Some(task) = told(channel, encoding, data)? {
-                    rows.task(time, task);
-                    places.note();
+            Channel::Transforms => self.places.transforms(message)?,
+            Channel::Shown => {
+                let shown = without_time(data);
+                if shown == self.last_shown {
+                    return Ok(());
+                }
+                self.last_shown.clear();
+                self.last_shown.extend_from_slice(shown);
+                if let Some(shown) = told(channel, encoding, data)? {
+                    if self.wanted.events {
+                        self.rows.shown(time, &shown);
+                    }
+                    self.places.shown(&shown);
                 }
             }
-            Channel::Shown => {
-                if let Some(shown) = told(channel, encoding, data)? {
-                    rows.shown(time, &shown);
-                    places.shown(&shown);
+            Channel::Tasks => {
+                self.kept += data.len();
+                if let Some(task) = told(channel, encoding, data)? {
+                    self.places.note();
+                    if self.wanted.tasks {
+                        self.rows.task(time, task);
+                    }
                 }
             }
             Channel::Objects => {
                 if let Some(objects) = told(channel, encoding, data)? {
-                    places.objects(&objects);
+                    self.places.objects(&objects);
                 }
             }
-            _ => {
+            Channel::Log => {
+                self.kept += data.len();
                 if let Some(log) = told(channel, encoding, data)? {
-                    rows.log(time, log);
+                    self.rows.log(time, log);
                 }
             }
+            _ => {}
         }
         Ok(())
-    })?;
-    if !walked.is_ours {
-        return Err(RecordingError::Foreign);
     }
-    let mut relations = rows.relations();
-    relations.extend(places.relations());
-    Ok(Episode {
-        relations,
-        is_cut_off: walked.is_cut_off,
-    })
+
+    /// How much memory (bytes) the rows take, roughly.
+    pub(super) fn bytes(&self) -> usize {
+        let rows = self.rows.events.len() + self.rows.contacts.len() + self.places.len();
+        self.kept + ROW_BYTES * rows
+    }
+
+    pub(super) fn relations(self) -> Vec<(&'static str, Rows)> {
+        let mut relations = self.rows.relations();
+        relations.extend(self.places.relations());
+        relations
+    }
 }
 
 /// A message in Protobuf without the time stamp at its beginning.
@@ -352,27 +427,16 @@ impl Found {
             } = contact;
             vec![a.into(), b.into(), began.into(), ended.into(), force.into()]
         });
-        let of = |name, columns, rows| (name, Rows { columns, rows });
         vec![
-            of("task", TASK, tasks.collect()),
-            of("param", &["task", "key", "text", "num"], self.params),
-            of("failure", &["task", "time", "class", "text"], self.failures),
-            of("event", &["time", "kind", "object", "other"], self.events),
-            of(
-                "contact",
-                &["a", "b", "began", "ended", "force"],
-                contacts.collect(),
-            ),
-            of("log", &["time", "level", "tag", "text"], self.logs),
+            rows::of("task", tasks.collect()),
+            rows::of("param", self.params),
+            rows::of("failure", self.failures),
+            rows::of("event", self.events),
+            rows::of("contact", contacts.collect()),
+            rows::of("log", self.logs),
         ]
     }
 }
-
-/// The columns of tasks.
-const TASK: &[&str] = &[
-    "task", "parent", "nth", "kind", "type", "path", "place", "created", "started", "ended",
-    "status", "result",
-];
 
 #[cfg(test)]
 mod tests {

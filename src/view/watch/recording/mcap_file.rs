@@ -30,6 +30,9 @@ pub(super) struct McapFile<W: Write> {
     chunk_count: u32,
     counts: BTreeMap<u16, u64>,
     span: Option<[u64; 2]>,
+    /// The records of the index of attachments.
+    attachments: Vec<u8>,
+    attachment_count: u32,
 }
 
 /// The chunk that is being filled.
@@ -57,6 +60,8 @@ impl<W: Write> McapFile<W> {
             chunk_count: 0,
             counts: BTreeMap::new(),
             span: None,
+            attachments: Vec::new(),
+            attachment_count: 0,
         };
         file.put(MAGIC)?;
         let mut header = Vec::new();
@@ -181,6 +186,39 @@ impl<W: Write> McapFile<W> {
         Ok(())
     }
 
+    /// Ends the chunk, and returns where what is attached next will begin: the number of bytes before it.
+    pub(super) fn attachment_begin(&mut self) -> io::Result<u64> {
+        self.end_chunk()?;
+        Ok(self.at)
+    }
+
+    /// Attaches data, at the time of the last message.
+    pub(super) fn attach(&mut self, name: &str, media_type: &str, data: &[u8]) -> io::Result<()> {
+        let offset = self.attachment_begin()?;
+        let [_, last] = self.span.unwrap_or_default();
+        let mut content = Vec::with_capacity(data.len() + 100);
+        // When it was attached and made.
+        for time in [last; 2] {
+            content.extend(time.to_le_bytes());
+        }
+        add_text(&mut content, name);
+        add_text(&mut content, media_type);
+        content.extend((data.len() as u64).to_le_bytes());
+        content.extend(data);
+        content.extend(crc32fast::hash(&content).to_le_bytes());
+        self.put(&record(op::ATTACHMENT, &content))?;
+        let mut entry = Vec::new();
+        for number in [offset, self.at - offset, last, last, data.len() as u64] {
+            entry.extend(number.to_le_bytes());
+        }
+        add_text(&mut entry, name);
+        add_text(&mut entry, media_type);
+        self.attachments
+            .extend(record(op::ATTACHMENT_INDEX, &entry));
+        self.attachment_count += 1;
+        Ok(())
+    }
+
     /// Ends the file.
     pub(super) fn finish(mut self) -> io::Result<()> {
         self.end_chunk()?;
@@ -193,6 +231,7 @@ impl<W: Write> McapFile<W> {
             (op::CHANNEL, std::mem::take(&mut self.channels)),
             (op::STATISTICS, record(op::STATISTICS, &self.statistics())),
             (op::CHUNK_INDEX, std::mem::take(&mut self.index)),
+            (op::ATTACHMENT_INDEX, std::mem::take(&mut self.attachments)),
         ];
         let begin = self.at;
         for (opcode, group) in groups {
@@ -224,7 +263,8 @@ impl<W: Write> McapFile<W> {
         let mut content = self.counts.values().sum::<u64>().to_le_bytes().to_vec();
         content.extend(self.schema_count.to_le_bytes());
         // Channels, attachments, metadata and chunks.
-        for number in [u32::from(self.channel_count), 0, 0, self.chunk_count] {
+        let channels = u32::from(self.channel_count);
+        for number in [channels, self.attachment_count, 0, self.chunk_count] {
             content.extend(number.to_le_bytes());
         }
         for time in self.span.unwrap_or_default() {

@@ -245,7 +245,7 @@ impl Walker<'_> {
                     (self.take)(&Message {
                         channel,
                         encoding: &known.encoding,
-                        time: time as f64 * 1e-9,
+                        time: seconds(time),
                         data,
                     })?;
                 }
@@ -269,6 +269,11 @@ impl Walker<'_> {
     }
 }
 
+/// The time (s) of a message, of that in its record (ns).
+pub(super) fn seconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 * 1e-9
+}
+
 /// The 16-bit number at the beginning.
 fn u16_of(bytes: &[u8]) -> Option<(u16, &[u8])> {
     let (number, rest) = bytes.split_first_chunk()?;
@@ -276,7 +281,7 @@ fn u16_of(bytes: &[u8]) -> Option<(u16, &[u8])> {
 }
 
 /// The text at the beginning, which is preceded by its length.
-fn text_of(bytes: &[u8]) -> Option<(&str, &[u8])> {
+pub(super) fn text_of(bytes: &[u8]) -> Option<(&str, &[u8])> {
     let (length, rest) = bytes.split_first_chunk()?;
     let length = usize::try_from(u32::from_le_bytes(*length)).ok()?;
     let (text, rest) = rest.split_at_checked(length)?;

@@ -3,10 +3,12 @@
 //! Messages are Protobuf in the schemas published by Foxglove, so that its viewer can show them;
 //! tasks and held objects, for which there are none, have schemas of our own. Robot, kitchen and objects are
 //! there as descriptions in URDF, too. Poses and joints are
-//! written when they change, and all of them every few seconds. Times are simulated: the same
+//! written when they change, and all of them every few seconds. What can be asked of a recording is attached to its
+//! end, as rows. Times are simulated: the same
 //! session gives the same bytes. [`Recorder`] writes, [`read_recording`] reads, also the JSON of
 //! earlier versions.
 
+mod attachment;
 mod channel;
 mod chunks;
 mod contacts;
@@ -28,7 +30,7 @@ mod told;
 mod wire;
 mod write;
 
-pub use episode::{Episode, Wanted, read_episode};
+pub use episode::{Episode, Wanted, read_episode, read_episode_of_file};
 pub use follower::{Recorder, RecordingResult};
 pub use read::read_recording;
 pub use rows::{Datum, Rows};

@@ -10,7 +10,7 @@ use super::episode::object_name;
 use super::message::{FrameTransforms, Shown};
 use super::messages::Message;
 use super::read::{data_of, parsed};
-use super::rows::{Datum, Rows};
+use super::rows::{self, Datum, Rows};
 use super::shapes::MAP;
 use super::told::Objects;
 use super::wire::{Content, field};
@@ -200,23 +200,21 @@ impl Places {
         }
     }
 
-    pub(super) fn relations(self) -> Vec<(&'static str, Rows)> {
-        let of = |name, columns, rows| (name, Rows { columns, rows });
+    /// How many rows there are.
+    pub(super) fn len(&self) -> usize {
+        self.object_rows.len() + self.robot_rows.len()
+    }
+
+    /// The relations that have rows.
+    pub(super) fn relations(self) -> impl Iterator<Item = (&'static str, Rows)> {
         let relations = [
-            of("object", OBJECT, self.object_rows),
-            of("robot", &["time", "x", "y", "yaw"], self.robot_rows),
+            rows::of("object", self.object_rows),
+            rows::of("robot", self.robot_rows),
         ];
         let relations = relations.into_iter();
-        relations
-            .filter(|(_, rows)| !rows.rows.is_empty())
-            .collect()
+        relations.filter(|(_, rows)| !rows.rows.is_empty())
     }
 }
-
-/// The columns of objects.
-const OBJECT: &[&str] = &[
-    "time", "object", "type", "x", "y", "z", "qx", "qy", "qz", "qw", "on", "in-hand",
-];
 
 /// The first four fields of a message of numbers; what is not said is 0.
 fn doubles(mut rest: &[u8]) -> Option<[f64; 4]> {

@@ -62,3 +62,33 @@ pub struct Rows {
     /// Rows with a value for each of them.
     pub rows: Vec<Vec<Datum>>,
 }
+
+/// The relations that a recording has, in the order in which they are given, and their columns.
+pub(super) const RELATIONS: [(&str, &[&str]); 8] = [
+    (
+        "task",
+        &[
+            "task", "parent", "nth", "kind", "type", "path", "place", "created", "started",
+            "ended", "status", "result",
+        ],
+    ),
+    ("param", &["task", "key", "text", "num"]),
+    ("failure", &["task", "time", "class", "text"]),
+    ("event", &["time", "kind", "object", "other"]),
+    ("contact", &["a", "b", "began", "ended", "force"]),
+    ("log", &["time", "level", "tag", "text"]),
+    (
+        "object",
+        &[
+            "time", "object", "type", "x", "y", "z", "qx", "qy", "qz", "qw", "on", "in-hand",
+        ],
+    ),
+    ("robot", &["time", "x", "y", "yaw"]),
+];
+
+/// Rows of one of these relations.
+pub(super) fn of(name: &'static str, rows: Vec<Vec<Datum>>) -> (&'static str, Rows) {
+    let known = RELATIONS.iter().find(|(known, _)| *known == name);
+    let columns = known.map_or(&[][..], |(_, columns)| columns);
+    (name, Rows { columns, rows })
+}

@@ -8,9 +8,11 @@ use indexmap::IndexMap;
 use serde::Serialize;
 
 use super::RecordingError;
+use super::attachment;
 use super::channel::Channel;
 use super::contacts::contacts;
 use super::description;
+use super::episode::{EpisodeBuilder, Wanted};
 use super::markers::Markers;
 use super::mcap_file::McapFile;
 use super::message::{
@@ -18,6 +20,7 @@ use super::message::{
     JointStates, KeyValuePair, Log, PathMessage, PoseMessage, SceneEntityDeletion, SceneUpdate,
     Shown, Stop, Task, Time, Touching,
 };
+use super::messages::{Message, seconds};
 use super::protobuf::{descriptors, encoded};
 use super::shapes::{MAP, entity, frame_of, lines, tidy};
 use crate::picture::{Scene, render};
@@ -38,10 +41,16 @@ const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 /// begins to read in the middle of the file then knows everything.
 const ALL_AGAIN: f64 = 2.0;
 
+/// Up to how many bytes what can be asked is kept, to be attached to the end: many hours. Of a longer recording it is
+/// read from the messages.
+const MAX_EPISODE: usize = 32 << 20;
+
 /// Writes a recording.
 pub(crate) struct RecordingWriter<W: Write> {
     file: McapFile<W>,
     ids: Vec<(Channel, u16)>,
+    /// What can be asked of the recording, as long as that is not too much.
+    episode: Option<EpisodeBuilder>,
     /// The channels of descriptions.
     descriptions: Vec<(Kind, u16)>,
     /// The objects that have been described, and in how many messages.
@@ -93,6 +102,7 @@ impl<W: Write> RecordingWriter<W> {
         Ok(Self {
             file,
             ids,
+            episode: Some(EpisodeBuilder::new(Wanted::ALL)),
             descriptions,
             described: Default::default(),
             markers: Markers::default(),
@@ -487,7 +497,21 @@ impl<W: Write> RecordingWriter<W> {
         let Some((_, id)) = self.ids.iter().find(|(known, _)| *known == channel) else {
             return Ok(());
         };
-        self.file.add(*id, Time::nanoseconds(time), &data)?;
+        let nanoseconds = Time::nanoseconds(time);
+        self.file.add(*id, nanoseconds, &data)?;
+        if Wanted::ALL.needs(channel)
+            && let Some(episode) = &mut self.episode
+        {
+            episode.take(&Message {
+                channel,
+                encoding: PROTOBUF,
+                time: seconds(nanoseconds),
+                data: &data,
+            })?;
+            if episode.bytes() > MAX_EPISODE {
+                self.episode = None;
+            }
+        }
         Ok(())
     }
 
@@ -497,6 +521,9 @@ impl<W: Write> RecordingWriter<W> {
         if !line.is_empty() {
             let time = self.shown.timestamp;
             self.log(f64::from(time.sec), &line)?;
+        }
+        if let Some(episode) = self.episode.take() {
+            attachment::write(&mut self.file, &episode.relations())?;
         }
         self.file.finish()?;
         Ok(())
