@@ -3,35 +3,73 @@
 use std::ops::Range;
 
 /// A state as bytes, with the places of its lists, against which later states are written.
-#[derive(Default)]
-pub(crate) struct Reference {
-    pub(super) bytes: Vec<u8>,
-    /// The outermost lists, in order.
-    pub(super) lists: Vec<List>,
+#[derive(Clone, Copy)]
+pub(crate) struct Reference<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) places: &'a Places,
 }
+
+/// Where the outermost lists of a state are in its bytes, in order.
+#[derive(Default)]
+pub(crate) struct Places(Vec<List>);
 
 /// Where a list is in the bytes.
-#[derive(Default)]
-pub(super) struct List {
-    /// Where each element begins.
-    pub(super) starts: Vec<u32>,
-    /// Where the first one begins, or would.
-    pub(super) begin: u32,
+struct List {
+    /// Where the first element begins, or would.
+    begin: u32,
     /// Where the last one ends.
-    pub(super) end: u32,
+    end: u32,
+    /// How many there are.
+    count: u32,
+    /// Where each one begins, unless all have the same length.
+    starts: Box<[u32]>,
 }
 
-impl Reference {
-    /// How much memory (bytes) it takes.
-    pub(crate) fn bytes(&self) -> usize {
-        let lists = self.lists.iter().map(|list| 4 * list.starts.len());
-        self.bytes.len() + lists.sum::<usize>() + size_of_val(self.lists.as_slice())
+impl List {
+    /// Where an element is.
+    fn element(&self, index: usize) -> Range<usize> {
+        let count = self.count as usize;
+        if index >= count {
+            return 0..0;
+        }
+        let (begin, end) = (self.begin as usize, self.end as usize);
+        if self.starts.is_empty() {
+            let length = (end - begin) / count;
+            return begin + index * length..begin + (index + 1) * length;
+        }
+        let start = |index: usize| self.starts.get(index).map(|start| *start as usize);
+        start(index).unwrap_or(end)..start(index + 1).unwrap_or(end)
+    }
+}
+
+impl Places {
+    /// Adds the next list: where each element begins, and where the last one ends.
+    pub(super) fn add(&mut self, begin: u32, starts: &[u32], end: u32) {
+        let count = starts.len() as u32;
+        let length = (end - begin).checked_div(count).unwrap_or(0);
+        let is_even = length * count == end - begin
+            && starts
+                .iter()
+                .zip(0..)
+                .all(|(start, index)| *start == begin + index * length);
+        self.0.push(List {
+            begin,
+            end,
+            count,
+            starts: if is_even { Box::default() } else { starts.into() },
+        });
+    }
+
+    /// How much memory (bytes) they take.
+    pub(crate) fn size(&self) -> usize {
+        let starts = self.0.iter().map(|list| size_of_val(&*list.starts));
+        size_of_val(self.0.as_slice()) + starts.sum::<usize>()
     }
 }
 
 /// The part of a reference that is held against what is written or read now.
 pub(super) struct Alignment<'a> {
-    reference: Option<&'a Reference>,
+    reference: Option<Reference<'a>>,
     /// What is left of the part.
     rest: Range<usize>,
     /// The number of the outermost list that comes next, or is being written or read.
@@ -41,7 +79,7 @@ pub(super) struct Alignment<'a> {
 }
 
 impl<'a> Alignment<'a> {
-    pub(super) fn new(reference: Option<&'a Reference>) -> Self {
+    pub(super) fn new(reference: Option<Reference<'a>>) -> Self {
         let mut alignment = Self {
             reference,
             rest: 0..0,
@@ -58,9 +96,9 @@ impl<'a> Alignment<'a> {
             return &[];
         };
         let end = self.rest.end.min(self.rest.start + count);
-        let bytes = &reference.bytes[self.rest.start..end];
+        let bytes = reference.bytes.get(self.rest.start..end);
         self.rest.start = end;
-        bytes
+        bytes.unwrap_or_default()
     }
 
     /// A list begins, its length has been written or read. Returns whether it is an outermost one.
@@ -71,26 +109,23 @@ impl<'a> Alignment<'a> {
 
     /// An element of an outermost list begins.
     pub(super) fn enter_element(&mut self, index: usize) {
-        let list = self.reference.and_then(|r| r.lists.get(self.list));
-        let Some(list) = list else {
-            return;
-        };
-        let place = |index: usize| list.starts.get(index).map(|place| *place as usize);
-        self.rest = match place(index) {
-            Some(start) => start..place(index + 1).unwrap_or(list.end as usize),
-            None => 0..0,
-        };
+        if let Some(list) = self.current() {
+            self.rest = list.element(index);
+        }
     }
 
     /// A list ends.
     pub(super) fn leave_list(&mut self) {
         self.depth -= 1;
         if self.depth == 0 {
-            let list = self.reference.and_then(|r| r.lists.get(self.list));
-            let end = list.map_or(0, |list| list.end as usize);
+            let end = self.current().map_or(0, |list| list.end as usize);
             self.list += 1;
             self.go_between_lists(end);
         }
+    }
+
+    fn current(&self) -> Option<&'a List> {
+        self.reference?.places.0.get(self.list)
     }
 
     /// The part from a place up to where the next list begins.
@@ -98,7 +133,7 @@ impl<'a> Alignment<'a> {
         let Some(reference) = self.reference else {
             return;
         };
-        let next = reference.lists.get(self.list);
-        self.rest = start..next.map_or(reference.bytes.len(), |list| list.begin as usize);
+        let next = self.current().map(|list| list.begin as usize);
+        self.rest = start..next.unwrap_or(reference.bytes.len());
     }
 }

@@ -14,7 +14,7 @@ mod writer;
 
 use serde::Serialize;
 
-pub(crate) use self::alignment::Reference;
+pub(crate) use self::alignment::{Places, Reference};
 pub(crate) use self::reader::{LeftOut, Reader};
 pub(crate) use self::writer::Writer;
 
@@ -51,19 +51,41 @@ impl serde::de::Error for PackingError {
 pub(crate) fn plain<T: Serialize>(value: &T, bytes: &mut Vec<u8>) -> Result<(), PackingError> {
     let mut writer = Writer::new(std::mem::take(bytes), None, None);
     let written = value.serialize(&mut writer);
-    *bytes = writer.into_bytes();
+    *bytes = writer.finish().0;
     written
 }
 
-/// Compresses bytes most of which are zero.
-pub(crate) fn compress(bytes: &[u8]) -> Box<[u8]> {
-    lz4_flex::block::compress_prepend_size(bytes).into_boxed_slice()
+/// Bytes most of which are zero, compressed.
+pub(crate) struct Compressed {
+    bytes: Box<[u8]>,
+    /// How many they were.
+    length: usize,
 }
 
-/// The bytes that [`compress`] was given.
-pub(crate) fn decompress(bytes: &[u8]) -> Result<Vec<u8>, PackingError> {
-    lz4_flex::block::decompress_size_prepended(bytes)
-        .map_err(|_| PackingError::NotOf("what was compressed"))
+impl Compressed {
+    /// Compresses bytes. The room is for use on the way: what is kept for long is to have its own size from the
+    /// beginning, or else much memory lies idle between such pieces.
+    pub(crate) fn new(bytes: &[u8], room: &mut Vec<u8>) -> Self {
+        room.resize(lz4_flex::block::get_maximum_output_size(bytes.len()), 0);
+        let length = lz4_flex::block::compress_into(bytes, room);
+        // There is room for the longest output.
+        let written = &room[..length.unwrap_or(0)];
+        Self {
+            bytes: written.into(),
+            length: bytes.len(),
+        }
+    }
+
+    /// The bytes that were compressed.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, PackingError> {
+        lz4_flex::block::decompress(&self.bytes, self.length)
+            .map_err(|_| PackingError::NotOf("what was compressed"))
+    }
+
+    /// How much memory (bytes) they take.
+    pub(crate) fn size(&self) -> usize {
+        self.bytes.len()
+    }
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub(crate) struct LeftOut<'a> {
 impl<'a> Reader<'a> {
     pub(crate) fn new(
         bytes: &'a [u8],
-        reference: Option<&'a Reference>,
+        reference: Option<Reference<'a>>,
         left_out: Option<LeftOut<'a>>,
     ) -> Self {
         Self {

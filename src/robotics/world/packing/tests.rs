@@ -52,26 +52,24 @@ fn states() -> Vec<State> {
     vec![first, longer, shorter, State::default()]
 }
 
-fn written(state: &State, reference: Option<&Reference>) -> Writer<'static> {
-    let mut writer = Writer::new(Vec::new(), None, None);
-    if let Some(reference) = reference {
-        let mut against = Writer::new(Vec::new(), Some(reference), None);
-        state.serialize(&mut against).unwrap();
-        writer = Writer::new(against.into_bytes(), None, None);
-    } else {
-        state.serialize(&mut writer).unwrap();
-    }
-    writer
+fn written(state: &State, reference: Option<Reference<'_>>) -> (Vec<u8>, Places) {
+    let mut writer = Writer::new(Vec::new(), reference, None);
+    state.serialize(&mut writer).unwrap();
+    writer.finish()
 }
 
 #[test]
 fn what_is_written_against_any_state_is_read_again() {
     for one in states() {
-        let reference = written(&one, None).into_reference();
+        let (bytes, places) = written(&one, None);
+        let reference = Reference {
+            bytes: &bytes,
+            places: &places,
+        };
         for other in states() {
-            let bytes = written(&other, Some(&reference)).into_bytes();
-            let bytes = decompress(&compress(&bytes)).unwrap();
-            let read = State::deserialize(&mut Reader::new(&bytes, Some(&reference), None));
+            let (bytes, _) = written(&other, Some(reference));
+            let bytes = Compressed::new(&bytes, &mut Vec::new()).bytes().unwrap();
+            let read = State::deserialize(&mut Reader::new(&bytes, Some(reference), None));
             assert_eq!(read.unwrap(), other);
             if one == other {
                 assert!(bytes.iter().all(|byte| *byte == 0), "{bytes:?}");
@@ -83,12 +81,16 @@ fn what_is_written_against_any_state_is_read_again() {
 #[test]
 fn an_element_that_grows_shifts_nothing() {
     let [one, mut other] = [0; 2].map(|_| states().swap_remove(0));
-    let reference = written(&one, None).into_reference();
+    let (earlier, places) = written(&one, None);
+    let reference = Reference {
+        bytes: &earlier,
+        places: &places,
+    };
     let Body::Ball { touches, .. } = &mut other.bodies[0] else {
         panic!("the first body is a ball");
     };
     touches.extend([(300, 'x'), (301, 'y')]);
-    let bytes = written(&other, Some(&reference)).into_bytes();
+    let (bytes, _) = written(&other, Some(reference));
     let changed = bytes.iter().filter(|byte| **byte != 0).count();
     // The number of touches, and two of them.
     assert_eq!(changed, 1 + 2 * 3);
@@ -99,8 +101,8 @@ fn what_is_left_out_is_read_from_elsewhere() {
     let state = states().swap_remove(1);
     let mut writer = Writer::new(Vec::new(), None, Some("Shape"));
     state.serialize(&mut writer).unwrap();
-    let bytes = writer.into_bytes();
-    assert!(bytes.len() < written(&state, None).into_bytes().len());
+    let (bytes, _) = writer.finish();
+    assert!(bytes.len() < written(&state, None).0.len());
     let mut elsewhere = Vec::new();
     for shape in [Shape::Flat(9), Shape::Round(u64::MAX)] {
         plain(&shape, &mut elsewhere).unwrap();
@@ -115,7 +117,7 @@ fn what_is_left_out_is_read_from_elsewhere() {
 
 #[test]
 fn bytes_that_say_something_else_are_refused() {
-    let bytes = written(&states()[1], None).into_bytes();
+    let (bytes, _) = written(&states()[1], None);
     let read = |bytes: &[u8]| State::deserialize(&mut Reader::new(bytes, None, None));
     for length in 0..bytes.len() {
         assert_eq!(read(&bytes[..length]), Err(PackingError::Short));
@@ -123,5 +125,8 @@ fn bytes_that_say_something_else_are_refused() {
     let mut wrong = bytes.clone();
     wrong[0] = 2;
     assert_eq!(read(&wrong), Err(PackingError::NotOf("true or false")));
-    assert!(decompress(&compress(&bytes)[..20]).is_err());
+    let mut compressed = Compressed::new(&bytes, &mut Vec::new());
+    compressed.bytes = compressed.bytes[..20].into();
+    let refused = PackingError::NotOf("what was compressed");
+    assert_eq!(compressed.bytes(), Err(refused));
 }

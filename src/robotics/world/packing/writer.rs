@@ -3,15 +3,16 @@
 use serde::{Serialize, ser};
 
 use super::PackingError;
-use super::alignment::{Alignment, List, Reference};
+use super::alignment::{Alignment, Places, Reference};
 
 /// Writes values, all with the same number of bytes for each number.
 pub(crate) struct Writer<'a> {
     bytes: Vec<u8>,
     alignment: Alignment<'a>,
-    /// The outermost lists that were written, unless there is a reference.
-    lists: Vec<List>,
-    has_reference: bool,
+    /// Where the outermost lists are, unless there is a reference.
+    places: Option<Places>,
+    /// Where the outermost list begins that is being written, and each of its elements.
+    list: (u32, Vec<u32>),
     /// The type (an enumeration) whose values are left out.
     left_out: Option<&'static str>,
 }
@@ -21,31 +22,21 @@ impl<'a> Writer<'a> {
     /// a name.
     pub(crate) fn new(
         bytes: Vec<u8>,
-        reference: Option<&'a Reference>,
+        reference: Option<Reference<'a>>,
         left_out: Option<&'static str>,
     ) -> Self {
         Self {
             bytes,
             alignment: Alignment::new(reference),
-            lists: Vec::new(),
-            has_reference: reference.is_some(),
+            places: reference.is_none().then(Places::default),
+            list: (0, Vec::new()),
             left_out,
         }
     }
 
-    /// What was written.
-    pub(crate) fn into_bytes(self) -> Vec<u8> {
-        self.bytes
-    }
-
-    /// What was written without a reference, as one for others.
-    pub(crate) fn into_reference(self) -> Reference {
-        let mut bytes = self.bytes;
-        bytes.shrink_to_fit();
-        Reference {
-            bytes,
-            lists: self.lists,
-        }
+    /// What was written; without a reference, it may be one for others, with these places.
+    pub(crate) fn finish(self) -> (Vec<u8>, Places) {
+        (self.bytes, self.places.unwrap_or_default())
     }
 
     fn put(&mut self, bytes: &[u8]) {
@@ -73,13 +64,9 @@ impl<'a> Writer<'a> {
         let length = length.ok_or(PackingError::Unsupported("a list of unknown length"))?;
         self.put_length(length);
         let is_outermost = self.alignment.enter_list();
-        if is_outermost && !self.has_reference {
-            let begin = self.place();
-            self.lists.push(List {
-                starts: Vec::with_capacity(length),
-                begin,
-                end: begin,
-            });
+        if is_outermost {
+            self.list.0 = self.place();
+            self.list.1.clear();
         }
         Ok(ListWriter {
             writer: self,
@@ -103,20 +90,19 @@ impl ListWriter<'_, '_> {
         }
         self.writer.alignment.enter_element(self.index);
         self.index += 1;
-        if !self.writer.has_reference {
+        if self.writer.places.is_some() {
             let place = self.writer.place();
-            if let Some(list) = self.writer.lists.last_mut() {
-                list.starts.push(place);
-            }
+            self.writer.list.1.push(place);
         }
     }
 
     fn finish(self) {
         self.writer.alignment.leave_list();
-        if self.is_outermost && !self.writer.has_reference {
-            let place = self.writer.place();
-            if let Some(list) = self.writer.lists.last_mut() {
-                list.end = place;
+        if self.is_outermost {
+            let end = self.writer.place();
+            let (begin, starts) = &self.writer.list;
+            if let Some(places) = &mut self.writer.places {
+                places.add(*begin, starts, end);
             }
         }
     }
