@@ -433,7 +433,10 @@ fn forms_that_change_the_world_take_little_memory() {
     let forms = |count: u32| -> String {
         let x = |form: u32| -1.7 + 0.005 * f64::from(form);
         let form = |form| {
-            format!("(btr-utils:move-object 'bottle-1 '(({} -0.9 0.82) (0 0 0 1)))\n", x(form))
+            format!(
+                "(btr-utils:move-object 'bottle-1 '(({} -0.9 0.82) (0 0 0 1)))\n",
+                x(form)
+            )
         };
         (0..count).map(form).collect()
     };

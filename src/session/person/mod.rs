@@ -8,8 +8,8 @@ mod timeline;
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 pub(crate) use progress::{Done, Progress};
-pub(crate) use snapshots::{Snapshot, Snapshots};
 use shelf::Shelf;
+pub(crate) use snapshots::{Snapshot, Snapshots};
 use timeline::Timeline;
 
 use crate::simulation::Simulation;

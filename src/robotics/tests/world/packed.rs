@@ -70,7 +70,12 @@ fn a_packed_snapshot_says_what_a_hand_holds() {
         for i in 0..240 {
             let t = f64::from(i) / 240.0;
             robot.base = from_xy_yaw(0.3 + 0.2 * t, -0.5, 0.3 * t);
-            set_joint(&models, &mut robot, "r_gripper_l_finger_joint", 0.5 - 0.09 * t);
+            set_joint(
+                &models,
+                &mut robot,
+                "r_gripper_l_finger_joint",
+                0.5 - 0.09 * t,
+            );
             world.set_robot_configuration(&robot);
             world.step();
         }
@@ -121,7 +126,12 @@ fn packed_snapshots_take_little_memory() {
         turmoil(&mut world, 50);
         if number % 10 == 0 {
             let name = format!("LATER-{number}");
-            spawn(&mut world, &name, "bottle", &at(-1.0, -0.9 + 0.01 * f64::from(number), 0.9));
+            spawn(
+                &mut world,
+                &name,
+                "bottle",
+                &at(-1.0, -0.9 + 0.01 * f64::from(number), 0.9),
+            );
         }
         let packed = packed(&mut packer, &world);
         let (which, of_all) = packed.shared();

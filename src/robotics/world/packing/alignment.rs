@@ -56,7 +56,11 @@ impl Places {
             begin,
             end,
             count,
-            starts: if is_even { Box::default() } else { starts.into() },
+            starts: if is_even {
+                Box::default()
+            } else {
+                starts.into()
+            },
         });
     }
 

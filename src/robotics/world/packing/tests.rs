@@ -17,7 +17,10 @@ struct State {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum Body {
     Free,
-    Ball { at: [f64; 3], touches: Vec<(u16, char)> },
+    Ball {
+        at: [f64; 3],
+        touches: Vec<(u16, char)>,
+    },
     Pair(f32, Shape),
     Only(Shape),
 }
@@ -37,13 +40,20 @@ fn states() -> Vec<State> {
         is_there: true,
         number: 7,
         texts: vec!["one".to_owned(), String::new()],
-        bodies: vec![ball(3), Body::Free, Body::Pair(0.5, Shape::Flat(9)), ball(1)],
+        bodies: vec![
+            ball(3),
+            Body::Free,
+            Body::Pair(0.5, Shape::Flat(9)),
+            ball(1),
+        ],
         by_name: BTreeMap::from([(1, None), (4, Some(f64::MAX))]),
         last: -1,
     };
     let mut longer = first.clone();
     longer.texts.insert(0, "a longer text".to_owned());
-    longer.bodies.extend([ball(9), Body::Only(Shape::Round(u64::MAX))]);
+    longer
+        .bodies
+        .extend([ball(9), Body::Only(Shape::Round(u64::MAX))]);
     longer.bodies[1] = ball(5);
     let mut shorter = longer.clone();
     shorter.bodies.truncate(2);

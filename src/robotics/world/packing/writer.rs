@@ -60,7 +60,10 @@ impl<'a> Writer<'a> {
         self.bytes.len() as u32
     }
 
-    fn begin_list<'w>(&'w mut self, length: Option<usize>) -> Result<ListWriter<'w, 'a>, PackingError> {
+    fn begin_list<'w>(
+        &'w mut self,
+        length: Option<usize>,
+    ) -> Result<ListWriter<'w, 'a>, PackingError> {
         let length = length.ok_or(PackingError::Unsupported("a list of unknown length"))?;
         self.put_length(length);
         let is_outermost = self.alignment.enter_list();
