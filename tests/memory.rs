@@ -424,6 +424,37 @@ fn references_of_symbolic_locations_leave_nothing_behind() {
 }
 
 #[test]
+fn forms_that_change_the_world_take_little_memory() {
+    let _alone = alone();
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let mut run = |text: &str| allocated_after(&mut session, text);
+    run("(in-package :pp-tut) (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))");
+    // A form at top level each, which can be taken back, and after which the world is remembered.
+    let forms = |count: u32| -> String {
+        let x = |form: u32| -1.7 + 0.005 * f64::from(form);
+        let form = |form| {
+            format!(
+                "(btr-utils:move-object 'bottle-1 '(({} -0.9 0.82) (0 0 0 1)))\n",
+                x(form)
+            )
+        };
+        (0..count).map(form).collect()
+    };
+    let before = run(&forms(10));
+    let after = run(&forms(100));
+    assert!(
+        after < before + 100 * (15 << 10),
+        "{before} B after 10 forms, {after} B after 110"
+    );
+    // There are no more than that.
+    let later = run(&forms(100));
+    assert!(
+        later < after + (256 << 10),
+        "{after} B after 110 forms, {later} B after 210"
+    );
+}
+
+#[test]
 fn locations_that_a_program_keeps_do_not_keep_copies_of_the_world() {
     let _alone = alone();
     let mut session = Session::new(&limited(1 << 30)).unwrap();

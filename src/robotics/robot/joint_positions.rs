@@ -1,5 +1,7 @@
 //! One position per joint of a kinematic tree.
 
+use serde::{Deserialize, Serialize};
+
 use super::ids::JointId;
 
 /// Positions of the joints of one [`KinematicTree`](super::KinematicTree): rad for
@@ -7,7 +9,7 @@ use super::ids::JointId;
 ///
 /// The entry of a joint that mimics another is ignored; use
 /// [`KinematicTree::position`](super::KinematicTree::position) to get its actual position.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointPositions(Vec<f64>);
 
 impl JointPositions {

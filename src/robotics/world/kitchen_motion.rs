@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::collision::CollisionHit;
 use super::error::WorldError;
-use super::obstacles::Obstacles;
 use super::scene::{World, pose_of};
 use super::two_stages::freeing_joint;
 use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
@@ -131,7 +130,8 @@ impl World {
     /// are still where they were.
     pub(super) fn set_joint(&mut self, joint: JointId, position: f64) {
         let (positions, poses) = self.kitchen_with(joint, position);
-        self.state.furniture = Arc::new(Obstacles::new(&self.models.kitchen_geometry, &poses));
+        let geometry = &self.models.kitchen_geometry;
+        self.state.furniture = Arc::new(self.state.furniture.with_links_at(geometry, &poses));
         self.state.kitchen = positions;
         self.state.kitchen_poses = poses;
     }

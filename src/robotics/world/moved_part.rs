@@ -4,6 +4,8 @@
 //! stands in it, ride along. What is found out here about a part at another position changes
 //! nothing in the world.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::allowed_pairs::AllowedPairs;
@@ -84,7 +86,7 @@ impl World {
             .filter(is_in)
             .map(|object| self.object_at(object))
             .collect();
-        let own: Vec<&Obstacle> = self
+        let own: Vec<&Arc<Obstacle>> = self
             .state
             .furniture
             .all()
@@ -149,7 +151,8 @@ impl World {
     }
 
     fn moved_to(&self, part: &Part, poses: Vec<Pose>) -> MovedPart<'_> {
-        let furniture = Obstacles::new(&self.models.kitchen_geometry, &poses);
+        let geometry = &self.models.kitchen_geometry;
+        let furniture = self.state.furniture.with_links_at(geometry, &poses);
         MovedPart {
             world: self,
             part: part.clone(),
@@ -349,7 +352,7 @@ impl MovedPart<'_> {
     }
 
     fn own_obstacles(&self) -> impl Iterator<Item = &Obstacle> {
-        let all = self.furniture.all().iter();
+        let all = self.furniture.all().iter().map(|obstacle| &**obstacle);
         all.filter(|obstacle| is_of(&self.part.links, obstacle.key))
     }
 

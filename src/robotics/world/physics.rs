@@ -16,6 +16,7 @@
 //! - Reading changes nothing. In particular no collision detection runs outside a step.
 
 mod groups;
+mod packed;
 mod raw_contact;
 mod riding;
 
@@ -34,6 +35,7 @@ use rapier3d_f64::pipeline::PhysicsPipeline;
 
 pub use self::groups::Robot;
 use self::groups::groups;
+pub(crate) use self::packed::{LEFT_OUT, LEFT_OUT_AS_READ, Shapes};
 use super::hash::Hasher;
 use super::object_library::FRICTION;
 use super::solid::{Solid, from_parry, from_parry_vector, to_parry};
@@ -147,6 +149,8 @@ pub struct Sets {
     ccd_solver: CCDSolver,
     /// Whether anything was changed from outside since the last step.
     is_edited: bool,
+    /// Whether joints were made or removed since the last step.
+    has_new_joints: bool,
 }
 
 impl Clone for Physics {
@@ -183,6 +187,7 @@ impl Physics {
                 soft_bodies: SoftBodySet::new(),
                 ccd_solver: CCDSolver::new(),
                 is_edited: true,
+                has_new_joints: false,
             },
             parameters,
             pipeline: PhysicsPipeline::new(),
@@ -301,6 +306,7 @@ impl Physics {
     /// Removes the body and its welds; what rested on it wakes up.
     pub(crate) fn remove_body(&mut self, body: BodyHandle) {
         let s = self.edit();
+        s.has_new_joints |= s.impulse_joints.attached_joints(body.0).next().is_some();
         s.bodies.remove(
             body.0,
             &mut s.islands,
@@ -439,16 +445,16 @@ impl Physics {
             .local_frame1(to_parry(at))
             .contacts_enabled(false)
             .softness(SpringCoefficients::new(WELD_FREQUENCY, WELD_DAMPING));
-        WeldHandle(
-            self.edit()
-                .impulse_joints
-                .insert(carrier.0, carried.0, joint, true),
-        )
+        let s = self.edit();
+        s.has_new_joints = true;
+        WeldHandle(s.impulse_joints.insert(carrier.0, carried.0, joint, true))
     }
 
     /// Removes the weld.
     pub(crate) fn unweld(&mut self, weld: WeldHandle) {
-        self.edit().impulse_joints.remove(weld.0, true);
+        let s = self.edit();
+        s.has_new_joints = true;
+        s.impulse_joints.remove(weld.0, true);
     }
 
     /// Force (N) that the weld has exerted during the last step.
@@ -480,6 +486,7 @@ impl Physics {
         if !std::mem::take(&mut s.is_edited) && s.islands.num_active_bodies() == 0 {
             return;
         }
+        s.has_new_joints = false;
         self.parameters.normalized_prediction_distance = s.margin();
         // What is held goes where the hand goes, which is checked before.
         self.parameters.max_ccd_substeps = usize::from(s.has_loose_body_awake());
@@ -507,8 +514,8 @@ impl Physics {
 
     /// Restores the state. What the pipeline remembers of its last step belongs to the state
     /// being left.
-    pub(crate) fn load(&mut self, sets: &Sets) {
-        self.sets.clone_from(sets);
+    pub(crate) fn load(&mut self, sets: Sets) {
+        self.sets = sets;
         self.pipeline = PhysicsPipeline::new();
     }
 

@@ -53,6 +53,9 @@ pub struct World {
     pub(super) explored: ExploredFloor,
 }
 
+/// The names of an object, and its place among others (bytes), roughly.
+const OBJECT_NAMES: usize = 128;
+
 /// The state of a world besides that of the physics engine.
 #[derive(Clone)]
 pub(super) struct State {
@@ -84,6 +87,17 @@ pub(super) struct State {
     pub(super) cuts: Vec<Cut>,
     /// What stands on what two hands carry.
     pub(super) riding: Riding,
+}
+
+impl State {
+    /// How much memory (bytes) it takes, roughly.
+    pub(super) fn bytes(&self) -> usize {
+        size_of::<Self>()
+            + size_of_val(self.robot_poses.as_slice())
+            + size_of_val(self.left_behind.as_slice())
+            + size_of_val(self.kitchen_poses.as_slice())
+            + self.objects.len() * (size_of::<Object>() + OBJECT_NAMES)
+    }
 }
 
 impl World {

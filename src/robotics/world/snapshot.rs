@@ -14,7 +14,7 @@ pub struct Snapshot {
 impl Snapshot {
     /// How much memory (bytes) it takes, roughly.
     pub fn bytes(&self) -> usize {
-        self.physics.bytes()
+        self.physics.bytes() + self.state.bytes()
     }
 }
 
@@ -29,7 +29,12 @@ impl World {
 
     /// Restores a state of this world, or of one that was cloned from it.
     pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.physics.load(&snapshot.physics);
-        self.state.clone_from(&snapshot.state);
+        self.go_to(snapshot.clone());
+    }
+
+    /// Restores a state that nobody else needs.
+    pub(super) fn go_to(&mut self, snapshot: Snapshot) {
+        self.physics.load(snapshot.physics);
+        self.state = snapshot.state;
     }
 }

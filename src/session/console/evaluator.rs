@@ -180,10 +180,7 @@ impl Evaluator {
     pub(crate) fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
         facts::follow(&mut self.image, &self.host.simulation.models);
-        self.host
-            .person
-            .snapshots
-            .begin_form(&self.host.simulation, form);
+        self.host.person.begin_form(&self.host.simulation, form);
         let now = self.host.simulation.now();
         self.host.audience.tell_resumed(now);
         let tells_progress = self.console.is_interactive;

@@ -75,7 +75,7 @@ fn name(image: &Image, value: &Value) -> Result<String> {
 
 fn snapshot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = name(image, &args[0])?;
-    host.person.snapshots.keep(&host.simulation, &name);
+    host.person.keep_snapshot(&host.simulation, &name);
     done(args[0].clone())
 }
 

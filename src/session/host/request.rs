@@ -24,7 +24,7 @@ impl Host for SimulationHost {
             }
             let reply = (call.call)(host, image, &call.args);
             if call.is_edit {
-                host.note_moment();
+                host.person.note_moment(&host.simulation);
             }
             host.audience.show(&host.simulation, Cause::Edit);
             reply
@@ -141,27 +141,18 @@ impl SimulationHost {
             self.step(image);
             steps += 1;
             self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
-            if !self.person.snapshots.is_trial() {
-                self.person.timeline.note_now_and_then(&self.simulation);
-            }
+            self.person.note_now_and_then(&self.simulation);
             watch(self);
         }
         if image.is_interrupted() {
             self.simulation.stop_robot();
         }
         if !done.is_empty() {
-            self.note_moment();
+            self.person.note_moment(&self.simulation);
         }
         Advance {
             now: self.simulation.now,
             done,
-        }
-    }
-
-    /// Remembers how the world is now, unless it is only tried out.
-    fn note_moment(&mut self) {
-        if !self.person.snapshots.is_trial() {
-            self.person.timeline.note(&self.simulation);
         }
     }
 
@@ -225,10 +216,7 @@ impl SimulationHost {
         told: Told,
     ) -> Ticket {
         let simulation = &mut self.simulation;
-        self.person.snapshots.begin_motion(simulation);
-        if !self.person.snapshots.is_trial() {
-            self.person.timeline.note(simulation);
-        }
+        self.person.begin_motion(simulation);
         let now = simulation.now;
         let job = simulation
             .jobs

@@ -3,19 +3,21 @@
 //! A snapshot holds the world, the robot in it, what the hands hold, the names of objects, and
 //! where the random numbers of locations have got to. Lisp variables and simulated time are not part of it.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use indexmap::IndexMap;
 
+use super::shelf::{KeptWorld, Shelf};
 use crate::simulation::held::Held;
 use crate::simulation::{Axes, Simulation};
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 use lisp::value::raise::Raise;
 use robotics::robot::ArmPositions;
-use robotics::world::{self, Models};
+use robotics::world::Models;
 
 /// Maximum number of forms at top level that can be undone.
 const MAX_FORMS: usize = 100;
@@ -24,7 +26,7 @@ const MAX_MOTIONS: usize = 64;
 /// The memory (bytes) that snapshots before forms may take, and those before motions, where that is fewer of them.
 const MAX_BYTES: usize = 10 << 20;
 /// How many there are whatever memory they take.
-const MIN_SNAPSHOTS: usize = 8;
+pub(super) const MIN_SNAPSHOTS: usize = 8;
 
 /// The state at one time.
 #[derive(Clone)]
@@ -34,7 +36,7 @@ pub(crate) struct Snapshot(Rc<State>);
 struct State {
     /// The kitchen that the world is in.
     models: Arc<Models>,
-    world: world::Snapshot,
+    world: Rc<RefCell<KeptWorld>>,
     names: IndexMap<String, Value>,
     held: IndexMap<String, Held>,
     carrying: [Option<ArmPositions>; 2],
@@ -74,7 +76,7 @@ impl Snapshot {
     pub(crate) fn take(simulation: &Simulation) -> Self {
         Self(Rc::new(State {
             models: Arc::clone(&simulation.models),
-            world: simulation.world.snapshot(),
+            world: Rc::new(RefCell::new(KeptWorld::of(&simulation.world))),
             names: simulation.names.clone(),
             held: simulation.held.clone(),
             carrying: simulation.carrying,
@@ -83,10 +85,26 @@ impl Snapshot {
         }))
     }
 
-    /// How many like this one may be kept, of a number that takes little memory.
-    pub(super) fn how_many(&self, most: usize, bytes: usize) -> usize {
-        let fit = bytes / self.0.world.bytes().max(1);
-        fit.clamp(MIN_SNAPSHOTS.min(most), most)
+    /// The world in it.
+    pub(super) fn world(&self) -> &Rc<RefCell<KeptWorld>> {
+        &self.0.world
+    }
+
+    /// How much memory (bytes) all of them take, roughly; those that were taken one after the other share some.
+    pub(super) fn bytes_of_all<'a>(all: impl Iterator<Item = &'a Snapshot>) -> usize {
+        let mut bytes = 0;
+        let mut before = None;
+        for snapshot in all {
+            let world = snapshot.0.world.borrow();
+            bytes += size_of::<State>() + world.bytes();
+            if let Some((which, shared)) = world.shared()
+                && before != Some(which)
+            {
+                before = Some(which);
+                bytes += shared;
+            }
+        }
+        bytes
     }
 
     /// Restores the state; ongoing motions end.
@@ -99,7 +117,7 @@ impl Snapshot {
     /// are those that are known here.
     pub(crate) fn adopt(&self, simulation: &mut Simulation) {
         let state = &self.0;
-        simulation.world.restore(&state.world);
+        state.world.borrow().restore(&mut simulation.world);
         simulation.held.clone_from(&state.held);
         simulation.carrying = state.carrying;
         simulation.jobs.clear();
@@ -112,7 +130,7 @@ impl Snapshot {
         if !models.share_kitchen(&state.models) || !models.share_robot(&state.models) {
             simulation.begin_with(&state.models);
         }
-        simulation.world.restore(&state.world);
+        state.world.borrow().restore(&mut simulation.world);
         simulation.names.clone_from(&state.names);
         simulation.held.clone_from(&state.held);
         simulation.carrying = state.carrying;
@@ -131,7 +149,7 @@ impl Copied for Snapshot {
         let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
         Snapshot(Rc::new(State {
             models: Arc::clone(&state.models),
-            world: state.world.clone(),
+            world: Rc::clone(&state.world),
             names: names.collect(),
             held: state.held.clone(),
             carrying: state.carrying,
@@ -181,7 +199,7 @@ impl Snapshots {
     }
 
     /// Call when a form at top level is about to be evaluated.
-    pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
+    pub(super) fn begin_form(&mut self, shelf: &mut Shelf, simulation: &Simulation, form: &Value) {
         self.motions.clear();
         if !self.is_touched
             && let Some(last) = self.forms.back_mut()
@@ -194,13 +212,12 @@ impl Snapshots {
             self.forms.pop_back();
         }
         self.is_touched = false;
-        let snapshot = Snapshot::take(simulation);
-        leave_room(&mut self.forms, snapshot.how_many(MAX_FORMS, MAX_BYTES));
         self.forms.push_back(BeforeForm {
             form: form.clone(),
-            snapshot,
+            snapshot: shelf.take(simulation),
             hash,
         });
+        forget_oldest(&mut self.forms, MAX_FORMS, |before| &before.snapshot);
     }
 
     /// Whether the world differs from before the last form at top level.
@@ -221,14 +238,15 @@ impl Snapshots {
         self.is_touched = true;
     }
 
-    /// Call when the next motion is about to begin.
-    pub(crate) fn begin_motion(&mut self, simulation: &Simulation) {
-        if !self.keeps_motions {
-            return;
-        }
-        let snapshot = Snapshot::take(simulation);
-        leave_room(&mut self.motions, snapshot.how_many(MAX_MOTIONS, MAX_BYTES));
-        self.motions.push_back((simulation.jobs.begun, snapshot));
+    /// Whether snapshots before motions are kept.
+    pub(super) fn keeps_motions(&self) -> bool {
+        self.keeps_motions
+    }
+
+    /// Call when the motion with that number is about to begin, with the present state.
+    pub(super) fn begin_motion(&mut self, motion: u64, snapshot: Snapshot) {
+        self.motions.push_back((motion, snapshot));
+        forget_oldest(&mut self.motions, MAX_MOTIONS, |(_, snapshot)| snapshot);
     }
 
     /// Whether the world can be restored to before the motion with that number.
@@ -291,8 +309,8 @@ impl Snapshots {
     }
 
     /// Takes a named snapshot of the world.
-    pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
-        let snapshot = Snapshot::take(simulation);
+    pub(super) fn keep(&mut self, shelf: &mut Shelf, simulation: &Simulation, name: &str) {
+        let snapshot = shelf.take(simulation);
         self.named.insert(name.to_owned(), snapshot);
     }
 
@@ -357,9 +375,10 @@ impl Snapshots {
     }
 }
 
-/// Forgets the oldest, so that with one more there are not more than so many.
-fn leave_room<T>(kept: &mut VecDeque<T>, most: usize) {
-    while kept.len() >= most.max(1) {
+/// Forgets the oldest while there are too many, or while they take too much memory.
+fn forget_oldest<T>(kept: &mut VecDeque<T>, most: usize, snapshot: impl Fn(&T) -> &Snapshot) {
+    let bytes = |kept: &VecDeque<T>| Snapshot::bytes_of_all(kept.iter().map(&snapshot));
+    while kept.len() > most || (kept.len() > MIN_SNAPSHOTS && bytes(kept) > MAX_BYTES) {
         kept.pop_front();
     }
 }

@@ -3,14 +3,14 @@
 
 use std::collections::VecDeque;
 
-use super::snapshots::Snapshot;
+use super::snapshots::{MIN_SNAPSHOTS, Snapshot};
 use crate::simulation::Simulation;
 
-/// Maximum number of moments that are kept, about 500 kB each in the usual kitchen. Then every other one of the older half
+/// Maximum number of moments that are kept, about 10 kB each in the usual kitchen. Then every other one of the older half
 /// is forgotten, so that the past gets coarser with age.
 const MAX_MOMENTS: usize = 64;
 /// The memory (bytes) that they may take in a larger kitchen, where that is fewer of them.
-const MAX_BYTES: usize = 40 << 20;
+const MAX_BYTES: usize = 10 << 20;
 
 /// The simulated time (s) between two moments while something moves.
 const INTERVAL: f64 = 2.0;
@@ -54,17 +54,19 @@ impl Timeline {
         }
     }
 
-    /// Notes the present state. Of several at the same time the last one counts.
-    pub(crate) fn note(&mut self, simulation: &Simulation) {
-        if self.is_off {
-            return;
-        }
-        let now = simulation.now();
+    /// Whether none are noted.
+    pub(super) fn is_off(&self) -> bool {
+        self.is_off
+    }
+
+    /// Notes the state at a simulated time (s). Of several at the same time the last one counts.
+    pub(super) fn note(&mut self, now: f64, snapshot: Snapshot) {
         if self.moments.back().is_some_and(|moment| moment.time >= now) {
             self.moments.pop_back();
         }
-        let snapshot = Snapshot::take(simulation);
-        while self.moments.len() >= snapshot.how_many(MAX_MOMENTS, MAX_BYTES) {
+        while self.moments.len() >= MAX_MOMENTS
+            || (self.moments.len() >= MIN_SNAPSHOTS && self.bytes() > MAX_BYTES)
+        {
             self.thin_out();
         }
         self.noted += 1;
@@ -73,6 +75,11 @@ impl Timeline {
             serial: self.noted,
             snapshot,
         });
+    }
+
+    /// How much memory (bytes) the moments take, roughly.
+    fn bytes(&self) -> usize {
+        Snapshot::bytes_of_all(self.moments.iter().map(|moment| &moment.snapshot))
     }
 
     /// Forgets every other moment of the older half.
@@ -85,12 +92,10 @@ impl Timeline {
         });
     }
 
-    /// Notes the present state if the last moment is long ago.
-    pub(crate) fn note_now_and_then(&mut self, simulation: &Simulation) {
+    /// Whether the last moment is long ago.
+    pub(super) fn is_due(&self, simulation: &Simulation) -> bool {
         let last = self.moments.back();
-        if last.is_none_or(|moment| simulation.now() - moment.time >= INTERVAL) {
-            self.note(simulation);
-        }
+        !self.is_off && last.is_none_or(|moment| simulation.now() - moment.time >= INTERVAL)
     }
 
     /// The simulated times (s) of the moments, in order.

@@ -10,6 +10,7 @@ mod kitchen_surfaces;
 mod link_shapes;
 mod motion;
 mod objects;
+mod packed;
 mod robot_bodies;
 mod self_touching;
 mod sight;

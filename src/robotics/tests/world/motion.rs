@@ -7,7 +7,7 @@ use spatial::Pose;
 use spatial::pose::{distance_between, from_xy_yaw};
 
 /// A robot in free space with a bottle in the open right hand, welded to its palm.
-fn world_with_held_bottle() -> World {
+pub(crate) fn world_with_held_bottle() -> World {
     let models = models();
     let mut robot = carry(&models, [0.3, -0.5, 0.0], 0.2);
     set_joint(&models, &mut robot, "r_gripper_l_finger_joint", 0.5);
@@ -137,7 +137,7 @@ fn a_kitchen_joint_stays_within_its_limits() {
 }
 
 /// Things fall over each other while the robot moves through the room.
-fn turmoil(world: &mut World, steps: u32) -> u64 {
+pub(crate) fn turmoil(world: &mut World, steps: u32) -> u64 {
     let mut robot = world.robot_configuration().clone();
     let models = world.models().clone();
     for i in 0..steps {
@@ -150,7 +150,7 @@ fn turmoil(world: &mut World, steps: u32) -> u64 {
     world.hash()
 }
 
-fn world_with_a_pile() -> World {
+pub(crate) fn world_with_a_pile() -> World {
     let mut world = world();
     for i in 0..6 {
         let name = format!("THING-{i}");
