@@ -58,7 +58,7 @@ const PLAN: &str = "
 /// What a kind of world is about: sets one up, and returns the form that transports something in it.
 type Setup = fn(&mut Laid) -> Option<String>;
 
-const KINDS: [(&str, Setup); 9] = [
+const KINDS: [(&str, Setup); 10] = [
     ("vessels", |laid| {
         let kind = laid.one_of(&VESSELS);
         laid.between_surfaces(kind, "")
@@ -71,6 +71,20 @@ const KINDS: [(&str, Setup); 9] = [
         laid.put(carrier, at, from.height + 0.15, "carrier", "");
         let top = laid.top_of("CARRIER") + 0.12;
         laid.put(kind, at, top, "thing", "");
+        laid.onto_another(kind, from)
+    }),
+    ("laden", |laid| {
+        let kind = laid.one_of(&VESSELS);
+        let from = laid.surface();
+        let at = laid.place_on(from, 0.2);
+        laid.put(kind, at, from.height + 0.12, "thing", "");
+        for number in 0..1 + laid.below(2) {
+            let rider = laid.one_of(&["cup", "apple", "spoon", "visualization-box", "bowl"]);
+            let top = laid.top_of("THING");
+            let spread = if kind == "tray" { 0.12 } else { 0.02 };
+            let place = at.map(|at| at + laid.between(-spread, spread));
+            laid.put(rider, place, top + 0.15, &format!("rider-{number}"), "");
+        }
         laid.onto_another(kind, from)
     }),
     ("crowds", |laid| {
@@ -299,10 +313,12 @@ fn transported(setup: Setup, seed: u64) -> Option<End> {
     let world = cook.session.simulation().world();
     let object = world.object("THING").ok()?;
     let (kind, began) = (object.type_name().to_owned(), world.time());
-    let stood: Vec<_> = world
-        .objects()
-        .map(|object| object.name().to_owned())
+    let others = world.objects().map(|object| object.name().to_owned());
+    let (riders, others): (Vec<_>, Vec<_>) = others
         .filter(|name| name != "THING")
+        .partition(|name| rides(world, name));
+    let stood: Vec<_> = others
+        .into_iter()
         .map(|name| (cook.pose(&name), name))
         .collect();
     let tilt = Rc::new(Cell::new(0.0f64));
@@ -339,7 +355,7 @@ fn transported(setup: Setup, seed: u64) -> Option<End> {
             Err(format!("{class} {}", report.replace('\n', " ")))
         }
         Ok(_) => {
-            let flaw = flaw(cook, &form, laid.target, &stood);
+            let flaw = flaw(cook, &form, laid.target, &stood).or_else(|| lost(cook, &riders));
             is_false = flaw.is_some();
             flaw.map_or(Ok(()), Err)
         }
@@ -352,6 +368,19 @@ fn transported(setup: Setup, seed: u64) -> Option<End> {
         simulated,
         tilt: tilt.get(),
     })
+}
+
+/// Whether the thing carries an object, by itself or by others.
+fn rides(world: &World, name: &str) -> bool {
+    let carriers = world.carriers(name).unwrap_or_default();
+    carriers.iter().any(|body| body.object() == Some("THING"))
+}
+
+/// Which of the objects that the thing carried is not on it any more.
+fn lost(cook: &Cook, riders: &[String]) -> Option<String> {
+    let world = cook.session.simulation().world();
+    let lost = riders.iter().find(|name| !rides(world, name))?;
+    Some(format!("{lost} is not on it any more"))
 }
 
 /// What is wrong with a transport that has ended as a success.

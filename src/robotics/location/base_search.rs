@@ -13,7 +13,8 @@ use super::stream::Scene;
 use super::tally::Tally;
 use crate::motion::{BaseChecker, Effort, MIN_MARGIN, interruption};
 use crate::robot::description::DriveKind;
-use crate::world::{World, WorldError};
+use crate::world::hash::Hasher;
+use crate::world::{KnownStands, World, WorldError};
 use spatial::{Pose, pose};
 
 /// Edge length (m) of a cell.
@@ -33,9 +34,9 @@ const MAX_AGAIN: usize = 1000;
 /// of the time goes there, about 10 µs for each. Where there is a place, hundreds are enough most of the
 /// time; a cup in a corner with boxes in front of it takes 6,000 and then 28,000.
 const MAX_POSTURES: [u32; 3] = [15_000, 36_000, 8_000];
-/// The same for the first part of a search in which nothing is gained by examining base poses again: a door is followed
-/// in vain from a base pose with some 4,000, so that 15,000 end after four of dozens.
-const MAX_POSTURES_AT_ONCE: u32 = 30_000;
+/// The same for points of ways along which drawers and doors are followed, about 35 µs for each: some 800 are enough to
+/// find a base pose, or to leave it for later; some 4,000 are followed from one that is examined again.
+const MAX_POINTS: [u32; 3] = [16_000, 16_000, 8_000];
 /// A search also ends when the target has been in reach from so many base poses, but out of sight from all of them:
 /// looking takes a millisecond, and whoever asks may do without sight.
 const MAX_UNSEEN: u32 = 400;
@@ -72,6 +73,10 @@ pub(super) struct BaseSearch {
     again: VecDeque<Pose>,
     /// Whether all others of the walk have been tried.
     is_second_look: bool,
+    /// The robot's posture, as [`posture_of`] has it.
+    posture: Vec<f64>,
+    /// Whether base poses have been rejected in other postures.
+    is_of_several_postures: bool,
 }
 
 /// The parts of a search.
@@ -135,7 +140,42 @@ impl BaseSearch {
             beside: VecDeque::new(),
             again: VecDeque::new(),
             is_second_look: false,
+            posture: posture_of(scene.world),
+            is_of_several_postures: false,
         }))
+    }
+
+    /// Whether the search is for the robot in its present posture.
+    pub(super) fn is_for_posture(&self, world: &World) -> bool {
+        self.posture == posture_of(world)
+    }
+
+    /// A hash of the robot's posture.
+    pub(super) fn posture_state(&self) -> u64 {
+        let mut hasher = Hasher::default();
+        for position in &self.posture {
+            hasher.number(*position);
+        }
+        hasher.finish()
+    }
+
+    /// Whether base poses have been rejected in other postures than the present one.
+    pub(super) fn is_of_several_postures(&self) -> bool {
+        self.is_of_several_postures
+    }
+
+    /// Goes on with the robot in its present posture, and all else as it was: base poses that have been rejected are not
+    /// tried again.
+    pub(super) fn go_on_in_posture(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+    ) -> Result<(), WorldError> {
+        self.posture = posture_of(scene.world);
+        self.is_of_several_postures = true;
+        self.imagined = imagined(query, scene)?;
+        self.looking = self.imagined.clone();
+        Ok(())
     }
 
     /// The map of where to look.
@@ -155,6 +195,19 @@ impl BaseSearch {
         if is_fixed(scene.world) {
             return self.next_where_it_stands(query, scene, offered, tally);
         }
+        scene.world.with_known_stands(|stands| {
+            self.next_of_walk(query, scene, draw, (offered, stands), tally)
+        })
+    }
+
+    fn next_of_walk(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+        (offered, stands): (&Offered, &mut KnownStands),
+        tally: &mut Tally,
+    ) -> Result<Option<Pose>, WorldError> {
         let Self {
             imagined,
             looking,
@@ -182,9 +235,9 @@ impl BaseSearch {
             };
             postures[part as usize] += count - counted;
             counted = count;
-            let most = match part {
-                Part::First if !test.reach.gains_by_effort() => MAX_POSTURES_AT_ONCE,
-                part => MAX_POSTURES[part as usize],
+            let most = match test.reach.follows_ways() {
+                true => MAX_POINTS[part as usize],
+                false => MAX_POSTURES[part as usize],
             };
             if postures[part as usize] >= most {
                 tally.give_up();
@@ -205,7 +258,7 @@ impl BaseSearch {
                 if offered.has(&base) {
                     continue;
                 }
-                match test.run(&base, Effort::PATIENT, checks)? {
+                match test.run(&base, Effort::PATIENT, (&mut *checks, &mut *stands))? {
                     Ok(()) => return Ok(Some(base)),
                     Err(rejection) if rejection.is_unseen => tally.note_unseen(),
                     Err(_) => {}
@@ -233,7 +286,7 @@ impl BaseSearch {
             if offered.has(&base) {
                 continue;
             }
-            match test.run(&base, Effort::QUICK, checks)? {
+            match test.run(&base, Effort::QUICK, (&mut *checks, &mut *stands))? {
                 Ok(()) => {
                     (*checks, *unseen) = (0, 0);
                     postures[Part::First as usize] = 0;
@@ -302,7 +355,8 @@ impl BaseSearch {
         let (imagined, looking) = (&self.imagined, &mut self.looking);
         let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
         // There is no other place to try.
-        let found = test.run(&here, Effort::THOROUGH, &mut 0)?;
+        let nothing = (&mut 0, &mut KnownStands::default());
+        let found = test.run(&here, Effort::THOROUGH, nothing)?;
         let of_bare_place = query.target.item == Item::Point;
         Ok(found.map_err(|rejection| Rejection {
             // One of many points of a surface needs no name.
@@ -342,9 +396,10 @@ impl BaseSearch {
         let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
         let (imagined, looking) = (&self.imagined, &mut self.looking);
         let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
-        let mut found = test.run(&on_floor, Effort::QUICK, &mut 0)?;
+        let mut stands = KnownStands::default();
+        let mut found = test.run(&on_floor, Effort::QUICK, (&mut 0, &mut stands))?;
         if found.as_ref().is_err_and(|rejection| rejection.may_pass) {
-            found = test.run(&on_floor, Effort::PATIENT, &mut 0)?;
+            found = test.run(&on_floor, Effort::PATIENT, (&mut 0, &mut stands))?;
         }
         Ok(found.map_err(|rejection| rejection.cause))
     }
@@ -381,7 +436,7 @@ impl<'a> Test<'a> {
         &mut self,
         base: &Pose,
         effort: Effort,
-        checks: &mut u32,
+        (checks, stands): (&mut u32, &mut KnownStands),
     ) -> Result<Result<(), Rejection>, WorldError> {
         if let Err(cause) = self.reach.is_near(base) {
             return Ok(Err(Rejection::of(self.cause(&cause))));
@@ -391,18 +446,17 @@ impl<'a> Test<'a> {
         // A base that does not drive is where it is.
         let hit = match self.is_fixed {
             true => None,
-            false => self.checker.blocked(&place, MIN_MARGIN),
+            false => stands.obstacle(&place, || self.checker.blocker(&place, MIN_MARGIN)),
         };
-        if let Some(hit) = hit {
-            let cause = format!("in collision with {}", hit.other);
+        if let Some(other) = hit {
+            let cause = format!("in collision with {other}");
             return Ok(Err(Rejection::of(cause)));
         }
         *checks += 1;
         if let Err(cause) = self.reach.test(base, effort) {
             return Ok(Err(Rejection {
                 cause: self.cause(&cause),
-                may_pass: self.reach.gains_by_effort()
-                    && matches!(cause, NoReach::InTheWay | NoReach::NoFit),
+                may_pass: matches!(cause, NoReach::InTheWay | NoReach::NoFit),
                 is_unseen: false,
             }));
         }
@@ -435,6 +489,15 @@ impl<'a> Test<'a> {
 /// Whether the robot's base does not drive.
 fn is_fixed(world: &World) -> bool {
     world.models().description.base.kind == DriveKind::Fixed
+}
+
+/// The positions of all joints but those of the neck, which turns at every place where the robot looks at something.
+fn posture_of(world: &World) -> Vec<f64> {
+    let mut joints = world.robot_configuration().joints.clone();
+    for joint in &world.models().description.neck.joints {
+        joints.set(*joint, 0.0);
+    }
+    joints.as_slice().to_vec()
 }
 
 /// Why no base pose will do if the hands have no room.

@@ -4,7 +4,7 @@ use super::base_query::{BaseQuery, Item};
 use super::stream::Scene;
 use crate::motion::{
     Candidates, Effort, GraspChooser, GraspObstacle, GraspPart, GraspQuestion, GraspReach,
-    HandleChooser, HandleObstacle, HandleQuestion, HeldGrip, PutReach, Station,
+    HandleChooser, HandleObstacle, HandleQuestion, HeldGrip, NoGraspHere, PutReach, Station,
 };
 use crate::robot::Side;
 use crate::world::{World, WorldError};
@@ -186,13 +186,12 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// Whether a second test of a base pose may find what a first one has not, with more effort. The ways of drawers
-    /// and doors are followed from as many postures in every test.
-    pub(super) fn gains_by_effort(&self) -> bool {
-        !matches!(self, Self::Open(_))
+    /// Whether arms are followed along the ways of drawers and doors.
+    pub(super) fn follows_ways(&self) -> bool {
+        matches!(self, Self::Open(_))
     }
 
-    /// Number of postures of the arms that have been checked.
+    /// Number of postures of the arms that have been checked, or of points along which arms have been followed.
     pub(super) fn postures(&self) -> u32 {
         match self {
             Self::Grasp(chooser, _) => chooser.postures(),
@@ -208,23 +207,19 @@ impl<'a> Reach<'a> {
         match self {
             Self::Grasp(chooser, _) => {
                 let found = chooser.with_base_at(base, effort).map(|_| ());
-                found.map_err(|nothing| {
-                    let mut obstacles = nothing.tried.iter().map(|tried| &tried.obstacle);
-                    let mut near = obstacles.clone().filter(|obstacle| !is_far(obstacle));
-                    match obstacles.all(is_far) {
-                        true => NoReach::TooFar,
-                        false if near.all(is_too_large) => NoReach::NoFit,
-                        false => NoReach::InTheWay,
-                    }
+                found.map_err(|nothing| match nothing {
+                    NoGraspHere::OutOfReach => NoReach::TooFar,
+                    NoGraspHere::NoFit => NoReach::NoFit,
+                    NoGraspHere::InTheWay => NoReach::InTheWay,
                 })
             }
             Self::Put(put) => put
-                .with_base_at(base, effort)
+                .glancing_from(base, effort)
                 .map(|_| ())
                 .map_err(|obstacle| cause(&obstacle)),
             Self::Open(chooser) => {
                 chooser
-                    .with_base_at(base)
+                    .as_one_of_many(base, effort)
                     .map(|_| ())
                     .map_err(|nothing| match nothing.main() {
                         Some(HandleObstacle::OutOfReach) | None => NoReach::TooFar,
@@ -239,10 +234,6 @@ impl<'a> Reach<'a> {
 
 fn is_far(obstacle: &GraspObstacle) -> bool {
     matches!(obstacle, GraspObstacle::OutOfReach { .. })
-}
-
-fn is_too_large(obstacle: &GraspObstacle) -> bool {
-    matches!(obstacle, GraspObstacle::NoFit { .. })
 }
 
 fn cause(obstacle: &GraspObstacle) -> NoReach {
@@ -270,7 +261,7 @@ fn test_point(
         [0.0, 0.0, ahead + 0.7],
         [0.0, 0.0, ahead - 0.7],
     ];
-    let mut from = reach.with_base_at(base, effort);
+    let mut from = reach.glancing_from(base, effort);
     for side in arms {
         for rpy in tools {
             let station = Station {

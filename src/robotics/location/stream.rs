@@ -114,6 +114,12 @@ impl Stream {
         let is_there =
             |(s, search): &(u64, Search)| *s == state && !matches!(search, Search::SetAside(_));
         if self.search.as_ref().is_some_and(is_there) {
+            if let (Some((_, Search::Base(search))), Query::Base(query)) =
+                (&mut self.search, &self.query)
+                && !search.is_for_posture(scene.world)
+            {
+                search.go_on_in_posture(query, scene)?;
+            }
             return Ok(());
         }
         self.tally = Tally::default();
@@ -129,6 +135,22 @@ impl Stream {
 
     /// The next pose in the map frame; `None` if nothing is left.
     pub fn next(&mut self, scene: Scene<'_>) -> Result<Option<Pose>, WorldError> {
+        let found = self.next_of_search(scene)?;
+        let is_mixed = |search: &Search| match search {
+            Search::Base(search) => search.is_of_several_postures(),
+            _ => false,
+        };
+        match (&found, &self.search) {
+            // What was rejected in another posture may do in this one.
+            (None, Some((_, search))) if is_mixed(search) => {
+                self.search = None;
+                self.next_of_search(scene)
+            }
+            _ => Ok(found),
+        }
+    }
+
+    fn next_of_search(&mut self, scene: Scene<'_>) -> Result<Option<Pose>, WorldError> {
         self.prepare(scene)?;
         let Self {
             query,
@@ -142,13 +164,14 @@ impl Stream {
                 search.next(query, scene, draw, offered, tally)
             }
             (Some((state, Search::Base(search))), Query::Base(query)) => {
-                if let Some(known) = scene.out_of_reach.known(*state, query) {
+                let state = *state ^ search.posture_state();
+                if let Some(known) = scene.out_of_reach.known(state, query) {
                     *tally = known;
                     return Ok(None);
                 }
                 let found = search.next(query, scene, draw, offered, tally)?;
                 if found.is_none() && offered.count() == 0 && query.sees && !tally.was_unseen() {
-                    scene.out_of_reach.note(*state, query, tally);
+                    scene.out_of_reach.note(state, query, tally);
                 }
                 found
             }
@@ -188,10 +211,13 @@ impl Stream {
         scene: Scene<'_>,
         pose: &Pose,
     ) -> Result<Result<(), String>, WorldError> {
-        let is_fresh = self
-            .search
-            .as_ref()
-            .is_some_and(|(s, _)| *s == self.query.state(scene.world));
+        let is_fresh = self.search.as_ref().is_some_and(|(s, search)| {
+            let is_for_posture = match search {
+                Search::Base(search) => search.is_for_posture(scene.world),
+                _ => true,
+            };
+            is_for_posture && *s == self.query.state(scene.world)
+        });
         if is_fresh && self.last.as_ref() == Some(pose) {
             return Ok(Ok(()));
         }
@@ -266,12 +292,10 @@ impl Stream {
 }
 
 impl Query {
-    /// A hash of everything in the world that decides about poses. For places of things that is
-    /// not the robot, for places of the robot not where it is.
+    /// A hash of everything in the world that decides about poses, but the robot.
     fn state(&self, world: &World) -> u64 {
         let mut hasher = Hasher::default();
-        let (kitchen, robot) = (world.kitchen_positions(), world.robot_configuration());
-        for position in kitchen.as_slice() {
+        for position in world.kitchen_positions().as_slice() {
             hasher.number(*position);
         }
         let own = match self {
@@ -279,12 +303,7 @@ impl Query {
                 What::Object(name) => Some(name.as_str()),
                 _ => None,
             },
-            Self::Base(_) => {
-                for position in robot.joints.as_slice() {
-                    hasher.number(*position);
-                }
-                None
-            }
+            Self::Base(_) => None,
         };
         for object in world.objects() {
             let is_held = object.attachment().is_some();
@@ -302,5 +321,66 @@ impl Query {
             }
         }
         hasher.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::base_query::{Distances, Item, Target};
+    use super::*;
+    use crate::robot::Side;
+    use crate::world::grasp_library::GRASPS;
+    use crate::world::{Models, RobotConfiguration};
+    use std::sync::Arc;
+
+    #[test]
+    fn a_search_goes_on_where_it_was_when_the_robot_has_moved_its_joints() {
+        let models = Arc::new(Models::pr2_in_kitchen().unwrap());
+        let joints = models.description.start_positions(&models.robot);
+        let base = Pose::identity();
+        let mut world = World::new(Arc::clone(&models), RobotConfiguration { base, joints });
+        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp").unwrap();
+        let out_of_reach = OutOfReach::default();
+        let mut stream = Stream::new(
+            Query::Base(BaseQuery {
+                target: Target {
+                    item: Item::Point,
+                    pose: Pose::translation(1.7, 0.9, 0.9),
+                    name: "a place".to_owned(),
+                },
+                arms: Some(vec![Side::Right]),
+                grasps: None,
+                held: None,
+                sees: false,
+                distances: Distances::default(),
+                from: [0.0, 0.0],
+            }),
+            1,
+        );
+        let mut rejected = 0;
+        for turned in 0..4 {
+            let mut robot = world.robot_configuration().clone();
+            let neck = models.description.neck.joints[0];
+            robot.joints.set(neck, 0.1 * f64::from(turned));
+            if turned == 2 {
+                models.description.torso.set_height(&mut robot.joints, 0.2);
+            }
+            world.teleport_robot(&robot);
+            let scene = Scene {
+                world: &world,
+                grasps: &grasps,
+                out_of_reach: &out_of_reach,
+            };
+            assert!(stream.next(scene).unwrap().is_some());
+            // A search that begins anew has rejected nothing.
+            assert!(stream.tally.total() >= rejected);
+            rejected = stream.tally.total();
+            let Some((_, Search::Base(search))) = &stream.search else {
+                panic!("it searches for places to stand");
+            };
+            assert_eq!(search.is_of_several_postures(), turned >= 2);
+        }
+        assert!(rejected > 10, "{rejected}");
+        assert_eq!(stream.count(), 4);
     }
 }

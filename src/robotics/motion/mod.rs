@@ -14,9 +14,8 @@ pub(crate) mod trajectories;
 
 pub use choosing::carrying_posture::{carries, carrying_posture};
 pub use choosing::fitted_grasps::fit_grasps;
-pub use choosing::grasp_chooser::{
-    Candidates, GraspChoice, GraspChooser, GraspQuestion, about_z, needed,
-};
+pub use choosing::grasp_candidates::{Candidates, GraspChoice, GraspQuestion, about_z};
+pub use choosing::grasp_chooser::{GraspChooser, NoGraspHere, needed};
 pub(crate) use choosing::grasp_reach::GraspReach;
 pub use choosing::grasp_reach::{Effort, Station};
 pub use choosing::hand_reach::HandReach;

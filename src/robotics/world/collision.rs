@@ -252,6 +252,21 @@ impl<'w> CollisionChecker<'w> {
         })
     }
 
+    /// As [`Self::first_hit`], without finding out how far the two overlap, nor where, which takes most of the time:
+    /// both are meaningless.
+    pub(crate) fn first_touch(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        // In the fixed order, not the last one first.
+        self.scratch.last = None;
+        self.with_poses(robot, |checker, poses| {
+            checker.first(poses, allowed, Wanted::Whether, margin)
+        })
+    }
+
     /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them, without
     /// the pairs of the robot's own links and of what it holds: for a robot that moves as a whole,
     /// within which no distance changes.
@@ -263,6 +278,64 @@ impl<'w> CollisionChecker<'w> {
     ) -> Option<CollisionHit> {
         self.last = None;
         self.first(link_poses, allowed, Wanted::HowMuchToOthers, margin)
+    }
+
+    /// What is closer than `margin` (m) and not allowed, and no part of the robot nor held by it, any one, with the links
+    /// at poses in the frame of the base and the base at a pose in the map frame: for a robot that moves as a whole.
+    /// `in_map` is for the poses of the links in the map frame.
+    pub(crate) fn any_body_around(
+        &mut self,
+        (base, in_base): (&Pose, &[Pose]),
+        in_map: &mut Vec<Pose>,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<BodyName> {
+        self.last = None;
+        let mut found = self.last_around((base, in_base), in_map, allowed, margin);
+        if found.is_none() {
+            in_map.clear();
+            in_map.extend(in_base.iter().map(|pose| base * pose));
+            self.search(
+                in_map,
+                allowed,
+                Wanted::WhetherToOthers,
+                margin,
+                |near, _| {
+                    found = Some(near);
+                    ControlFlow::Break(())
+                },
+            );
+        }
+        found.and_then(|near| self.name_of(near.other))
+    }
+
+    /// The pair that was found last, if it is still near, as [`Self::any_body_around`] has it; otherwise it is forgotten.
+    fn last_around(
+        &mut self,
+        (base, in_base): (&Pose, &[Pose]),
+        in_map: &mut Vec<Pose>,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<Near> {
+        let looked = self.scratch.last?;
+        in_map.resize(in_base.len(), Pose::identity());
+        for link in self.scratch.last_links() {
+            let (Some(at), Some(pose)) = (in_map.get_mut(link.index()), in_base.get(link.index()))
+            else {
+                return None;
+            };
+            *at = base * pose;
+        }
+        let allowed = self.keys_of(allowed);
+        let mut scratch = std::mem::take(&mut self.scratch_again);
+        let question = self.question(&allowed, Wanted::WhetherToOthers);
+        let around = &self.surroundings;
+        let found = around.near_again(looked, in_map, question, margin, &mut scratch);
+        self.scratch_again = scratch;
+        if found.is_none() {
+            self.scratch.last = None;
+        }
+        found
     }
 
     /// Whether one of some links is closer than `margin` (m), which is positive, to what is no part of the robot and

@@ -46,6 +46,20 @@ pub enum Wanted {
     HowMuch,
     /// As [`Wanted::HowMuch`], without pairs of the robot's own links.
     HowMuchToOthers,
+    /// As [`Wanted::Whether`], without pairs of the robot's own links.
+    WhetherToOthers,
+}
+
+impl Wanted {
+    /// Whether distances do not matter.
+    fn is_whether(self) -> bool {
+        matches!(self, Self::Whether | Self::WhetherToOthers)
+    }
+
+    /// Whether pairs of the robot's own links do not matter.
+    fn is_to_others(self) -> bool {
+        matches!(self, Self::HowMuchToOthers | Self::WhetherToOthers)
+    }
 }
 
 /// Which pairs a query looks at, and what it wants to know about them.
@@ -164,7 +178,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
                 }
             }
         }
-        if self.question.wanted == Wanted::HowMuchToOthers || self.question.links.is_some() {
+        if self.question.wanted.is_to_others() || self.question.links.is_some() {
             return ControlFlow::Continue(());
         }
         match self.question.only {
@@ -483,7 +497,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         // The solids were placed from these places on.
         let all = &self.scratch.solids;
         let (placed1, placed2) = (&all[first1..first1 + solids1.len()], &all[first2..]);
-        let is_quick = self.question.wanted == Wanted::Whether;
+        let is_quick = self.question.wanted.is_whether();
         for other in solids2.iter().zip(placed2) {
             if other.1.bounds.intersects(&bounds) {
                 let own = solids1.iter().zip(placed1);
@@ -514,7 +528,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let moving = self.scratch.movers[place].key;
         let own = self.around.solids(place).iter();
         let own = own.zip(&self.scratch.solids[first..]);
-        let is_quick = self.question.wanted == Wanted::Whether;
+        let is_quick = self.question.wanted.is_whether();
         let mut visit = |separation, margin: &mut f64| {
             let near = Near {
                 moving,

@@ -4,8 +4,11 @@
 //! the base is free, or cannot be reached, holds until something moves: a search need not find it
 //! out again.
 
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, DefaultHasher};
 use std::sync::{Mutex, PoisonError};
 
+use super::body_name::BodyName;
 use super::part_key::PartKey;
 use super::robot_configuration::RobotConfiguration;
 use super::scene::World;
@@ -37,9 +40,51 @@ pub(crate) struct ExploredGrid {
 /// What is known of each of the grids that a search uses, in its order.
 pub(crate) type ExploredGrids = [ExploredGrid; 3];
 
-/// Where everything is that a pose of the base depends on.
+/// How many poses of the base are kept at most: as many as a search looks at that finds none.
+const MAX_STANDS: usize = 200_000;
+
+/// What is in the way at poses of the base, in one arrangement: searches for several hands and grasps ask for the same
+/// ones.
+#[derive(Debug, Default)]
+pub(crate) struct KnownStands {
+    /// The obstacle, as an index, of each pose, by the bits of its numbers. Nobody asks for their order.
+    poses: HashMap<[u64; 3], Option<usize>, BuildHasherDefault<DefaultHasher>>,
+    obstacles: Vec<BodyName>,
+}
+
+impl KnownStands {
+    /// What is in the way at a place (m, m, rad): known, or found out by a function.
+    pub(crate) fn obstacle(
+        &mut self,
+        place: &[f64; 3],
+        find: impl FnOnce() -> Option<BodyName>,
+    ) -> Option<&BodyName> {
+        let key = place.map(f64::to_bits);
+        let index = match self.poses.get(&key) {
+            Some(known) => *known,
+            None => {
+                let found = find().map(|obstacle| self.index_of(obstacle));
+                if self.poses.len() < MAX_STANDS {
+                    self.poses.insert(key, found);
+                }
+                found
+            }
+        };
+        self.obstacles.get(index?)
+    }
+
+    fn index_of(&mut self, obstacle: BodyName) -> usize {
+        let known = self.obstacles.iter().position(|other| *other == obstacle);
+        known.unwrap_or_else(|| {
+            self.obstacles.push(obstacle);
+            self.obstacles.len() - 1
+        })
+    }
+}
+
+/// Where everything is that a pose of the base, or a path of an arm, depends on.
 #[derive(Clone, Debug, PartialEq)]
-struct Arrangement {
+pub struct Arrangement {
     robot: RobotConfiguration,
     kitchen: JointPositions,
     objects: Vec<Arranged>,
@@ -60,7 +105,24 @@ struct Arranged {
 
 /// What is known of the floor in the last arrangement that was asked for; a copy knows nothing.
 #[derive(Debug, Default)]
-pub(super) struct ExploredFloor(Mutex<Option<(Arrangement, ExploredGrids)>>);
+pub(super) struct ExploredFloor {
+    grids: Mutex<Option<(Arrangement, ExploredGrids)>>,
+    stands: Mutex<Option<(Arrangement, KnownStands)>>,
+}
+
+/// Calls a function with what is kept of an arrangement, which is nothing if another one was kept.
+fn with_kept<K: Default, T>(
+    kept: &Mutex<Option<(Arrangement, K)>>,
+    now: Arrangement,
+    function: impl FnOnce(&mut K) -> T,
+) -> T {
+    let lock = || kept.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = lock().take().filter(|(then, _)| *then == now);
+    let mut known = known.map(|(_, known)| known).unwrap_or_default();
+    let value = function(&mut known);
+    *lock() = Some((now, known));
+    value
+}
 
 impl Clone for ExploredFloor {
     fn clone(&self) -> Self {
@@ -75,21 +137,17 @@ impl World {
         &self,
         function: impl FnOnce(&mut ExploredGrids) -> T,
     ) -> T {
-        let now = self.arrangement();
-        let lock = || {
-            self.explored
-                .0
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-        };
-        let known = lock().take().filter(|(then, _)| *then == now);
-        let mut grids = known.map(|(_, grids)| grids).unwrap_or_default();
-        let value = function(&mut grids);
-        *lock() = Some((now, grids));
-        value
+        with_kept(&self.explored.grids, self.arrangement(), function)
     }
 
-    fn arrangement(&self) -> Arrangement {
+    /// Calls a function with what is known to be in the way at poses of the base; it may add to that. Nothing is known if
+    /// anything has moved since the last call.
+    pub(crate) fn with_known_stands<T>(&self, function: impl FnOnce(&mut KnownStands) -> T) -> T {
+        with_kept(&self.explored.stands, self.arrangement(), function)
+    }
+
+    /// Where everything is now.
+    pub fn arrangement(&self) -> Arrangement {
         let objects = self.objects().map(|object| Arranged {
             key: object.key(),
             type_name: object.type_name.clone(),
@@ -105,5 +163,29 @@ impl World {
             kitchen: self.state.kitchen.clone(),
             objects: objects.collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_in_the_way_of_a_pose_is_found_out_once() {
+        let mut stands = KnownStands::default();
+        let mut asked = 0;
+        let places = [[0.0, 1.0, 0.5], [0.0, 1.0, 0.6], [0.0, 1.0, 0.5]];
+        let found = places.map(|place| {
+            let obstacle = stands.obstacle(&place, || {
+                asked += 1;
+                (place[2] == 0.5).then(|| BodyName::Object("BOX".to_owned()))
+            });
+            obstacle.map(ToString::to_string)
+        });
+        assert_eq!(
+            found,
+            [Some("BOX".to_owned()), None, Some("BOX".to_owned())]
+        );
+        assert_eq!(asked, 2);
     }
 }

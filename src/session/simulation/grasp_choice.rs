@@ -48,11 +48,9 @@ impl Simulation {
                 return Err(GraspObstacle::NoPath { report });
             }
             self.path_to(question, choice, PathSearch::Short)
-                .map_err(|failure| {
+                .map_err(|report| {
                     unsure.push(choice.clone());
-                    GraspObstacle::NoPath {
-                        report: failure.to_string().lines().collect::<Vec<_>>().join(" "),
-                    }
+                    GraspObstacle::NoPath { report }
                 })
         });
         choice.or_else(|nothing| {
@@ -64,21 +62,31 @@ impl Simulation {
         })
     }
 
-    /// Whether a path leads to a grasp, and off again, from where the robot stands.
+    /// Whether a path leads to a grasp, and off again, from where the robot stands; or what the search reports.
     fn path_to(
         &self,
         question: &GraspQuestion,
         choice: &GraspChoice,
         search: PathSearch,
-    ) -> Result<(), MotionFailure> {
-        plan_grasp(
+    ) -> Result<(), String> {
+        let object = &question.object;
+        if let Some(report) = self.vain_paths.known(&self.world, object, choice, search) {
+            return Err(report);
+        }
+        let planned = plan_grasp(
             &self.world,
             choice.side,
-            &question.object,
+            object,
             choice.opening,
             &choice.poses.pregrasp,
             &needed(&choice.poses),
             search,
-        )
+        );
+        planned.map_err(|failure| {
+            let report = failure.to_string().lines().collect::<Vec<_>>().join(" ");
+            self.vain_paths
+                .note(&self.world, object, choice, search, &report);
+            report
+        })
     }
 }

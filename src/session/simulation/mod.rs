@@ -26,6 +26,7 @@ mod sweep_world;
 mod tally;
 pub(super) mod target_checks;
 pub(super) mod transforms;
+mod vain_paths;
 
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
@@ -84,6 +85,8 @@ pub struct Simulation {
     pub(super) injection: SharedInjection,
     begun_searches: locations::Searches,
     out_of_reach: OutOfReach,
+    /// To which grasps no path has been found.
+    vain_paths: vain_paths::VainPaths,
     /// The world as it is at the start; copies of the session share it.
     start: Rc<OnceCell<World>>,
     pub(super) world: World,
@@ -149,6 +152,7 @@ impl Simulation {
             injection: SharedInjection::default(),
             begun_searches: locations::Searches::default(),
             out_of_reach: OutOfReach::default(),
+            vain_paths: vain_paths::VainPaths::default(),
             start: Rc::default(),
         }
     }
@@ -179,6 +183,7 @@ impl Simulation {
             injection: Rc::new(RefCell::new(self.injection.borrow().clone())),
             begun_searches: locations::Searches::default(),
             out_of_reach: OutOfReach::default(),
+            vain_paths: vain_paths::VainPaths::default(),
             start: Rc::clone(&self.start),
             world: self.world.clone(),
             names: names.collect(),
@@ -273,6 +278,7 @@ impl Simulation {
         self.looks = OnceCell::new();
         self.begun_searches = locations::Searches::default();
         self.out_of_reach = OutOfReach::default();
+        self.vain_paths = vain_paths::VainPaths::default();
         self.restart();
     }
 

@@ -59,7 +59,7 @@ pub fn carrying_posture(world: &World, side: Side) -> Option<ArmPositions> {
     let mut free: Vec<ArmPositions> = Vec::new();
     for group in carrying_postures(world, side) {
         let positions = group.into_iter().map(|carrying| carrying.positions);
-        let mut some = positions.filter(|one| checker.obstacle(one).is_none());
+        let mut some = positions.filter(|one| checker.is_free_on_way(one));
         free.extend(some.by_ref().take(SHORT_SEARCHES));
     }
     let long = JointPathEffort::default();

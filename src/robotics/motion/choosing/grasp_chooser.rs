@@ -9,117 +9,50 @@
 //! tests come first, and what keeps the hand itself from a grasp is found out once, since it does
 //! not depend on where the base is. Whether a path leads to the grasp is not checked.
 
-use std::cell::{Cell, RefCell};
-use std::f64::consts::TAU;
-
-use nalgebra::{UnitQuaternion, Vector3};
-
 use super::aligned_bases::AlignedBases;
+use super::grasp_candidates::{
+    Candidate, Candidates, GraspChoice, GraspQuestion, SAME, about_z, bar_too_heavy,
+};
 use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
 use super::lone_hand::{LoneHand, Looked};
 use super::overhead::{Overhead, lifting};
 use super::shoulder::Shoulder;
-use crate::motion::contact::grip_torque::{ExcessTorque, Pads};
 use crate::motion::contact::holding::held_objects;
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::failure::no_grasp::{NoGrasp, TriedGrasp};
 use crate::robot::Side;
-use crate::world::grasp_library::{GraspDefinition, GraspLibrary, ToolPoses};
-use crate::world::physics::GRAVITY;
-use crate::world::{BodyName, Models, World};
-use spatial::{Pose, pose};
+use crate::world::grasp_library::ToolPoses;
+use crate::world::{BodyName, World};
+use spatial::Pose;
 
-/// Number of angles from which a round object can be grasped.
-pub(super) const TURNS: i32 = 24;
-/// Poses this close together (m, rad) are the same grasp.
-const SAME: (f64, f64) = (1e-3, 1e-2);
 /// How much nearer (m) a wrist must be for a grasp to come before another one that is earlier in
 /// its type's list.
 const ORDER: f64 = 0.01;
 
-/// What is to be grasped, and how.
-#[derive(Clone, Debug)]
-pub struct GraspQuestion {
-    /// Name of the object in the world.
-    pub object: String,
-    /// Name of its type.
-    pub kind: String,
-    /// Pose of the object in the map frame.
-    pub in_map: Pose,
-    /// The arms that may be used, in order of preference among equals.
-    pub arms: Vec<Side>,
-    /// Names of the grasps that may be used, exactly as they are defined; if there are none, all
-    /// grasps of the type from all angles.
-    pub grasps: Vec<String>,
-    /// Whether the torso may move, as it does for the motions of the hands.
-    pub torso_moves: bool,
-    /// Arms, grasps and turns (rad) that have failed already.
-    pub failed: Vec<(Side, String, f64)>,
+/// What keeps all grasps of an object from working with the base at a pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoGraspHere {
+    /// All of them are too far away, or at an impossible angle.
+    OutOfReach,
+    /// The hand itself would be in the object by every grasp that is near enough.
+    NoFit,
+    /// Something is in the way.
+    InTheWay,
 }
 
-/// A grasp that works.
-#[derive(Clone, Debug)]
-pub struct GraspChoice {
-    /// The hand.
-    pub side: Side,
-    /// Name of the grasp.
-    pub grasp: String,
-    /// The angle (rad) by which it is turned about the z axis of a round object.
-    pub turn: f64,
-    /// The poses of the tool in the frame of the base.
-    pub poses: ToolPoses,
-    /// How wide (m) the hand opens before.
-    pub opening: f64,
-    /// Height (m) of the torso.
-    pub torso: f64,
-    /// Distance (m) of the wrist from the shoulder, mostly: less is better.
-    pub cost: f64,
+/// A search in vain: what kept each candidate that was tried from working, by its index, and the nearest one that is out
+/// of reach.
+struct Vain {
+    tried: Vec<(usize, Met)>,
+    missed: Option<(Side, Pose)>,
 }
 
-/// One way to take the object.
-struct Candidate {
-    side: Side,
-    grasp: String,
-    turn: f64,
-    definition: GraspDefinition,
-    /// How wide (m) the hand opens for it.
-    opening: f64,
-    /// The force (N) with which each finger presses.
-    press: f64,
-    /// Place in the list of grasps.
-    place: usize,
-    has_failed: bool,
-}
-
-/// All ways to take an object in one state of the world.
-pub struct Candidates {
-    all: Vec<Candidate>,
-    /// Why no hand can grasp the object, if that is known of its type.
-    refusal: Option<String>,
-    /// What keeps the hand from each of them wherever the base is, as far as it is known.
-    barred: RefCell<Vec<Option<GraspObstacle>>>,
-    /// What has been looked at of the room for hands.
-    looked: Cell<Looked>,
-}
-
-impl Candidates {
-    /// Those that a question permits.
-    pub fn new(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) -> Self {
-        let all = candidates(models, grasps, question);
-        let barred = RefCell::new(vec![None; all.len()]);
-        let refusal = grasps.refusal(&question.kind).map(str::to_owned);
-        Self {
-            all,
-            refusal,
-            barred,
-            looked: Cell::default(),
-        }
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.all.is_empty()
-    }
+/// What keeps a candidate from working.
+enum Met {
+    /// What is known to, without any test.
+    Known,
+    /// What has been met now.
+    Now(GraspObstacle),
 }
 
 /// Tells how an object could be grasped from base poses.
@@ -176,7 +109,7 @@ impl<'w> GraspChooser<'w> {
     /// Whether every candidate is ruled out wherever the base is, as far as that is known.
     pub(crate) fn is_barred_everywhere(&self) -> bool {
         let count = self.candidates.all.len();
-        count > 0 && (0..count).all(|index| self.known_obstacle(index).is_some())
+        count > 0 && (0..count).all(|index| self.is_ruled_out(index))
     }
 
     /// Number of postures that have been checked for collisions.
@@ -196,7 +129,7 @@ impl<'w> GraspChooser<'w> {
     pub fn bases_near(&self, base: &Pose) -> Vec<Pose> {
         let mut aligned = AlignedBases::new(self.world, base);
         for (index, candidate) in self.candidates.all.iter().enumerate() {
-            if self.known_obstacle(index).is_some() {
+            if self.is_ruled_out(index) {
                 continue;
             }
             let arm = self.world.models().description.arm(candidate.side);
@@ -208,27 +141,72 @@ impl<'w> GraspChooser<'w> {
         aligned.bases()
     }
 
-    /// The nearest grasp that works with the base at a pose in the map frame, or everything that
-    /// was tried. Whether the robot can stand there, and whether a path leads to the grasp, is
-    /// not checked.
-    pub fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<GraspChoice, Box<NoGrasp>> {
-        self.choose(base, effort, |_| Ok(()))
+    /// The nearest grasp that works with the base at a pose in the map frame, or what keeps all of them from working.
+    /// Whether the robot can stand there, and whether a path leads to the grasp, is not checked.
+    pub fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<GraspChoice, NoGraspHere> {
+        let from = self.reach.glancing_from(base, effort);
+        self.search(from, base, |_| Ok(()))
+            .map_err(|vain| self.what_keeps(&vain))
     }
 
-    /// As [`Self::with_base_at`], for a grasp that passes another test, too.
+    /// As [`Self::with_base_at`], for a grasp that passes another test, too; or everything that was tried.
     pub fn choose(
         &self,
         base: &Pose,
         effort: Effort,
-        mut accept: impl FnMut(&GraspChoice) -> Result<(), GraspObstacle>,
+        accept: impl FnMut(&GraspChoice) -> Result<(), GraspObstacle>,
     ) -> Result<GraspChoice, Box<NoGrasp>> {
+        let from = self.reach.with_base_at(base, effort);
+        self.search(from, base, accept).map_err(|vain| {
+            let missed = vain.missed.filter(|_| effort == Effort::THOROUGH);
+            let tried = vain.tried.into_iter().filter_map(|(index, met)| {
+                let obstacle = match met {
+                    Met::Known => self.known_obstacle(index)?,
+                    Met::Now(obstacle) => obstacle,
+                };
+                Some(self.candidates.all[index].tried(obstacle))
+            });
+            self.no_grasp(tried.collect(), missed)
+        })
+    }
+
+    /// What keeps all grasps that were tried from working.
+    fn what_keeps(&self, vain: &Vain) -> NoGraspHere {
+        let (mut is_near, mut fits) = (false, false);
+        for (index, met) in &vain.tried {
+            let barred = self.candidates.barred.borrow();
+            let candidate = &self.candidates.all[*index];
+            let obstacle = match met {
+                Met::Now(obstacle) => Some(obstacle),
+                // They are no obstacles of its own.
+                Met::Known if self.is_full_or_failed(candidate) => None,
+                Met::Known => barred[*index].as_ref(),
+            };
+            match obstacle {
+                Some(GraspObstacle::OutOfReach { .. }) => {}
+                Some(GraspObstacle::NoFit { .. }) => is_near = true,
+                _ => (is_near, fits) = (true, true),
+            }
+        }
+        match (is_near, fits) {
+            (false, _) => NoGraspHere::OutOfReach,
+            (true, false) => NoGraspHere::NoFit,
+            (true, true) => NoGraspHere::InTheWay,
+        }
+    }
+
+    fn search(
+        &self,
+        mut from: GraspReachFrom<'_>,
+        base: &Pose,
+        mut accept: impl FnMut(&GraspChoice) -> Result<(), GraspObstacle>,
+    ) -> Result<GraspChoice, Vain> {
         let object = base.inverse() * self.question.in_map;
-        let mut from = self.reach.with_base_at(base, effort);
         let (mut tried, mut free) = (Vec::new(), Vec::new());
         let mut missed: Option<(f64, Side, Pose)> = None;
         for (index, candidate) in self.candidates.all.iter().enumerate() {
-            if let Some(obstacle) = self.known_obstacle(index) {
-                tried.push(candidate.tried(obstacle));
+            if self.is_ruled_out(index) {
+                tried.push((index, Met::Known));
                 continue;
             }
             let Some(poses) = self.poses(candidate, base, &object) else {
@@ -246,7 +224,7 @@ impl<'w> GraspChooser<'w> {
                 missed = Some((cost, candidate.side, poses.grasp));
             }
             let part = GraspPart::Grasp;
-            tried.push(candidate.tried(GraspObstacle::OutOfReach { part }));
+            tried.push((index, Met::Now(GraspObstacle::OutOfReach { part })));
         }
         free.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut missed = missed.map(|(_, side, pose)| (side, pose));
@@ -260,7 +238,7 @@ impl<'w> GraspChooser<'w> {
                 let choice = candidate.chosen(poses, torso, cost);
                 accept(&choice).map(|()| choice)
             });
-            checked.map_err(|obstacle| candidate.tried(obstacle))
+            checked.map_err(|obstacle| (index, Met::Now(obstacle)))
         };
         for (cost, index, poses) in free {
             let candidate = &self.candidates.all[index];
@@ -277,7 +255,7 @@ impl<'w> GraspChooser<'w> {
                     if std::mem::take(&mut is_nearest) {
                         missed = Some((side, poses.grasp));
                     }
-                    tried.push(candidate.tried(obstacle));
+                    tried.push((index, Met::Now(obstacle)));
                 }
             }
         }
@@ -289,8 +267,18 @@ impl<'w> GraspChooser<'w> {
         }
         met.append(&mut tried);
         self.bar_without_room();
-        let missed = missed.filter(|_| effort == Effort::THOROUGH);
-        Err(self.no_grasp(met, missed))
+        Err(Vain { tried: met, missed })
+    }
+
+    /// Whether [`Self::known_obstacle`] finds anything.
+    fn is_ruled_out(&self, index: usize) -> bool {
+        self.is_full_or_failed(&self.candidates.all[index])
+            || self.candidates.barred.borrow()[index].is_some()
+    }
+
+    /// Whether the hand holds something else, or has tried the grasp already.
+    fn is_full_or_failed(&self, candidate: &Candidate) -> bool {
+        self.held[candidate.side.index()].is_some() || candidate.has_failed
     }
 
     /// What rules a candidate out without any test.
@@ -327,7 +315,7 @@ impl<'w> GraspChooser<'w> {
                     .iter()
                     .any(|(side, grasp, _)| *side == candidate.side && *grasp == candidate.grasp)
             };
-            if self.known_obstacle(index).is_none() && is_new() {
+            if !self.is_ruled_out(index) && is_new() {
                 found.push((candidate.side, candidate.grasp.clone(), candidate.turn));
             }
         }
@@ -340,11 +328,12 @@ impl<'w> GraspChooser<'w> {
         let mut hands: Vec<(Side, f64, LoneHand<'_>)> = Vec::new();
         for (index, candidate) in self.candidates.all.iter().enumerate() {
             let (side, opening) = (candidate.side, candidate.opening);
+            if self.is_ruled_out(index) {
+                continue;
+            }
             // With the base at the origin, the poses of the tool are those in the map.
             let poses = self.poses(candidate, &Pose::identity(), &self.question.in_map);
-            let (None, Some(poses)) = (self.known_obstacle(index), poses) else {
-                continue;
-            };
+            let Some(poses) = poses else { continue };
             let known = hands
                 .iter()
                 .position(|(s, o, _)| *s == side && *o == opening);
@@ -434,61 +423,8 @@ impl<'w> GraspChooser<'w> {
     }
 }
 
-/// Rules the candidates out whose fingers would not transmit the torque of the object's weight as it
-/// stands.
-fn bar_too_heavy(world: &World, question: &GraspQuestion, candidates: &Candidates) {
-    let Ok(object) = world.object(&question.object) else {
-        return;
-    };
-    let mut barred = candidates.barred.borrow_mut();
-    for (candidate, barred) in candidates.all.iter().zip(barred.iter_mut()) {
-        let arm = world.models().description.arm(candidate.side);
-        let turned = question.in_map * about_z(candidate.turn);
-        let Ok(poses) = candidate.definition.tool_poses(&turned, &arm.tool_axes) else {
-            continue;
-        };
-        let pads = Pads::closing(
-            &arm.gripper,
-            object,
-            &question.in_map,
-            &poses.grasp,
-            candidate.opening,
-            candidate.press.min(arm.gripper.effort),
-        );
-        let weight = object.mass() * GRAVITY;
-        let at = object.balance_at(&question.in_map);
-        if let Some(excess) = pads.and_then(|pads| pads.excess(weight, &at)) {
-            let ExcessTorque { torque, limit } = excess;
-            *barred = Some(GraspObstacle::TooHeavy { torque, limit });
-        }
-    }
-}
-
 /// A candidate that is not ruled out: its cost, its index, and the poses of the tool.
 type Free = (f64, usize, ToolPoses);
-
-impl Candidate {
-    fn chosen(&self, poses: ToolPoses, torso: f64, cost: f64) -> GraspChoice {
-        GraspChoice {
-            side: self.side,
-            grasp: self.grasp.clone(),
-            turn: self.turn,
-            poses,
-            opening: self.opening,
-            torso,
-            cost,
-        }
-    }
-
-    fn tried(&self, obstacle: GraspObstacle) -> TriedGrasp {
-        TriedGrasp {
-            side: self.side,
-            grasp: self.grasp.clone(),
-            turn: self.turn,
-            obstacle,
-        }
-    }
-}
 
 /// The poses that the hand has to take. A second lift straight above the first may be left out.
 pub fn needed(poses: &ToolPoses) -> Vec<Station> {
@@ -503,73 +439,4 @@ pub fn needed(poses: &ToolPoses) -> Vec<Station> {
     .chain(out)
     .map(|(part, tool)| Station { part, tool })
     .collect()
-}
-
-/// A turn (rad) about the vertical axis.
-pub fn about_z(turn: f64) -> UnitQuaternion<f64> {
-    pose::from_xy_yaw(0.0, 0.0, turn).rotation
-}
-
-/// All ways to take the object, those with the least turn first.
-fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) -> Vec<Candidate> {
-    let kind = models.objects.get(&question.kind);
-    let turns = kind.is_some_and(|kind| kind.is_round) && question.grasps.is_empty();
-    let half = if turns { TURNS / 2 } else { 0 };
-    let mut all: Vec<Candidate> = Vec::new();
-    for side in &question.arms {
-        let wanted = |name: &String| question.grasps.is_empty() || question.grasps.contains(name);
-        // A type without grasps of its own has those of its supertype, unless its shape rules them out.
-        let kinds = models.objects.lineage(&question.kind);
-        let kinds = kinds.take_while(|kind| grasps.refusal(kind).is_none());
-        let mut kinds = kinds.map(|kind| {
-            let listed = grasps.grasps(kind);
-            // What is not listed has to be asked for.
-            let others = question.grasps.iter().filter(|n| !listed.contains(n));
-            let names = listed.iter().chain(others);
-            let known = names.filter_map(|name| Some((name, grasps.get(kind, *side, name)?)));
-            known.collect::<Vec<_>>()
-        });
-        let mut definitions = kinds.find(|known| !known.is_empty()).unwrap_or_default();
-        definitions.retain(|(name, _)| wanted(name));
-        let mut poses: Vec<Pose> = Vec::new();
-        let steps = (0..=half).flat_map(|i| {
-            if i == 0 || i == half {
-                vec![i]
-            } else {
-                vec![i, -i]
-            }
-        });
-        for step in steps {
-            let turn = TAU * f64::from(step) / f64::from(TURNS);
-            for (place, (name, definition)) in definitions.iter().enumerate() {
-                let Ok(orientation) = definition.orientation() else {
-                    continue;
-                };
-                let at = about_z(turn)
-                    * Pose::from_parts(Vector3::from(definition.translation).into(), orientation);
-                let is_same = |other: &Pose| {
-                    pose::distance_between(other, &at) < SAME.0
-                        && pose::angle_between(other, &at) < SAME.1
-                };
-                if turns && poses.iter().any(is_same) {
-                    continue;
-                }
-                poses.push(at);
-                let failed = |(arm, grasp, angle): &(Side, String, f64)| {
-                    arm == side && grasp == *name && (angle - turn).abs() < SAME.1
-                };
-                all.push(Candidate {
-                    has_failed: question.failed.iter().any(failed),
-                    side: *side,
-                    grasp: (*name).clone(),
-                    turn,
-                    definition: (*definition).clone(),
-                    opening: grasps.opening(&question.kind, definition),
-                    press: grasps.grip(&question.kind).effort,
-                    place,
-                });
-            }
-        }
-    }
-    all
 }

@@ -142,6 +142,14 @@ impl<'w> GraspReach<'w> {
         &self.hands[side.index()].links
     }
 
+    /// As [`Self::with_base_at`], for whoever does not tell what is met: how far bodies overlap is meaningless then.
+    pub(crate) fn glancing_from(&self, base: &Pose, effort: Effort) -> GraspReachFrom<'_> {
+        GraspReachFrom {
+            depths_matter: false,
+            ..self.with_base_at(base, effort)
+        }
+    }
+
     /// The robot with its base at a pose in the map frame; everything else is as it is.
     pub(crate) fn with_base_at(&self, base: &Pose, effort: Effort) -> GraspReachFrom<'_> {
         let mut robot = self.world.robot_configuration().clone();
@@ -150,6 +158,7 @@ impl<'w> GraspReach<'w> {
             reach: self,
             robot,
             effort,
+            depths_matter: true,
             checks: 0,
             checkers: Vec::new(),
         }
@@ -171,6 +180,8 @@ pub(crate) struct GraspReachFrom<'w> {
     reach: &'w GraspReach<'w>,
     robot: RobotConfiguration,
     effort: Effort,
+    /// Whether it matters how far bodies overlap, and where.
+    depths_matter: bool,
     /// Number of postures that have been checked for collisions.
     checks: usize,
     /// Those that have been needed.
@@ -283,8 +294,13 @@ impl<'w> GraspReachFrom<'w> {
             let lift = self.reach.world.models().description.torso.joint;
             let lift = lift.map(|_| height);
             let positions: Vec<f64> = lift.into_iter().chain(posture).collect();
+            let depths_matter = self.depths_matter;
             let checker = self.checker(open);
-            let Some(hit) = checker.blocked(&positions) else {
+            let hit = match depths_matter {
+                true => checker.blocked(&positions),
+                false => checker.touching(&positions),
+            };
+            let Some(hit) = hit else {
                 if station.part != GraspPart::Grasp {
                     return Ok(());
                 }

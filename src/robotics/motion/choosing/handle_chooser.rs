@@ -48,6 +48,8 @@ const KNOB_CLEARANCE: f64 = 0.005;
 const KNOB_TURNS: u32 = 24;
 /// At about how many points of a way the arm is asked whether it may get there.
 const PROBES: usize = 12;
+/// How many postures before the bar are tried first for one of many base poses.
+const FIRST_CHECKS: usize = 24;
 /// Distance (m) of points of the approach.
 const APPROACH_STEP: f64 = 0.02;
 
@@ -195,6 +197,26 @@ impl<'w> HandleChooser<'w> {
 
     /// The first arm and grasp that work with the base at a pose in the map frame.
     pub fn with_base_at(&self, base: &Pose) -> Result<HandleChoice, NoHandleGrasp> {
+        self.within(base, self.effort.most_checks())
+    }
+
+    /// As [`Self::with_base_at`], for a base pose that is one of many: where it is good, the first few postures do most
+    /// of the time, so that no more are tried, unless with effort.
+    pub(crate) fn as_one_of_many(
+        &self,
+        base: &Pose,
+        effort: Effort,
+    ) -> Result<HandleChoice, NoHandleGrasp> {
+        let all = self.effort.most_checks();
+        let checks = match effort == Effort::QUICK {
+            true => all.min(FIRST_CHECKS),
+            false => all,
+        };
+        self.within(base, checks)
+    }
+
+    /// As [`Self::with_base_at`], with a maximum number of postures.
+    fn within(&self, base: &Pose, most_checks: usize) -> Result<HandleChoice, NoHandleGrasp> {
         let kitchen = &self.world.models().kitchen;
         let joint = self.question.part.joint;
         let now = self.world.kitchen_positions().get(joint);
@@ -234,7 +256,7 @@ impl<'w> HandleChooser<'w> {
                     }
                     let torso_of = &self.world.models().description.torso;
                     torso_of.set_height(&mut robot.joints, *height);
-                    if checks >= self.effort.most_checks() {
+                    if checks >= most_checks {
                         nothing.add(Some(*side), HandleObstacle::NotTried);
                         return Err(nothing);
                     }
@@ -244,7 +266,8 @@ impl<'w> HandleChooser<'w> {
                         nothing.add(Some(*side), HandleObstacle::OutOfReach);
                         continue;
                     }
-                    match self.postures(*side, torso, grasp, &pivots, &robot, &mut checks) {
+                    let so_far = (&mut checks, most_checks);
+                    match self.postures(*side, torso, grasp, &pivots, &robot, so_far) {
                         Ok(choice) => match self.standing_in_the_way(&robot) {
                             None => return Ok(choice),
                             // With the torso at that height, the arms as they are touch something.
@@ -322,7 +345,7 @@ impl<'w> HandleChooser<'w> {
         grasp: &Grasp,
         pivots: &[f64],
         robot: &RobotConfiguration,
-        checks: &mut usize,
+        (checks, most_checks): (&mut usize, usize),
     ) -> Result<HandleChoice, HandleObstacle> {
         let models = self.world.models();
         let arm = models.description.arm(side);
@@ -341,7 +364,7 @@ impl<'w> HandleChooser<'w> {
         let open = arm.gripper.position_for_opening(OPENING);
         robot.joints.set(arm.gripper.joint, open);
         for i in 0..count {
-            if *checks >= self.effort.most_checks() {
+            if *checks >= most_checks {
                 break;
             }
             *checks += 1;

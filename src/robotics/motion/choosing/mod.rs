@@ -4,6 +4,7 @@
 mod aligned_bases;
 pub(crate) mod carrying_posture;
 pub(crate) mod fitted_grasps;
+pub(crate) mod grasp_candidates;
 pub(crate) mod grasp_chooser;
 pub(crate) mod grasp_reach;
 mod hand_directions;

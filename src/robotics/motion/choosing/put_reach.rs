@@ -7,8 +7,8 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Translation3, Vector3};
 
 use super::aligned_bases::AlignedBases;
-use super::grasp_chooser::{TURNS, about_z};
-use super::grasp_reach::{Effort, GraspReach, Station};
+use super::grasp_candidates::{TURNS, about_z};
+use super::grasp_reach::{Effort, GraspReach, GraspReachFrom, Station};
 use super::lone_hand::{LoneHand, Looked};
 use super::overhead::{Overhead, over};
 use super::shoulder::Shoulder;
@@ -289,8 +289,20 @@ impl<'w> PutReach<'w> {
     /// The nearest heading (rad, relative to the one that is wanted) at which the object can be put
     /// down there with the base at a pose in the map frame.
     pub fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<f64, GraspObstacle> {
+        self.heading_from(self.reach.with_base_at(base, effort), base)
+    }
+
+    /// As [`Self::with_base_at`], for whoever does not tell what is met: how far bodies overlap is meaningless then.
+    pub(crate) fn glancing_from(&self, base: &Pose, effort: Effort) -> Result<f64, GraspObstacle> {
+        self.heading_from(self.reach.glancing_from(base, effort), base)
+    }
+
+    fn heading_from(
+        &self,
+        mut from: GraspReachFrom<'_>,
+        base: &Pose,
+    ) -> Result<f64, GraspObstacle> {
         let object = base.inverse() * self.target;
-        let mut from = self.reach.with_base_at(base, effort);
         let mut nearest = None;
         for (index, heading) in self.grip.headings().into_iter().enumerate() {
             if let Some(Some(obstacle)) = self.barred.borrow().get(index) {

@@ -118,6 +118,17 @@ impl TouchingPairs {
         near.or_else(|| self.first_deep(checker, robot))
     }
 
+    /// As [`Self::first_hit`], without finding out how far the two overlap, nor where.
+    pub(crate) fn first_touch(
+        &self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        let near = checker.first_touch(robot, &self.relaxed, margin);
+        near.or_else(|| self.first_deep(checker, robot))
+    }
+
     /// Whether [`Self::first_hit`] finds nothing.
     pub(crate) fn is_free(
         &self,

@@ -37,8 +37,9 @@ pub fn plan_grasp(
         part: GraspPart::Approach,
         tool: *first,
     };
-    // As in the plan for picking up, a first pose that is not reached is left out.
-    let _reached = follow(
+    // As in the plan for picking up, a first pose that is not reached is left out. Where a long search has found no way
+    // there, another one to the next pose, which is a few centimetres away, hardly finds one.
+    let reached = follow(
         &mut world,
         side,
         object,
@@ -46,6 +47,10 @@ pub fn plan_grasp(
         (TcpPath::Free, CollisionMode::AvoidAll),
         search,
     );
+    let approach = match reached {
+        Ok(()) => search,
+        Err(_) => PathSearch::Short,
+    };
     for station in stations {
         let (path, mode) = match station.part {
             GraspPart::Approach => (TcpPath::Free, CollisionMode::AvoidAll),
@@ -55,6 +60,10 @@ pub fn plan_grasp(
             let effort = gripper_of(&world, side).effort;
             press(&mut world, side, object, effort)?;
         }
+        let search = match station.part {
+            GraspPart::Approach => approach,
+            GraspPart::Grasp | GraspPart::Lift => search,
+        };
         follow(&mut world, side, object, station, (path, mode), search)?;
         if station.part == GraspPart::Approach {
             let gripper = gripper_of(&world, side);

@@ -81,6 +81,20 @@ impl<'w> BaseChecker<'w> {
         near.or_else(|| self.touching.first_deep(&mut self.checker, &self.robot))
     }
 
+    /// What would be closer to the robot than the margin (m) at the pose, one of all, where [`Self::blocked`] finds
+    /// something. Faster: neighbouring poses are mostly blocked by the same.
+    pub(crate) fn blocker(&mut self, place: &BasePlace, margin: f64) -> Option<BodyName> {
+        self.robot = at_place(&self.robot, place);
+        let links = (&self.robot.base, self.in_base.as_slice());
+        let near =
+            self.checker
+                .any_body_around(links, &mut self.in_map, self.touching.relaxed(), margin);
+        near.or_else(|| {
+            let deep = self.touching.first_deep(&mut self.checker, &self.robot)?;
+            Some(deep.other)
+        })
+    }
+
     /// A pose at which the robot, which touches something at the start, no longer does; the
     /// straight path there leads out of the contact from the first centimetre on.
     pub(super) fn way_out(&mut self, start: &BasePlace, drive: DriveKind) -> Option<BasePlace> {

@@ -1,7 +1,7 @@
 //! Configurations that move the tools of the arms along straight lines.
 
 use super::configuration_checker::ConfigurationChecker;
-use super::joint_path::{between, blocked_between};
+use super::joint_path::{between, is_free_between};
 use super::planning_group::PlanningGroup;
 use crate::robot::description::Arm;
 use crate::robot::{ArmPositions, Side};
@@ -124,9 +124,8 @@ impl CartesianTask<'_> {
         next: &[f64],
         checker: &mut ConfigurationChecker<'_>,
     ) -> bool {
-        let mut blocked = |q: &[f64]| checker.obstacle(q);
-        blocked(next).is_some()
-            || blocked_between(&self.group.axes, before, next, RESOLUTION, &mut blocked).is_some()
+        !checker.is_free_on_way(next)
+            || !is_free_between(&self.group.axes, before, next, RESOLUTION, checker)
     }
 
     /// The configuration at that fraction of the line that is nearest to the seed.

@@ -1,5 +1,6 @@
 //! Checking configurations of some joints while everything else stays as it is.
 
+use super::path_test::PathTest;
 use crate::motion::contact::expected_contacts::ExpectedContacts;
 use crate::motion::contact::guard::GUARD_DEPTH;
 use crate::motion::contact::level::LevelHands;
@@ -35,6 +36,16 @@ pub(crate) enum PathObstacle {
     Touch(CollisionHit),
     /// What is open at the top is tilted.
     Tilt(Tilt),
+}
+
+impl PathTest<PathObstacle> for ConfigurationChecker<'_> {
+    fn obstacle(&mut self, configuration: &[f64]) -> Option<PathObstacle> {
+        ConfigurationChecker::obstacle(self, configuration)
+    }
+
+    fn is_free(&mut self, configuration: &[f64]) -> bool {
+        self.is_free_on_way(configuration)
+    }
 }
 
 impl<'w> ConfigurationChecker<'w> {
@@ -142,6 +153,11 @@ impl<'w> ConfigurationChecker<'w> {
         }
     }
 
+    /// Whether nothing rules out the joint positions on the way: as [`Self::obstacle`], without saying what does.
+    pub(crate) fn is_free_on_way(&mut self, positions: &[f64]) -> bool {
+        self.level.tilted(positions).is_none() && self.is_free(positions)
+    }
+
     /// As [`Self::new`], with the robot elsewhere, and without regard to where the moving bodies
     /// are at the start: they may be close to nothing.
     pub(crate) fn away_from_start(
@@ -176,6 +192,13 @@ impl<'w> ConfigurationChecker<'w> {
         self.set(positions);
         self.touching
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// As [`Self::blocked`], without finding out how far the two overlap, nor where.
+    pub(crate) fn touching(&mut self, positions: &[f64]) -> Option<CollisionHit> {
+        self.set(positions);
+        self.touching
+            .first_touch(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
     /// Whether the joint positions are free: as [`Self::blocked`], without saying what is touched.
@@ -223,7 +246,7 @@ impl<'w> ConfigurationChecker<'w> {
             self.robot.joints.set(*joint, *position);
         }
         self.checker.look_at(Pairs::All);
-        let free = self.blocked(positions).is_none();
+        let free = self.is_free(positions);
         self.checker.look_at(self.pairs);
         for (joint, position) in before {
             self.robot.joints.set(joint, position);

@@ -2,10 +2,11 @@
 //!
 //! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000): if there
 //! are several chains of joints, for one after another, then for all at once. The result is
-//! shortened. The caller checks for collisions, with a closure that returns what blocks a
-//! configuration. All randomness comes from the generator passed in, so the same input gives
+//! shortened. The caller checks for collisions, and says what blocks a configuration where that
+//! is told. All randomness comes from the generator passed in, so the same input gives
 //! the same path. Nothing here knows of robots or time.
 
+use super::path_test::PathTest;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
@@ -104,6 +105,10 @@ const FROM_ANYWHERE: usize = 3;
 /// A shortcut saves at least this share of the way that it replaces; others are not worth the checks.
 const MIN_GAIN: f64 = 0.05;
 
+/// A tree that has no more configurations than this after so many random ones cannot leave where it begins: hardly any
+/// path is found then.
+const TRAPPED: (usize, usize) = (2, 150);
+
 /// How much coarser the edges are checked during the search than in the result.
 const COARSENESS: f64 = 2.5;
 
@@ -115,7 +120,7 @@ type Point = Vec<f64>;
 /// Changes a configuration into one near it that keeps what the path is to keep; returns whether there is one.
 pub(crate) type Settle<'a> = dyn Fn(&mut [f64]) -> bool + 'a;
 
-/// A path from `start` to `goal`, both included, on which `blocked` returns nothing. If few configurations
+/// A path from `start` to `goal`, both included, on which the test finds nothing. If few configurations
 /// keep what it is to keep, `settle` leads others to them (Berenson, Srinivasa and Kuffner: Task Space
 /// Regions, 2011).
 pub(crate) fn find_joint_path<P>(
@@ -124,23 +129,24 @@ pub(crate) fn find_joint_path<P>(
     goal: &[f64],
     effort: JointPathEffort,
     rng: &mut Pcg64,
-    blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
+    test: &mut dyn PathTest<P>,
     settle: Option<&Settle<'_>>,
 ) -> Result<Vec<Point>, JointPathFailure<P>> {
-    if let Some(p) = blocked(goal) {
+    if let Some(p) = test.obstacle(goal) {
         return Err(JointPathFailure::Goal(p));
     }
-    if let Some(p) = blocked(start) {
+    if let Some(p) = test.obstacle(start) {
         return Err(JointPathFailure::Start(p));
     }
     let mut search = Search {
         axes,
         effort,
-        blocked,
+        test,
         settle,
         checks: 0,
+        samples: 0,
     };
-    let Some(blocker) = search.edge(start, goal) else {
+    let Some(blocker) = search.obstacle_on_edge(start, goal) else {
         return Ok(vec![start.to_vec(), goal.to_vec()]);
     };
     // A coarse search usually suffices; if it does not, a fine one follows.
@@ -154,25 +160,25 @@ pub(crate) fn find_joint_path<P>(
         search.effort.resolution = effort.resolution;
         if path
             .windows(2)
-            .all(|leg| search.edge(&leg[0], &leg[1]).is_none())
+            .all(|leg| search.is_edge_free(&leg[0], &leg[1]))
         {
             return Ok(path);
         }
     }
     Err(JointPathFailure::NotFound {
         blocker,
-        samples: effort.samples,
+        samples: search.samples,
     })
 }
 
-/// What blocks the straight path between two free configurations, if anything does.
-pub(crate) fn blocked_between<P>(
+/// Whether nothing blocks the straight path between two free configurations.
+pub(crate) fn is_free_between<P>(
     axes: &[PathAxis],
     from: &[f64],
     to: &[f64],
     resolution: f64,
-    blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
-) -> Option<P> {
+    test: &mut dyn PathTest<P>,
+) -> bool {
     let effort = JointPathEffort {
         resolution,
         ..JointPathEffort::default()
@@ -180,20 +186,23 @@ pub(crate) fn blocked_between<P>(
     Search {
         axes,
         effort,
-        blocked,
+        test,
         settle: None,
         checks: 0,
+        samples: 0,
     }
-    .edge(from, to)
+    .is_edge_free(from, to)
 }
 
 struct Search<'a, P> {
     axes: &'a [PathAxis],
     effort: JointPathEffort,
-    blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
+    test: &'a mut dyn PathTest<P>,
     settle: Option<&'a Settle<'a>>,
     /// Number of configurations checked.
     checks: usize,
+    /// Number of random configurations of the longest attempt.
+    samples: usize,
 }
 
 /// Configurations connected to the first one, each with its parent's index.
@@ -219,8 +228,24 @@ impl<P> Search<'_, P> {
         chains.into_iter().fold(0.0, f64::max) + all
     }
 
-    /// Checks the interior points of the edge, coarse steps first.
-    fn edge(&mut self, from: &[f64], to: &[f64]) -> Option<P> {
+    /// What blocks the interior points of the edge, if anything does.
+    fn obstacle_on_edge(&mut self, from: &[f64], to: &[f64]) -> Option<P> {
+        self.find_on_edge(from, to, |test, point| test.obstacle(point))
+    }
+
+    /// Whether the interior points of the edge are free.
+    fn is_edge_free(&mut self, from: &[f64], to: &[f64]) -> bool {
+        let met = self.find_on_edge(from, to, |test, point| (!test.is_free(point)).then_some(()));
+        met.is_none()
+    }
+
+    /// What is found at an interior point of the edge, coarse steps first.
+    fn find_on_edge<T>(
+        &mut self,
+        from: &[f64],
+        to: &[f64],
+        look: impl Fn(&mut dyn PathTest<P>, &[f64]) -> Option<T>,
+    ) -> Option<T> {
         super::interruption::look();
         let parts = (self.distance(from, to) / self.effort.resolution)
             .ceil()
@@ -230,8 +255,8 @@ impl<P> Search<'_, P> {
             for i in (stride / 2..parts).step_by(stride) {
                 let point = between(from, to, i as f64 / parts as f64);
                 self.checks += 1;
-                if let Some(p) = (self.blocked)(&point) {
-                    return Some(p);
+                if let Some(found) = look(&mut *self.test, &point) {
+                    return Some(found);
                 }
             }
             stride /= 2;
@@ -252,7 +277,7 @@ impl<P> Search<'_, P> {
             let halfway: Point = (start.iter().zip(goal).zip(self.axes))
                 .map(|((from, to), axis)| if axis.chain == order[1] { *from } else { *to })
                 .collect();
-            if (self.blocked)(&halfway).is_some() {
+            if !self.test.is_free(&halfway) {
                 continue;
             }
             let Some(mut path) = self.leg(start, &halfway, order[0], rng) else {
@@ -275,9 +300,9 @@ impl<P> Search<'_, P> {
         chain: usize,
         rng: &mut Pcg64,
     ) -> Option<Vec<Point>> {
-        match self.edge(from, to) {
-            None => Some(vec![from.to_vec(), to.to_vec()]),
-            Some(_) => self.connect(from, to, Some(chain), rng),
+        match self.is_edge_free(from, to) {
+            true => Some(vec![from.to_vec(), to.to_vec()]),
+            false => self.connect(from, to, Some(chain), rng),
         }
     }
 
@@ -295,9 +320,13 @@ impl<P> Search<'_, P> {
         ];
         let share = if chain.is_some() { 3 } else { 1 };
         for round in 0..self.effort.samples / share {
-            if self.checks > self.effort.checks {
+            let is_trapped = |tree: &Tree| tree.0.len() <= TRAPPED.0;
+            if self.checks > self.effort.checks
+                || (round >= TRAPPED.1 && trees.iter().any(is_trapped))
+            {
                 return None;
             }
+            self.samples = self.samples.max(round + 1);
             let side = round % 2;
             // Both trees have their turn, then the next share.
             let width = match (round / 2) % FROM_ANYWHERE {
@@ -374,7 +403,7 @@ impl<P> Search<'_, P> {
             return Growth::Trapped;
         }
         self.checks += 1;
-        if (self.blocked)(&to).is_some() || self.edge(from, &to).is_some() {
+        if !self.test.is_free(&to) || !self.is_edge_free(from, &to) {
             return Growth::Trapped;
         }
         tree.0.push((to, parent));
@@ -401,14 +430,14 @@ impl<P> Search<'_, P> {
                 let way = std::iter::once(&from).chain(corners).chain([&to]);
                 self.straight(&from, &to) < (1.0 - MIN_GAIN) * self.along(way)
             };
-            if i == j || !is_shorter() || self.edge(&from, &to).is_some() {
+            if i == j || !is_shorter() || !self.is_edge_free(&from, &to) {
                 continue;
             }
             path.splice(i + 1..=j, [from, to]);
         }
         let mut i = 0;
         while i + 2 < path.len() {
-            if self.edge(&path[i], &path[i + 2]).is_none() {
+            if self.is_edge_free(&path[i], &path[i + 2]) {
                 path.remove(i + 1);
             } else {
                 i += 1;

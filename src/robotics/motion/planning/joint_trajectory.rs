@@ -25,14 +25,13 @@ pub(crate) fn plan_joint_trajectory(
     let level = checker.level().clone();
     let settle = |q: &mut [f64]| level.settle(q);
     let constraint: Option<&Settle<'_>> = (!level.is_empty()).then_some(&settle);
-    let mut blocked = |q: &[f64]| checker.obstacle(q);
     let path = find_joint_path(
         &group.axes,
         &group.now(world),
         goal,
         effort,
         &mut rng,
-        &mut blocked,
+        checker,
         constraint,
     )
     .map_err(path_failure)?;
@@ -46,7 +45,7 @@ pub(super) fn smooth(
     limits: &[AxisGroup],
     checker: &mut ConfigurationChecker<'_>,
 ) -> Trajectory {
-    Trajectory::rounded(path, limits, &mut |q| checker.obstacle(q).is_none())
+    Trajectory::rounded(path, limits, &mut |q| checker.is_free_on_way(q))
 }
 
 fn path_failure(failure: JointPathFailure<PathObstacle>) -> MotionFailure {

@@ -12,7 +12,7 @@ use super::cartesian_path::{
 };
 use super::configuration_checker::ConfigurationChecker;
 use super::goal_configurations::GoalConfiguration;
-use super::joint_path::{JointPathEffort, blocked_between};
+use super::joint_path::{JointPathEffort, is_free_between};
 use super::joint_plan::JointPlan;
 use super::joint_trajectory::{plan_joint_trajectory, smooth};
 use super::planning_group::PlanningGroup;
@@ -181,8 +181,10 @@ impl PoseGoalTask<'_> {
         let mut free = Vec::new();
         let open_hands = self.open_hands();
         for mut configuration in configurations {
-            if let Some(hit) = checker.blocked(&configuration.positions) {
-                first_hit = first_hit.or(Some(hit));
+            let positions = &configuration.positions;
+            if !checker.is_free(positions) {
+                // One is told of.
+                first_hit = first_hit.or_else(|| checker.blocked(positions));
                 continue;
             }
             if !checker.is_free_with(&configuration.positions, &open_hands) {
@@ -254,15 +256,8 @@ impl PoseGoalTask<'_> {
         let effort = self.search.effort();
         let now = group.now(self.world);
         for configuration in free.iter().take(SHORT_LIST) {
-            let mut blocked = |q: &[f64]| checker.obstacle(q);
-            let met = blocked_between(
-                &group.axes,
-                &now,
-                &configuration.positions,
-                effort.resolution,
-                &mut blocked,
-            );
-            if met.is_none() {
+            let positions = &configuration.positions;
+            if is_free_between(&group.axes, &now, positions, effort.resolution, checker) {
                 let limits = speeds::limits_of(self.body(), &group.joints);
                 let path = [now, configuration.positions.clone()];
                 return Ok(Trajectory::new(&path, &limits));
@@ -384,7 +379,7 @@ impl PoseGoalTask<'_> {
                 (line.from, line.to) = (line.to, start);
             }
             for end in &configurations {
-                if checker.blocked(&end.positions).is_some() {
+                if !checker.is_free(&end.positions) {
                     continue;
                 }
                 let (path, met) = back.follow(&end.positions, None, Some(&mut checker));

@@ -114,9 +114,15 @@ pub fn straight_ways(
         if starts.is_empty() {
             continue;
         }
+        // The torso is at that height at all of them but where the hands are now.
+        let given = if begins_here { 1 } else { 0 };
+        let mut hands = stations.iter().skip(given).flatten();
+        if hands.any(|(side, tool)| misses(&task, *side, tool, height)) {
+            continue;
+        }
         let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &task.contacts);
         let is_free = |checker: &mut ConfigurationChecker<'_>, start: &[f64]| {
-            begins_here || checker.blocked(start).is_none()
+            begins_here || checker.is_free(start)
         };
         let mut tried = 0;
         for start in starts {
@@ -136,6 +142,12 @@ pub fn straight_ways(
         }
     }
     None
+}
+
+/// Whether it is certain that the arm does not reach the pose with the torso at a height (m).
+fn misses(task: &PoseGoalTask<'_>, side: Side, tool: &Pose, height: f64) -> bool {
+    let kinematics = &task.body().arm(side).kinematics;
+    kinematics.surely_misses(&task.wrist(side, tool, height))
 }
 
 /// The poses of all hands at each station of their ways, from where they are if the ways begin there.

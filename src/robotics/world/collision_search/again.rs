@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{Near, Question, Scratch, Search, Wanted, with_slack};
+use super::{Near, Question, Scratch, Search, with_slack};
 use crate::robot::LinkId;
 use crate::world::surroundings::Surroundings;
 use spatial::Pose;
@@ -86,14 +86,17 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     /// a free configuration ask about many that are like each other.
     pub(super) fn again(&mut self) -> ControlFlow<()> {
         let last = self.scratch.last.take();
-        if self.question.wanted != Wanted::Whether || self.question.only.is_some() {
+        if !self.question.wanted.is_whether() || self.question.only.is_some() {
             return ControlFlow::Continue(());
         }
         match last {
             Some(Looked {
                 mover,
                 at: At::Mover(other),
-            }) if self.question.links.is_none() => self.against_each_other(mover, other),
+            }) if self.question.links.is_none() => match self.question.wanted.is_to_others() {
+                true => ControlFlow::Continue(()),
+                false => self.against_each_other(mover, other),
+            },
             Some(Looked { mover, at }) => {
                 let scratch = &self.scratch;
                 let (Some(bounds), true) = (

@@ -10,7 +10,7 @@ const PLANE: [PathAxis; 2] = [PathAxis {
 }; 2];
 
 fn find(
-    blocked: &mut dyn FnMut(&[f64]) -> Option<&'static str>,
+    test: &mut dyn PathTest<&'static str>,
 ) -> Result<Vec<Point>, JointPathFailure<&'static str>> {
     let mut rng = Pcg64::seed_from_u64(1);
     find_joint_path(
@@ -19,7 +19,7 @@ fn find(
         &[1.0, 0.0],
         JointPathEffort::default(),
         &mut rng,
-        blocked,
+        test,
         None,
     )
 }
@@ -32,7 +32,7 @@ fn wall(p: &[f64]) -> Option<&'static str> {
 #[test]
 fn a_free_straight_path_is_taken() {
     assert_eq!(
-        find(&mut |_| None),
+        find(&mut |_: &[f64]| None),
         Ok(vec![vec![-1.0, 0.0], vec![1.0, 0.0]])
     );
 }
@@ -42,10 +42,7 @@ fn an_obstacle_is_passed_without_touching_it() {
     let path = find(&mut wall).unwrap();
     assert!(path.len() < 6, "{path:?}");
     for leg in path.windows(2) {
-        assert_eq!(
-            blocked_between(&PLANE, &leg[0], &leg[1], 0.01, &mut wall),
-            None
-        );
+        assert!(is_free_between(&PLANE, &leg[0], &leg[1], 0.01, &mut wall));
     }
 }
 
@@ -56,13 +53,13 @@ fn the_same_seed_gives_the_same_path() {
 
 #[test]
 fn a_blocked_goal_names_what_blocks_it() {
-    let result = find(&mut |p| (p[0] > 0.5).then_some("table"));
+    let result = find(&mut |p: &[f64]| (p[0] > 0.5).then_some("table"));
     assert_eq!(result, Err(JointPathFailure::Goal("table")));
 }
 
 #[test]
 fn an_obstacle_without_a_gap_is_named() {
-    let result = find(&mut |p| (p[0].abs() < 0.1).then_some("wall"));
+    let result = find(&mut |p: &[f64]| (p[0].abs() < 0.1).then_some("wall"));
     assert_eq!(
         result,
         Err(JointPathFailure::NotFound {
@@ -70,6 +67,20 @@ fn an_obstacle_without_a_gap_is_named() {
             samples: 1500
         })
     );
+}
+
+#[test]
+fn a_goal_that_cannot_be_left_is_soon_given_up() {
+    // Around the goal there is less room than a branch takes.
+    let mut cell = |p: &[f64]| {
+        let from_goal = (p[0] - 1.0).abs().max(p[1].abs());
+        (0.1..0.2).contains(&from_goal).then_some("wall")
+    };
+    let Err(JointPathFailure::NotFound { blocker, samples }) = find(&mut cell) else {
+        panic!("a path leads through a wall");
+    };
+    assert_eq!(blocker, "wall");
+    assert!(samples < 200, "{samples}");
 }
 
 #[test]
@@ -107,9 +118,10 @@ proptest! {
         let mut search = Search {
             axes: &PLANE,
             effort: JointPathEffort::default(),
-            blocked: &mut wall,
+            test: &mut wall,
             settle: None,
             checks: 0,
+            samples: 0,
         };
         let before = search.along(path.iter());
         let short = search.shorten(path, &mut Pcg64::seed_from_u64(seed));
