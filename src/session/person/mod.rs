@@ -21,8 +21,11 @@ pub(crate) struct Person {
     pub snapshots: Snapshots,
     /// How the world was.
     pub(crate) timeline: Timeline,
-    /// Where snapshots are taken for both.
-    shelf: Shelf,
+    /// Where snapshots before forms are taken, and named ones.
+    of_forms: Shelf,
+    /// Where snapshots before motions and at moments are taken. There are many of them between two forms, so that those
+    /// before forms would have little in common with their neighbours.
+    of_moments: Shelf,
     /// Where it is kept what has been done of lessons, if anywhere.
     pub(crate) progress: Option<Progress>,
     /// A value that is to be inspected.
@@ -38,7 +41,8 @@ pub(crate) struct Person {
 impl Person {
     /// Call when a form at top level is about to be evaluated.
     pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
-        self.snapshots.begin_form(&mut self.shelf, simulation, form);
+        self.snapshots
+            .begin_form(&mut self.of_forms, simulation, form);
     }
 
     /// Call when the next motion is about to begin: both undo and the past may need the state of then.
@@ -48,7 +52,7 @@ impl Person {
         if !is_moment && !is_undone {
             return;
         }
-        let snapshot = self.shelf.take(simulation);
+        let snapshot = self.of_moments.take(simulation);
         if is_undone {
             let motion = simulation.jobs.begun;
             self.snapshots.begin_motion(motion, snapshot.clone());
@@ -61,7 +65,7 @@ impl Person {
     /// Remembers how the world is now, unless it is only tried out.
     pub(crate) fn note_moment(&mut self, simulation: &Simulation) {
         if self.is_past_kept() {
-            let snapshot = self.shelf.take(simulation);
+            let snapshot = self.of_moments.take(simulation);
             self.timeline.note(simulation.now(), snapshot);
         }
     }
@@ -75,7 +79,7 @@ impl Person {
 
     /// Takes a named snapshot of the world.
     pub(crate) fn keep_snapshot(&mut self, simulation: &Simulation, name: &str) {
-        self.snapshots.keep(&mut self.shelf, simulation, name);
+        self.snapshots.keep(&mut self.of_forms, simulation, name);
     }
 
     /// Whether moments are noted.
@@ -88,7 +92,8 @@ impl Person {
         Person {
             snapshots: self.snapshots.copied(copier),
             timeline: self.timeline.emptied(),
-            shelf: Shelf::default(),
+            of_forms: Shelf::default(),
+            of_moments: Shelf::default(),
             // A copy is not the person's.
             progress: None,
             inspected: self.inspected.copied(copier),
