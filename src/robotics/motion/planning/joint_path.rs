@@ -105,9 +105,9 @@ const FROM_ANYWHERE: usize = 3;
 /// A shortcut saves at least this share of the way that it replaces; others are not worth the checks.
 const MIN_GAIN: f64 = 0.05;
 
-/// A tree that has no more configurations than this after so many random ones cannot leave where it begins: hardly any
-/// path is found then.
-const TRAPPED: (usize, usize) = (2, 150);
+/// A goal from which no more configurations than this have been reached with so many random ones can hardly be left: the
+/// caller may have others. A start is the only one.
+const TRAPPED: (usize, usize) = (2, 500);
 
 /// How much coarser the edges are checked during the search than in the result.
 const COARSENESS: f64 = 2.5;
@@ -320,10 +320,8 @@ impl<P> Search<'_, P> {
         ];
         let share = if chain.is_some() { 3 } else { 1 };
         for round in 0..self.effort.samples / share {
-            let is_trapped = |tree: &Tree| tree.0.len() <= TRAPPED.0;
-            if self.checks > self.effort.checks
-                || (round >= TRAPPED.1 && trees.iter().any(is_trapped))
-            {
+            let is_trapped = round >= TRAPPED.1 && trees[1].0.len() <= TRAPPED.0;
+            if self.checks > self.effort.checks || is_trapped {
                 return None;
             }
             self.samples = self.samples.max(round + 1);

@@ -80,7 +80,7 @@ fn a_goal_that_cannot_be_left_is_soon_given_up() {
         panic!("a path leads through a wall");
     };
     assert_eq!(blocker, "wall");
-    assert!(samples < 200, "{samples}");
+    assert!(samples < 600, "{samples}");
 }
 
 #[test]
