@@ -25,7 +25,10 @@ pub(super) fn remark(models: &Models, world: &World) -> Option<String> {
                 0 => String::new(),
                 others => format!(" and in {others} more"),
             };
-            format!("the robot starts inside {name}, {depth:.2} m deep{others}")
+            format!(
+                "the robot starts {:.0} mm inside {name}{others}",
+                1000.0 * depth
+            )
         }
         None if !models.map.contains([x, y]) => {
             format!(

@@ -11,12 +11,12 @@ use super::arm_positions::MOST_ARM_JOINTS;
 use super::joint_chain::{ChainPositions, ChainSegment, JointChain};
 use spatial::{Pose, pose, trig};
 
-/// Number of joints from which on an arm reaches poses in general.
+/// Number of joints, the pieces of a telescope counted once, from which on an arm reaches poses in general.
 pub(super) const GENERAL: usize = 6;
 /// Number of joints that have to take part: two for the place, one for the pitch.
 const LEAST: usize = 3;
-/// Directions whose cosine is that small are perpendicular; sines, parallel.
-const EXACT: f64 = 1e-6;
+/// Directions whose cosine is that small are perpendicular; sines, parallel. URDFs are written with few digits.
+const EXACT: f64 = 1e-4;
 /// An axis of the hand whose horizontal part is that small is upright: it lies in the plane whatever the
 /// heading.
 const UPRIGHT: f64 = 1e-3;
@@ -39,10 +39,10 @@ pub struct ArmPlane {
 }
 
 impl ArmPlane {
-    /// The plane of a chain whose base stands upright; `None` if it has six joints or more, or no such
-    /// plane.
+    /// The plane of a chain whose base stands upright; `None` if it has six joints or more (those of a
+    /// telescope counted once), or no such plane.
     pub(super) fn of(chain: &JointChain) -> Option<Self> {
-        if chain.joints.len() >= GENERAL {
+        if chain.freedoms() >= GENERAL {
             return None;
         }
         let (frames, tip) = chain.frames(&[0.0; MOST_ARM_JOINTS]);

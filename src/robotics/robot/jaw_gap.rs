@@ -2,7 +2,8 @@
 //!
 //! The jaws are the outermost links of the fingers that have shapes. The gap lies along the direction in
 //! which they move apart, between what of the one faces the other. Only the part of the joint's range in
-//! which the gap grows counts.
+//! which the gap grows counts. Where it stops growing before the joint does, as between the roots of fingers
+//! that turn, the gap is that between the pads: what meets first when the jaws close.
 
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use thiserror::Error;
@@ -102,7 +103,7 @@ impl JawGap {
         for joint in joints {
             together.push((*joint, factor(tree, *joint, range)?));
         }
-        let jaws = Jaws {
+        let mut jaws = Jaws {
             tree,
             palm,
             joints: &together,
@@ -132,10 +133,21 @@ impl JawGap {
             open
         };
         let axis = along_axis(way.normalize() * way.dot(&widest).signum());
-        let samples: Vec<(f64, f64)> = (0..=INTERVALS)
-            .map(|i| (at(i), jaws.gap(at(i), &axis)))
-            .collect();
-        let samples = opening_part(&samples);
+        let sampled = |jaws: &Jaws| -> Vec<(f64, f64)> {
+            let all = (0..=INTERVALS).map(|i| (at(i), jaws.gap(at(i), &axis)));
+            opening_part(&all.collect::<Vec<_>>())
+        };
+        let mut samples = sampled(&jaws);
+        let ends = [at(0), at(INTERVALS)];
+        if let (Some(first), Some(last)) = (samples.first(), samples.last())
+            && !ends.contains(&last.0)
+        {
+            let pads = jaws.pads(first.0, &axis);
+            let between = sampled(&pads);
+            if between.last().is_some_and(|widest| widest.1 > last.1) {
+                (jaws, samples) = (pads, between);
+            }
+        }
         let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
             return Err(unlike());
         };
@@ -281,8 +293,15 @@ fn name_of(tree: &KinematicTree, links: &[LinkId]) -> String {
     first.map_or_else(String::new, |link| tree.link(*link).name.clone())
 }
 
-/// The outermost links of a finger that have shapes: those that the most joints move.
-fn jaw(tree: &KinematicTree, palm: LinkId, finger: &[LinkId]) -> Result<Vec<LinkId>, JawGapError> {
+/// A shape of a link, by its place among those of the link.
+type LinkShape = (LinkId, usize);
+
+/// The shapes of a finger's outermost links: those that the most joints move.
+fn jaw(
+    tree: &KinematicTree,
+    palm: LinkId,
+    finger: &[LinkId],
+) -> Result<Vec<LinkShape>, JawGapError> {
     let mut solid = Vec::new();
     for link in finger {
         if !tree.carries(palm, *link) {
@@ -301,7 +320,8 @@ fn jaw(tree: &KinematicTree, palm: LinkId, finger: &[LinkId]) -> Result<Vec<Link
     let most = solid.iter().map(|(joints, _)| *joints).max();
     let most = most.ok_or_else(|| JawGapError::NoShape(name_of(tree, finger)))?;
     let outermost = solid.into_iter().filter(|(joints, _)| *joints == most);
-    Ok(outermost.map(|(_, link)| link).collect())
+    let shapes = |link: LinkId| (0..tree.link(link).collisions.len()).map(move |i| (link, i));
+    Ok(outermost.flat_map(|(_, link)| shapes(link)).collect())
 }
 
 /// The axis of the palm that a direction follows but for little, or the direction itself.
@@ -320,29 +340,51 @@ struct Jaws<'a> {
     tree: &'a KinematicTree,
     palm: LinkId,
     joints: &'a [(JointId, f64)],
-    left: Vec<LinkId>,
-    right: Vec<LinkId>,
+    left: Vec<LinkShape>,
+    right: Vec<LinkShape>,
 }
 
 impl Jaws<'_> {
     /// The shapes of a jaw, each with the pose of its link in the frame of the palm.
-    fn shapes(&self, jaw: &[LinkId], position: f64) -> Vec<(&PlacedShape, Pose)> {
+    fn shapes(&self, jaw: &[LinkShape], position: f64) -> Vec<(&PlacedShape, Pose)> {
         let mut q = self.tree.zero_positions();
         for (joint, factor) in self.joints {
             q.set(*joint, factor * position);
         }
-        let mut shapes = Vec::new();
-        for link in jaw {
+        let placed = jaw.iter().filter_map(|(link, place)| {
+            let shape = self.tree.link(*link).collisions.get(*place)?;
             let pose = self.tree.relative_pose(self.palm, *link, &q);
-            let pose = pose.unwrap_or_else(Pose::identity);
-            let own = &self.tree.link(*link).collisions;
-            shapes.extend(own.iter().map(|shape| (shape, pose)));
+            Some((shape, pose.unwrap_or_else(Pose::identity)))
+        });
+        placed.collect()
+    }
+
+    /// What of the jaws is foremost at a position.
+    fn pads(&self, position: f64, axis: &Vector3<f64>) -> Self {
+        let foremost = |jaw: &[LinkShape], towards: Vector3<f64>| -> Vec<LinkShape> {
+            let shapes = self.shapes(jaw, position);
+            let ends: Vec<f64> = shapes
+                .iter()
+                .map(|(shape, pose)| extent(shape, pose, &towards)[1])
+                .collect();
+            let face = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let near = jaw
+                .iter()
+                .zip(&ends)
+                .filter(|(_, end)| **end > face - PAD_DEPTH);
+            near.map(|(shape, _)| *shape).collect()
+        };
+        Self {
+            tree: self.tree,
+            palm: self.palm,
+            joints: self.joints,
+            left: foremost(&self.left, -axis),
+            right: foremost(&self.right, *axis),
         }
-        shapes
     }
 
     /// The middle of a jaw's shapes.
-    fn middle(&self, jaw: &[LinkId], position: f64) -> Vector3<f64> {
+    fn middle(&self, jaw: &[LinkShape], position: f64) -> Vector3<f64> {
         let shapes = self.shapes(jaw, position);
         let count = shapes.len().max(1) as f64;
         let places = shapes

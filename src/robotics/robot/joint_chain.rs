@@ -10,6 +10,9 @@ use super::arm_positions::MOST_ARM_JOINTS;
 use super::{JointId, JointKind, KinematicTree, Limits, LinkId};
 use spatial::{Pose, trig};
 
+/// Cosine from which on two axes are one line.
+const PARALLEL: f64 = 1.0 - 1e-9;
+
 /// Positions of the joints of a chain; those beyond their number are 0.
 pub(super) type ChainPositions = [f64; MOST_ARM_JOINTS];
 
@@ -115,6 +118,24 @@ pub(super) struct JointChain {
 }
 
 impl JointChain {
+    /// In how many ways the tip moves: the pieces of a telescope, which slide along one line one after the
+    /// other, count once.
+    pub(super) fn freedoms(&self) -> usize {
+        let (frames, _) = self.frames(&[0.0; MOST_ARM_JOINTS]);
+        let line = |(frame, segment): (&Pose, &ChainSegment)| {
+            segment.slides.then(|| frame.rotation * segment.axis)
+        };
+        let lines: Vec<_> = frames.iter().zip(&self.segments).map(line).collect();
+        let pairs = lines.windows(2).zip(self.segments.windows(2));
+        let repeated = pairs.filter(|(lines, segments)| match (lines, segments) {
+            ([Some(a), Some(b)], [one, next]) => {
+                one.leader != next.leader && a.dot(b).abs() > PARALLEL
+            }
+            _ => false,
+        });
+        self.joints.len() - repeated.count()
+    }
+
     /// Reads the chain from `base` to `tip`.
     pub(super) fn read(
         tree: &KinematicTree,

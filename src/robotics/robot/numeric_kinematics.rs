@@ -4,7 +4,7 @@
 //! the goal is farther away than the chain is long. Everything is determined by goal and seed: the starts
 //! are drawn once, when the chain is read.
 //!
-//! A chain of fewer than six joints meets hardly any pose exactly. It brings its tip to the place, and its
+//! A chain of fewer than six joints, the pieces of a telescope counted once, meets hardly any pose exactly. It brings its tip to the place, and its
 //! orientation is within 2 degrees of the wanted one.
 
 use std::f64::consts::PI;
@@ -77,6 +77,8 @@ struct Descent {
 pub struct NumericKinematics {
     chain: JointChain,
     length: ChainLength,
+    /// Whether the chain has enough joints for poses in general; the pieces of a telescope count once.
+    is_general: bool,
     /// Where a chain of fewer than six joints moves its tip freely, if there is such a plane.
     plane: Option<ArmPlane>,
     /// The point of the tip that such a chain brings to the place (m, frame of the tip).
@@ -124,6 +126,7 @@ impl NumericKinematics {
             middle: bounds.map(|bound| drawn(bound, 0.5)),
             postures,
             length: ChainLength::of(&chain),
+            is_general: chain.freedoms() >= GENERAL,
             plane,
             point: Vector3::zeros(),
             bounds,
@@ -181,8 +184,8 @@ impl NumericKinematics {
         let mut closest: Option<Descent> = None;
         let mut compared = 0;
         if !self.is_general() {
-            let mut ends =
-                (self.starts(goal, seed).take(EXACT_TRIES)).map(|start| self.descend(goal, &start));
+            let mut ends = (self.starts(goal, seed).take(self.exact_tries()))
+                .map(|start| self.descend(goal, &start));
             if let Some(exact) = ends.find(|end| end.distance < DISTANCE && end.angle < ANGLE) {
                 return Ok(self.cut(&self.turned_to(&exact.positions, &seed)));
             }
@@ -252,7 +255,16 @@ impl NumericKinematics {
 
     /// Whether the chain has enough joints for poses in general.
     fn is_general(&self) -> bool {
-        self.chain.joints.len() >= GENERAL
+        self.is_general
+    }
+
+    /// Starts from which a chain that cannot meet poses in general is to meet one exactly.
+    fn exact_tries(&self) -> usize {
+        if self.chain.joints.len() < GENERAL {
+            EXACT_TRIES
+        } else {
+            TRIES
+        }
     }
 
     fn is_solution(&self, found: &Descent) -> bool {

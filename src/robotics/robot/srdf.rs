@@ -25,8 +25,9 @@ pub struct Srdf {
     pub pairs: Vec<(String, String)>,
     /// Those of them that, as its author says, touch as the robot is built, or nearly always.
     pub built: Vec<(String, String)>,
-    /// How many further pairs are not checked since they never touch.
-    pub never: usize,
+    /// Further pairs of different links, which are not checked since they touched in none of the random postures that
+    /// its author tried.
+    pub never: Vec<(String, String)>,
     /// Links that are never checked.
     pub links: Vec<String>,
     /// Postures.
@@ -63,7 +64,7 @@ impl Srdf {
                     let reason = element.attribute("reason").map(|r| r.value.as_ref());
                     match reason {
                         Some("Never") => {
-                            srdf.never += 1;
+                            srdf.never.push((one, other));
                             continue;
                         }
                         Some("Adjacent" | "Default" | "AlmostAlways") => {
@@ -119,7 +120,7 @@ mod tests {
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(srdf.pairs, [pair("a", "b"), pair("b", "c")]);
         assert_eq!(srdf.built, [pair("a", "b")]);
-        assert_eq!(srdf.never, 1);
+        assert_eq!(srdf.never, [pair("a", "c")]);
         assert_eq!(srdf.links, ["d"]);
         let state = srdf.states.first().expect("there is one");
         assert_eq!(

@@ -1,6 +1,7 @@
 //! Which links of a robot touch by construction, and which never can: by trying many postures.
 //!
-//! Links that hang on each other, or that never move against each other, are neighbours. Of all other
+//! Links that hang on each other, that never move against each other, or that slide in each other as the
+//! pieces of a telescope do, are neighbours. Of all other
 //! pairs, those that touch in every random posture do so by construction, and those that touch in none
 //! never do. What touches almost always is reported, since it may hide real collisions.
 
@@ -17,11 +18,13 @@ const ALMOST_ALWAYS: f64 = 0.95;
 /// Postures after which pairs that touch in some and clearly not in almost all are settled.
 const FIRST_LOOK: usize = 500;
 const CLEARLY_SOMETIMES: f64 = 0.8;
+/// Cosine from which on two axes are one direction.
+const PARALLEL: f64 = 0.999;
 
 /// Pairs of links, the one that comes first in the file first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TouchingPairs {
-    /// Links that hang on each other or never move against each other.
+    /// Links that hang on each other, never move against each other, or are pieces of one telescope.
     pub neighbours: Vec<(LinkId, LinkId)>,
     /// Links that touch in every posture that was tried.
     pub always: Vec<(LinkId, LinkId)>,
@@ -134,7 +137,8 @@ fn draw(
     }
 }
 
-/// Whether at most one joint moves the one against the other, and no other solid link is between them.
+/// Whether at most one joint moves the one against the other, and no other solid link is between them; or
+/// whether they are pieces of one telescope.
 fn are_neighbours(
     tree: &KinematicTree,
     stands: &impl Fn(JointId) -> bool,
@@ -153,6 +157,9 @@ fn are_neighbours(
         b.pop();
     }
     let moving: Vec<&JointId> = a.iter().chain(&b).filter(|joint| moves(joint)).collect();
+    if (a.is_empty() || b.is_empty()) && is_telescope(tree, &moving) {
+        return true;
+    }
     let [joint] = moving[..] else {
         return moving.is_empty();
     };
@@ -162,6 +169,33 @@ fn are_neighbours(
         |lower: LinkId, upper: LinkId| lower == upper || hangs_bare(tree, &moves, lower, upper);
     let meet = |a: LinkId, b: LinkId| hangs(inner, a) && hangs(b, outer);
     meet(one, other) || meet(other, one)
+}
+
+/// Whether joints that follow each other, the outermost one first, slide along one line and belong to a
+/// telescope, which has two of them at least: what they carry is then built to be in each other.
+fn is_telescope(tree: &KinematicTree, joints: &[&JointId]) -> bool {
+    let [outermost, ..] = joints else {
+        return false;
+    };
+    let zero = tree.zero_positions();
+    let axis = |joint: JointId| {
+        let joint = tree.joint(joint);
+        let slides = joint.kind == JointKind::Prismatic;
+        let pose = tree.relative_pose(tree.root(), joint.child, &zero);
+        let pose = pose.filter(|_| slides)?;
+        Some(pose.rotation * joint.axis.into_inner())
+    };
+    let Some(line) = axis(**outermost) else {
+        return false;
+    };
+    let is_along = |joint: JointId| axis(joint).is_some_and(|own| own.dot(&line) > PARALLEL);
+    let moves = |joint: &JointId| tree.joint(*joint).kind != JointKind::Fixed;
+    let before = |joint: JointId| tree.ancestors(tree.joint(joint).parent).find(moves);
+    let follows = |joint: JointId| before(joint) == Some(**outermost) && is_along(joint);
+    joints.iter().all(|joint| is_along(**joint))
+        && (joints.len() > 1
+            || before(**outermost).is_some_and(is_along)
+            || tree.joints().any(|(joint, _)| follows(joint)))
 }
 
 /// Whether the one link hangs on the other, with nothing but frames between and no joint that moves.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::DerivedArm;
 use super::text::symbol;
 use crate::robot::arm_positions::ArmPositions;
-use crate::robot::{JointId, KinematicTree, LinkId, Srdf, TouchingPairs};
+use crate::robot::{JointId, JointKind, KinematicTree, LinkId, Srdf, TouchingPairs};
 
 /// How a word begins in the names of postures in which an arm is out of the way, the best one first.
 const OUT_OF_THE_WAY: [&str; 8] = [
@@ -18,12 +18,16 @@ const OUT_OF_THE_WAY: [&str; 8] = [
     "home",
     "ready",
 ];
+/// Joints between two links that random postures of a robot try in all positions against each other.
+const MOST_BETWEEN: usize = 2;
 /// Names that a remark tells.
 const MOST_NAMES: usize = 4;
 
 /// The pairs of links that, as the SRDF says, touch as the robot is built, and that do so in some posture: the others are
-/// checked at no cost, and pairs that are exempt for another reason, or for none, may hide collisions of the real robot. The
-/// one that comes first in the URDF is the first.
+/// checked at no cost, and pairs that are exempt for another reason, or for none, may hide collisions of the real robot. Of
+/// those that never touch, as it says, the near ones are among them, too: what two joints can do is known from random
+/// postures, so that only the pieces that stand for meshes here can bulge into each other. The one that comes first in the
+/// URDF is the first.
 pub(super) fn pairs(
     tree: &KinematicTree,
     srdf: &Srdf,
@@ -51,14 +55,19 @@ pub(super) fn pairs(
     let is_solid = |link: &LinkId| !tree.link(*link).collisions.is_empty();
     let solid = |name: &String| tree.link_named(name).filter(is_solid);
     let never: BTreeSet<_> = sampled.never.iter().copied().collect();
-    let touching = |pairs: &[(String, String)]| -> BTreeSet<(LinkId, LinkId)> {
+    let links = |pairs: &[(String, String)]| -> BTreeSet<(LinkId, LinkId)> {
         (pairs.iter())
             .filter_map(|(one, other)| Some((solid(one)?, solid(other)?)))
             .map(|(one, other)| (one.min(other), one.max(other)))
-            .filter(|pair| !never.contains(pair))
             .collect()
     };
-    let exempt = touching(&srdf.built);
+    let touching = |pairs: &[(String, String)]| -> BTreeSet<(LinkId, LinkId)> {
+        let all = links(pairs).into_iter();
+        all.filter(|pair| !never.contains(pair)).collect()
+    };
+    let mut exempt = touching(&srdf.built);
+    let is_near = |pair: &(LinkId, LinkId)| joints_between(tree, pair.0, pair.1) <= MOST_BETWEEN;
+    exempt.extend(links(&srdf.never).into_iter().filter(is_near));
     let built: BTreeSet<_> = sampled.by_construction().collect();
     let sometimes: Vec<String> = (touching(&srdf.pairs).iter())
         .filter(|pair| !exempt.contains(pair) && !built.contains(pair))
@@ -72,6 +81,16 @@ pub(super) fn pairs(
         ));
     }
     exempt
+}
+
+/// How many joints move two links against each other.
+fn joints_between(tree: &KinematicTree, one: LinkId, other: LinkId) -> usize {
+    let path = |link| -> BTreeSet<JointId> { tree.ancestors(link).collect() };
+    let (a, b) = (path(one), path(other));
+    let moving = a.symmetric_difference(&b);
+    moving
+        .filter(|joint| tree.joint(**joint).kind != JointKind::Fixed)
+        .count()
 }
 
 /// The first of some names, and how many more there are.

@@ -20,8 +20,8 @@ pub use arms::DerivedArm;
 pub use grippers::DerivedGripper;
 pub use wheels::{DerivedDrive, DerivedWheels};
 
-/// How high (m) above what it stands on a robot that does not drive parks its arm, at least.
-const ABOVE_TABLE: f64 = 0.005;
+/// How high (m) above what the robot stands on its arm is parked, at least: paths must begin there.
+const ABOVE: f64 = 0.03;
 /// Pairs of links that a remark names.
 const MOST_PAIRS: usize = 4;
 
@@ -101,11 +101,14 @@ impl DerivedRobot {
             .chain(grippers.flat_map(DerivedGripper::pad_pairs))
             .chain(from_srdf::pairs(tree, srdf, &pairs, &mut remarks))
             .collect();
+        // A parked arm stays where it is while the torso moves: nothing may touch at any height of it.
         let mut q = tree.zero_positions();
+        let mut heights: Vec<(JointId, f64)> = Vec::new();
         if let Some((joint, limits)) = torso.and_then(|t| Some((t, tree.joint(t).limits?))) {
-            q.set(joint, arms::start_height(limits));
+            q.set(joint, limits.lower);
+            let some = [limits.lower, arms::start_height(limits), limits.upper];
+            heights.extend(some.map(|height| (joint, height)));
         }
-        let table = (wheels.drive == DerivedDrive::Fixed).then_some(ABOVE_TABLE);
         for arm in &mut arms {
             arm.postures = from_srdf::postures(tree, arm, srdf);
             let is_expected = |pair: &(LinkId, LinkId)| {
@@ -117,18 +120,25 @@ impl DerivedRobot {
             let is_of_arm = |link: LinkId| first.is_some_and(|first| tree.carries(first, link));
             let hits = |q: &JointPositions| {
                 let mut pairs = touch.touching(q);
+                let mut q = q.clone();
+                for (torso, height) in heights.iter().skip(1) {
+                    q.set(*torso, *height);
+                    pairs.extend(touch.touching(&q));
+                }
                 pairs.retain(|pair| !is_expected(pair) && (is_of_arm(pair.0) || is_of_arm(pair.1)));
+                pairs.sort();
+                pairs.dedup();
                 pairs
             };
             let is_free = |posture: &ArmPositions| {
-                let above = |floor| parking::is_above(tree, arm, &q, posture, floor);
+                let is_above = parking::is_above(tree, arm, &q, posture, ABOVE);
                 let mut q = q.clone();
                 parking::set(arm, &mut q, posture);
-                table.is_none_or(above) && hits(&q).is_empty()
+                is_above && hits(&q).is_empty()
             };
             let found = match from_srdf::parks(arm).find(is_free) {
                 Some(park) => Some((park, Vec::new())),
-                None => parking::find(tree, arm, &q, table, hits),
+                None => parking::find(tree, arm, &q, ABOVE, hits),
             };
             let Some((park, touching)) = found else {
                 continue;

@@ -17,17 +17,18 @@ const TRIED: usize = 400;
 const HEIGHT: f64 = 0.4;
 
 /// The posture that keeps the arm nearest to the body, and low, of those in which nothing touches, or else
-/// the least; with what does. `others` are the positions of all other joints; nothing of the arm is below `floor` (m, in the
-/// frame of the root), if that is given, since the robot stands on a table.
+/// the least; with what does. `others` are the positions of all other joints, the torso at its lowest; nothing of the arm is
+/// below `floor` (m, in the frame of the root).
 pub(super) fn find(
     tree: &KinematicTree,
     arm: &DerivedArm,
     others: &JointPositions,
-    floor: Option<f64>,
+    floor: f64,
     hits: impl Fn(&JointPositions) -> Vec<(LinkId, LinkId)>,
 ) -> Option<(ArmPositions, Vec<(LinkId, LinkId)>)> {
     let kinematics = NumericKinematics::new(tree, arm.base, arm.wrist).ok()?;
     let moved = moved(tree, arm);
+    let free = free(tree, arm);
     let mut random = Pcg64::seed_from_u64(1);
     let mut share = || f64::from(random.next_u32()) / f64::from(u32::MAX);
     let mut postures: Vec<(f64, ArmPositions)> = Vec::new();
@@ -46,8 +47,7 @@ pub(super) fn find(
         }
         set(arm, &mut q, &posture);
         tree.forward_kinematics(&Pose::identity(), &q, &mut poses);
-        let is_below = |floor: f64| lowest(tree, &moved, &poses) < floor;
-        if floor.is_some_and(is_below) {
+        if lowest(tree, &free, &poses) < floor {
             continue;
         }
         postures.push((extended(tree, &moved, &poses), posture));
@@ -83,7 +83,15 @@ pub(super) fn is_above(
     set(arm, &mut q, posture);
     let mut poses = Vec::new();
     tree.forward_kinematics(&Pose::identity(), &q, &mut poses);
-    lowest(tree, &moved(tree, arm), &poses) >= floor
+    lowest(tree, &free(tree, arm), &poses) >= floor
+}
+
+/// The links with shapes that the arm moves, without the one on which it is mounted: that turns where it is.
+fn free(tree: &KinematicTree, arm: &DerivedArm) -> Vec<LinkId> {
+    let foot = arm.joints.first().map(|joint| tree.joint(*joint).child);
+    let mut links = moved(tree, arm);
+    links.retain(|link| Some(*link) != foot);
+    links
 }
 
 /// The links with shapes that the arm moves.

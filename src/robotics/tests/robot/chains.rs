@@ -173,3 +173,17 @@ pub(super) const STRETCH: &[Row] = &[
     ),
     ("fixed", [0.0, 0.0, 0.23], O, X, [0.0; 2]),
 ];
+
+/// An arm on a lift and a telescope that points ahead, whose hand turns about an upright axis, pitches and
+/// rolls: eight joints of which five move the hand in different ways.
+pub(super) const TELESCOPE: &[Row] = &[
+    ("prismatic", [-0.1, 0.0, 0.1], O, Z, [0.0, 1.1]),
+    ("prismatic", O, O, X, [0.0, 0.13]),
+    ("prismatic", [0.013, 0.0, 0.0], O, X, [0.0, 0.13]),
+    ("prismatic", [0.013, 0.0, 0.0], O, X, [0.0, 0.13]),
+    ("prismatic", [0.013, 0.0, 0.0], O, X, [0.0, 0.13]),
+    ("revolute", [0.0, 0.083, -0.03], O, Z, [-1.75, 4.0]),
+    ("revolute", [0.0, -0.02, -0.03], O, Y, [-1.57, 1.57]),
+    ("revolute", [0.02, 0.02, -0.02], O, X, [-3.1, 3.1]),
+    ("fixed", [0.23, 0.0, 0.0], O, X, [0.0; 2]),
+];

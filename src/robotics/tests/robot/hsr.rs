@@ -149,3 +149,32 @@ fn the_base_turns_and_moves_aside_until_the_hand_is_in_the_plane() {
         assert!(arm.reaches(&(found.inverse() * tip)), "{hand}");
     }
 }
+
+#[test]
+fn a_telescope_counts_as_one_joint() {
+    let (tree, base, tip) = super::chains::chain(super::chains::TELESCOPE);
+    let arm = NumericKinematics::new(&tree, base, tip).expect("the chain can be solved");
+    assert_eq!(arm.joints().len(), 8);
+    let plane = arm.plane().expect("the hand moves in five ways");
+    // With the hand straight ahead it is in the plane, however far the arm is out.
+    let goal = arm.forward(&[0.6, 0.1, 0.05, 0.0, 0.12, 0.0, 0.4, -0.3]);
+    assert!(arm.reaches(&goal));
+    let beside = Translation3::new(0.0, 0.1, 0.0) * goal;
+    assert!(!arm.reaches(&beside));
+    // The base moves aside for what is beside it.
+    let (base, [turn, aside]) = plane.base_for(&Pose::identity(), &Pose::identity(), &beside);
+    assert!(
+        turn.abs() < 1e-9 && (aside.abs() - 0.1).abs() < 1e-9,
+        "{turn} {aside}"
+    );
+    assert!(arm.reaches(&(base.inverse() * beside)));
+    // Joints that slide in different directions are different ones.
+    let [rows @ .., _] = super::chains::TELESCOPE else {
+        panic!("there are rows");
+    };
+    let mut rows = rows.to_vec();
+    rows[2].3 = [0.0, 1.0, 0.0];
+    let (tree, base, tip) = super::chains::chain(&rows);
+    let arm = NumericKinematics::new(&tree, base, tip).expect("the chain can be solved");
+    assert!(arm.plane().is_none());
+}

@@ -185,6 +185,43 @@ fn only_the_part_of_the_range_counts_in_which_the_gap_grows() {
 }
 
 #[test]
+fn fingers_that_turn_open_between_their_pads() {
+    // Hinges 40 mm apart, thick roots beside them, and pads 180 mm away that meet at 0.
+    let finger = |side: &str, sign: f64| {
+        format!(
+            "<link name=\"{side}\"><collision><origin xyz=\"0 0 0.02\"/><geometry><box size=\"0.02 0.01 0.04\"/>\
+             </geometry></collision></link><link name=\"{side}_tip\"><collision><geometry>\
+             <box size=\"0.02 0.01 0.03\"/></geometry></collision></link>\
+             <joint name=\"{side}_joint\" type=\"revolute\"><parent link=\"hand\"/><child link=\"{side}\"/>\
+             <origin xyz=\"0 {} 0.1\"/><axis xyz=\"{} 0 0\"/>\
+             <limit lower=\"0\" upper=\"0.4\" effort=\"1\" velocity=\"1\"/></joint>\
+             <joint name=\"{side}_end\" type=\"fixed\"><parent link=\"{side}\"/><child link=\"{side}_tip\"/>\
+             <origin xyz=\"0 {} 0.18\"/></joint>",
+            0.02 * sign,
+            -sign,
+            -0.015 * sign
+        )
+    };
+    let text = format!(
+        "<robot name=\"hand\"><link name=\"hand\"/>{}{}</robot>",
+        finger("left", 1.0),
+        finger("right", -1.0)
+    );
+    let tree = tree(&text);
+    let fingers: [&[&str]; 2] = [&["left", "left_tip"], &["right", "right_tip"]];
+    let jaw = measured(&tree, "hand", &["left_joint", "right_joint"], fingers);
+    let jaw = jaw.expect("it is a gripper");
+    is_consistent(&jaw);
+    // Between the roots there are never more than 40 mm.
+    assert_eq!(jaw.open().0, 0.4);
+    assert!((0.12..0.16).contains(&jaw.open().1), "{:?}", jaw.open());
+    assert!(jaw.closed().1.abs() < 1e-9, "{:?}", jaw.closed());
+    // The hand holds between the pads.
+    let place = jaw.grip.translation.vector;
+    assert!((0.26..0.29).contains(&place.z), "{place}");
+}
+
+#[test]
 fn what_is_no_gripper_is_refused() {
     let fixed =
         "<axis xyz=\"0 1 0\"/><limit lower=\"0\" upper=\"0.04\" effort=\"1\" velocity=\"1\"/>";

@@ -125,3 +125,43 @@ fn the_built_in_robots_touch_where_their_descriptions_say() {
         assert!(is_known || rolls, "{:?}", names(&pr2, [(a, b)]));
     }
 }
+
+/// A carriage with a tube that is fixed to it, and two tubes that slide in that; a drawer beside them that
+/// slides alone.
+const TELESCOPE: &str = r#"<robot name="telescope">
+  <link name="post"><collision><origin xyz="0 0 -2"/><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="carriage"><collision><geometry><box size="0.3 0.3 0.3"/></geometry></collision></link>
+  <link name="tube"><collision><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+  <link name="middle"><collision><geometry><box size="1 0.08 0.08"/></geometry></collision></link>
+  <link name="inner"><collision><geometry><box size="1 0.06 0.06"/></geometry></collision></link>
+  <link name="drawer"><collision><geometry><box size="0.2 0.05 0.05"/></geometry></collision></link>
+  <joint name="lift" type="revolute"><parent link="post"/><child link="carriage"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="fixed" type="fixed"><parent link="carriage"/><child link="tube"/></joint>
+  <joint name="first" type="prismatic"><parent link="tube"/><child link="middle"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="1.2" effort="1" velocity="1"/></joint>
+  <joint name="second" type="prismatic"><parent link="middle"/><child link="inner"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="1.2" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="tube"/><child link="drawer"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="1.2" effort="1" velocity="1"/></joint>
+</robot>"#;
+
+#[test]
+fn pieces_of_a_telescope_are_neighbours() {
+    let tree = tree(TELESCOPE);
+    let pairs = sampled(&tree, 500);
+    let neighbours = names(&tree, pairs.neighbours.clone());
+    for pair in [
+        ["carriage", "middle"],
+        ["carriage", "inner"],
+        ["tube", "inner"],
+        ["middle", "inner"],
+    ] {
+        assert!(neighbours.contains(&pair), "{pair:?} {neighbours:?}");
+    }
+    // What slides alone may run into what carries it.
+    let settled = names(&tree, pairs.by_construction());
+    for pair in [["carriage", "drawer"], ["middle", "drawer"]] {
+        assert!(!settled.contains(&pair), "{pair:?} {settled:?}");
+    }
+}
