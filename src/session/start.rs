@@ -26,7 +26,7 @@ pub(super) fn remark(models: &Models, world: &World) -> Option<String> {
                 others => format!(" and in {others} more"),
             };
             format!(
-                "the robot starts {:.0} mm inside {name}{others}",
+                "the robot starts inside {name}, {:.0} mm deep{others}",
                 1000.0 * depth
             )
         }

@@ -189,7 +189,7 @@ fn fingers_that_turn_open_between_their_pads() {
     // Hinges 40 mm apart, thick roots beside them, and pads 180 mm away that meet at 0.
     let finger = |side: &str, sign: f64| {
         format!(
-            "<link name=\"{side}\"><collision><origin xyz=\"0 0 0.02\"/><geometry><box size=\"0.02 0.01 0.04\"/>\
+            "<link name=\"{side}\"><collision><geometry><box size=\"0.02 0.01 0.04\"/>\
              </geometry></collision></link><link name=\"{side}_tip\"><collision><geometry>\
              <box size=\"0.02 0.01 0.03\"/></geometry></collision></link>\
              <joint name=\"{side}_joint\" type=\"revolute\"><parent link=\"hand\"/><child link=\"{side}\"/>\
