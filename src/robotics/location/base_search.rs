@@ -56,8 +56,6 @@ pub(super) struct BaseSearch {
     map: Costmap,
     /// The world as it would be.
     imagined: World,
-    /// The same, with the robot where it was tested last.
-    looking: World,
     /// What is to be reached there.
     goal: Goal,
     /// Number of base poses for which it was checked in vain whether the target can be reached.
@@ -130,7 +128,6 @@ impl BaseSearch {
         let imagined = imagined(query, scene)?;
         Ok(Ok(Self {
             goal: Goal::new(query, scene, &imagined),
-            looking: imagined.clone(),
             imagined,
             checks: 0,
             postures: [0; 3],
@@ -174,7 +171,6 @@ impl BaseSearch {
         self.posture = posture_of(scene.world);
         self.is_of_several_postures = true;
         self.imagined = imagined(query, scene)?;
-        self.looking = self.imagined.clone();
         Ok(())
     }
 
@@ -210,7 +206,6 @@ impl BaseSearch {
     ) -> Result<Option<Pose>, WorldError> {
         let Self {
             imagined,
-            looking,
             goal,
             checks,
             postures,
@@ -223,7 +218,7 @@ impl BaseSearch {
         } = self;
         let arms = &scene.world.models().description.arms;
         let has_planar_arm = arms.iter().any(|arm| arm.kinematics.plane().is_some());
-        let mut test = Test::new(query, scene, goal, imagined, looking)?;
+        let mut test = Test::new(query, scene, goal, imagined)?;
         let mut counted = 0;
         loop {
             interruption::look();
@@ -352,8 +347,7 @@ impl BaseSearch {
         scene: Scene<'_>,
     ) -> Result<Result<(), Rejection>, WorldError> {
         let here = scene.world.robot_configuration().base;
-        let (imagined, looking) = (&self.imagined, &mut self.looking);
-        let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
+        let mut test = Test::new(query, scene, &self.goal, &self.imagined)?;
         // There is no other place to try.
         let nothing = (&mut 0, &mut KnownStands::default());
         let found = test.run(&here, Effort::THOROUGH, nothing)?;
@@ -394,8 +388,7 @@ impl BaseSearch {
             return Ok(Err(format!("not {}", factor.key)));
         }
         let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
-        let (imagined, looking) = (&self.imagined, &mut self.looking);
-        let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
+        let mut test = Test::new(query, scene, &self.goal, &self.imagined)?;
         let mut stands = KnownStands::default();
         let mut found = test.run(&on_floor, Effort::QUICK, (&mut 0, &mut stands))?;
         if found.as_ref().is_err_and(|rejection| rejection.may_pass) {
@@ -410,7 +403,9 @@ struct Test<'a> {
     query: &'a BaseQuery,
     checker: BaseChecker<'a>,
     reach: Reach<'a>,
-    looking: &'a mut World,
+    imagined: &'a World,
+    /// A copy of it in which the robot looks about, once that is needed.
+    looking: Option<World>,
     is_fixed: bool,
 }
 
@@ -420,13 +415,13 @@ impl<'a> Test<'a> {
         scene: Scene<'a>,
         goal: &'a Goal,
         imagined: &'a World,
-        looking: &'a mut World,
     ) -> Result<Self, WorldError> {
         Ok(Self {
             query,
             checker: BaseChecker::new(scene.world),
             reach: Reach::new(goal, imagined)?,
-            looking,
+            imagined,
+            looking: None,
             is_fixed: is_fixed(scene.world),
         })
     }
@@ -461,10 +456,12 @@ impl<'a> Test<'a> {
             }));
         }
         if self.query.sees {
-            let mut robot = self.looking.robot_configuration().clone();
+            let imagined = self.imagined;
+            let looking = self.looking.get_or_insert_with(|| imagined.clone());
+            let mut robot = looking.robot_configuration().clone();
             robot.base = *base;
-            self.looking.teleport_robot(&robot);
-            if let Some(cause) = hidden(self.looking, self.query)? {
+            looking.teleport_robot(&robot);
+            if let Some(cause) = hidden(looking, self.query)? {
                 return Ok(Err(Rejection {
                     is_unseen: true,
                     ..Rejection::of(cause)
