@@ -28,6 +28,7 @@ mod mounted_frame;
 pub mod numeric_kinematics;
 mod polynomial;
 pub(crate) mod shape_extent;
+mod shares;
 mod side;
 pub mod srdf;
 pub mod torso_search;

@@ -15,6 +15,7 @@ use super::arm_plane::{ArmPlane, GENERAL};
 use super::arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 use super::chain_length::ChainLength;
 use super::joint_chain::{ChainPositions, Columns, JointChain, JointChainError};
+use super::shares::Shares;
 use super::{JointId, KinematicTree, Limits, LinkId, Miss};
 use spatial::{Pose, trig};
 
@@ -591,23 +592,4 @@ fn solved(
         x[i] /= matrix[i][i];
     }
     Some(x)
-}
-
-/// Pseudo-random shares (0..1), always the same.
-struct Shares(u64);
-
-impl Shares {
-    fn new() -> Self {
-        Self(0x9e37_79b9_7f4a_7c15)
-    }
-
-    /// A number by SplitMix64.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
