@@ -3,7 +3,7 @@
 //! The session only leaves its newest state; a thread of its own sends it at a steady rate. So the session
 //! never waits for the network, and nothing in it depends on who listens.
 
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
