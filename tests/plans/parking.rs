@@ -86,3 +86,39 @@ fn the_torso_is_put_back_when_no_height_helps_to_park_the_arms() {
     assert_ne!(cook.done(parked), "NIL\n");
     cook.assert_no_overlap();
 }
+
+/// With the torso down, the parked hand holds a bowl behind the front of an open drawer: no path leads away from there.
+#[test]
+fn what_a_hand_holds_over_an_open_drawer_is_lifted_over_its_front() {
+    let mut cook = Cook::new();
+    let said = cook.done(
+        "(in-package :pp-tut)
+         (with-simulated-robot
+           (pp-plans::park-arms)
+           (perform (a motion (type moving-torso) (joint-angle 0.0))))
+         (move-kitchen-joint :joint-name \"sink_area_left_middle_drawer_main_joint\" :joint-angle 0.48)
+         (spawn-object '((0.9 0.70 0.4631) (0 0 -0.50382 -0.86381)) :bowl 'bowl-1)
+         (btr-utils:move-robot '((0.525 0.825 0) (0 0 -0.16018 0.98709)))
+         (with-simulated-robot
+           (let ((?there (make-pose \"map\" '((0.9 0.7 0.46) (0 0 0 1)))))
+             (perform (an action (type looking) (target (a location (pose ?there))))))
+           (let ((?bowl (perform (an action (type detecting) (object (an object (type bowl)))))))
+             (perform (an action (type picking-up) (object ?bowl) (arm left))))
+           (pp-plans::park-arms)
+           (perform (a motion (type moving-torso) (joint-angle 0.0)))
+           (pp-plans::park-arms))
+         (format t \"~a ~a~%\" (pp-plans::both-parked-p) (base-path-p '((-0.1 1.2 0) (0 0 1 0))))
+         (with-simulated-robot
+           (let ((?away (make-pose \"map\" '((-0.1 1.2 0) (0 0 1 0)))))
+             (perform (an action (type navigating) (location (a location (pose ?away)))))))
+         (format t \"~a~%\" (rob-int::torso-height))",
+    );
+    assert!(said.contains("\nT NIL\n"), "{said}");
+    assert!(
+        said.contains("Trying again with the torso at 0.33 m."),
+        "{said}"
+    );
+    let base = cook.session.simulation().world().robot_configuration().base;
+    assert!((base.translation.x + 0.1).abs() < 0.01, "{said}");
+    cook.assert_no_overlap();
+}

@@ -162,3 +162,21 @@ fn the_robot_knows_what_its_forearms_hide_from_it() {
     assert!(hidden(-0.86, 1.3).ends_with("T\n"));
     assert!(hidden(-1.3, 2.5).ends_with("NIL\n"));
 }
+
+/// Beside the fridge, the robot cannot turn round where it stands. Who asks for a look is not told of a place to stand,
+/// which would be given up sooner.
+#[test]
+fn a_head_that_cannot_turn_so_far_where_the_robot_cannot_turn_round_is_a_look_that_failed() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(in-package :pp-tut)
+         (with-simulated-robot (pp-plans::park-arms))
+         (btr-utils:move-robot '((0.6 -1.2 0) (0 0 0 1)))",
+    );
+    let report = cook.fails(
+        "LOOKING-HIGH-LEVEL-FAILURE",
+        "(let ((?behind (make-pose \"map\" '((-0.4 -1.2 1) (0 0 0 1)))))
+           (perform (an action (type turning-towards) (target (a location (pose ?behind))))))",
+    );
+    assert!(report.contains("cannot stand"), "{report}");
+}

@@ -40,15 +40,22 @@ pub(crate) struct ExploredGrid {
 /// What is known of each of the grids that a search uses, in its order.
 pub(crate) type ExploredGrids = [ExploredGrid; 3];
 
-/// How many poses of the base are kept at most: as many as a search looks at that finds none.
+/// How many poses of the base are kept at most: as many as a search looks at that finds none. They take 5 MB.
 const MAX_STANDS: usize = 200_000;
+/// Poses of the base nearer to each other than this (m, rad) count as one: what is in the way is told with a margin of
+/// millimetres.
+const SAME_STAND: f64 = 1e-6;
+
+/// The index of a pose at which nothing is in the way.
+const FREE: u32 = u32::MAX;
 
 /// What is in the way at poses of the base, in one arrangement: searches for several hands and grasps ask for the same
 /// ones.
 #[derive(Debug, Default)]
 pub(crate) struct KnownStands {
-    /// The obstacle, as an index, of each pose, by the bits of its numbers. Nobody asks for their order.
-    poses: HashMap<[u64; 3], Option<usize>, BuildHasherDefault<DefaultHasher>>,
+    /// The obstacle, as an index, of each pose, whose numbers are multiples of [`SAME_STAND`]. Nobody asks for their
+    /// order.
+    poses: HashMap<[i32; 3], u32, BuildHasherDefault<DefaultHasher>>,
     obstacles: Vec<BodyName>,
 }
 
@@ -59,26 +66,29 @@ impl KnownStands {
         place: &[f64; 3],
         find: impl FnOnce() -> Option<BodyName>,
     ) -> Option<&BodyName> {
-        let key = place.map(f64::to_bits);
+        let key = place.map(|number| (number / SAME_STAND).round() as i32);
         let index = match self.poses.get(&key) {
             Some(known) => *known,
             None => {
-                let found = find().map(|obstacle| self.index_of(obstacle));
+                let found = find();
+                let index = found.map_or(FREE, |obstacle| self.index_of(obstacle));
                 if self.poses.len() < MAX_STANDS {
-                    self.poses.insert(key, found);
+                    self.poses.insert(key, index);
                 }
-                found
+                index
             }
         };
-        self.obstacles.get(index?)
+        self.obstacles.get(index as usize)
     }
 
-    fn index_of(&mut self, obstacle: BodyName) -> usize {
+    /// The place of an obstacle in the list.
+    fn index_of(&mut self, obstacle: BodyName) -> u32 {
         let known = self.obstacles.iter().position(|other| *other == obstacle);
-        known.unwrap_or_else(|| {
+        let index = known.unwrap_or_else(|| {
             self.obstacles.push(obstacle);
             self.obstacles.len() - 1
-        })
+        });
+        index as u32
     }
 }
 

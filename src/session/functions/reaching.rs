@@ -12,7 +12,7 @@ use lisp::image::Image;
 use lisp::typed::keywords;
 use lisp::value::Value;
 use lisp::value::raise::Raise;
-use robotics::motion::can_stand;
+use robotics::motion::{can_stand, plan_drive};
 use robotics::world::WorldError;
 use spatial::pose;
 
@@ -31,6 +31,16 @@ pub(super) static TABLE: &[Builtin] = &[
         host!(base_pose_free),
     ),
     control(
+        "BASE-PATH-P",
+        "base-pose",
+        "Does a path lead the robot's base, with the arms as they are, from where it stands to a pose?",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:base-path-p '((0 1 0) (0 0 0 1)))) => T",
+            "(pp-tut:base-path-p '((-1 1.5 0) (0 0 0 1))) => NIL",
+        ],
+        host!(base_path),
+    ),
+    control(
         "GRASP-REACHABLE-P",
         "object arm grasp &key object-pose base-pose",
         "Could an arm pick an object up, or put it down, with a grasp: can the hand come to the grasp, and leave it, without touching anything else? From where the robot stands and for where the object is, unless other poses are given.",
@@ -43,10 +53,20 @@ pub(super) static TABLE: &[Builtin] = &[
 ];
 
 fn base_pose_free(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let base = simulation.pose_as_given(image, &args[0])?;
-    let t = base.translation;
-    let place = [t.x, t.y, pose::yaw(&base)];
+    let place = place(simulation, image, &args[0])?;
     done(can_stand(&simulation.world, &place))
+}
+
+fn base_path(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let place = place(simulation, image, &args[0])?;
+    done(plan_drive(&simulation.world, place).is_ok())
+}
+
+/// Where the base is on the floor (m, m, rad) at a pose that is given.
+fn place(simulation: &mut Simulation, image: &mut Image, pose: &Value) -> Result<[f64; 3]> {
+    let base = simulation.pose_as_given(image, pose)?;
+    let t = base.translation;
+    Ok([t.x, t.y, pose::yaw(&base)])
 }
 
 fn grasp_reachable(

@@ -8,21 +8,24 @@
 
 use std::cell::Cell;
 
-use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Translation3};
 
 use super::aligned_bases::AlignedBases;
 use super::grasp_reach::Effort;
-use super::hand_shape::HandShape;
+use super::handle_grasps::{HandleGrasp, SHIFTS, handle_grasps};
 use super::shoulder::Shoulder;
+use crate::motion::contact::guard::GREATEST_LAG;
 use crate::motion::failure::no_handle_grasp::{HandleObstacle, NoHandleGrasp};
 use crate::motion::planning::configuration::with_joints;
 use crate::motion::planning::goal_configurations::CONFIGURATION_STEP;
-use crate::motion::planning::handle_way::{BarGrip, PIVOTS, PartWay, follow_tools, turn};
+use crate::motion::planning::handle_way::{PIVOTS, PartWay, follow_tools};
 use crate::motion::planning::way_obstacle::{part_obstacle, robot_obstacle};
 use crate::robot::torso_search::TorsoSearch;
-use crate::robot::{ArmPositions, JointKind, LinkId, Side};
-use crate::world::{AllowedPairs, CollisionHit, Knob, Part, RobotConfiguration, World};
-use spatial::{Pose, trig};
+use crate::robot::{ArmPositions, JointId, JointKind, LinkId, Side};
+use crate::world::{
+    AllowedPairs, BodyName, CollisionHit, MovingParts, Part, RobotConfiguration, World,
+};
+use spatial::Pose;
 
 /// How far (m) the fingers are apart when the hand comes to a handle.
 pub(crate) const OPENING: f64 = 0.06;
@@ -33,19 +36,9 @@ pub(crate) const AWAY: f64 = 0.1;
 const MARGIN: f64 = 0.0045;
 /// Step (m) between torso heights that are tried.
 const HEIGHT_STEP: f64 = 0.06;
-/// Angles (rad) about the bar between the hand and the outward direction, and distances (m) of
-/// the hand from the middle of the bar.
-const TILTS: [f64; 5] = [0.0, 0.4, -0.4, 0.8, -0.8];
-const SHIFTS: [f64; 5] = [0.0, 0.12, -0.12, 0.24, -0.24];
-/// Minimum distance (m) of the middle of the hand from the ends of a bar.
-const END: f64 = 0.07;
 /// Distance (m or rad) of points of the way for one of many base poses, and by how much more the
 /// joints of the arm may change between them.
 const COARSE: ((f64, f64), f64) = ((0.03, 0.06), 1.8);
-/// How far (m) the tips of the fingers stay away from what a knob is fixed to.
-const KNOB_CLEARANCE: f64 = 0.005;
-/// In how many steps the fingers are turned all around a knob.
-const KNOB_TURNS: u32 = 24;
 /// At about how many points of a way the arm is asked whether it may get there.
 const PROBES: usize = 12;
 /// How many postures before the bar are tried first for one of many base poses.
@@ -85,13 +78,6 @@ pub struct HandleChoice {
     pub tool: Pose,
 }
 
-/// A way to take the bar.
-#[derive(Clone, Debug)]
-struct Grasp {
-    name: &'static str,
-    grip: BarGrip,
-}
-
 /// Tells from which base poses a drawer or door can be opened or closed.
 pub struct HandleChooser<'w> {
     world: &'w World,
@@ -99,12 +85,14 @@ pub struct HandleChooser<'w> {
     way: PartWay<'w>,
     /// Factor of the changes of joints between neighbouring points.
     jump: f64,
-    grasps: Vec<Grasp>,
+    grasps: Vec<HandleGrasp>,
     blocked: Option<(f64, CollisionHit)>,
     hands: Vec<(Side, TorsoSearch<'w>, Shoulder)>,
+    /// Links of the robot that are close to each other as it stands, and that nothing here moves apart.
+    close: AllowedPairs,
     heights: Vec<f64>,
     effort: Effort,
-    /// Number of points along which an arm has been followed.
+    /// Number of points along which an arm has been followed, and of postures in which it would begin.
     points: Cell<u32>,
 }
 
@@ -143,17 +131,18 @@ impl<'w> HandleChooser<'w> {
             question,
             way,
             jump,
-            grasps: grasps(world, question),
+            grasps: handle_grasps(world, question),
             blocked,
             hands: hands.collect(),
+            close: close_links(world, &question.arms),
             heights,
             effort,
             points: Cell::new(0),
         }
     }
 
-    /// Number of points along which an arm has been followed, for all base poses: most of the time goes
-    /// there.
+    /// Number of points along which an arm has been followed, and of postures in which it would begin, for all base
+    /// poses: most of the time goes there.
     pub(crate) fn points(&self) -> u32 {
         self.points.get()
     }
@@ -288,11 +277,11 @@ impl<'w> HandleChooser<'w> {
     fn standing_in_the_way(&self, robot: &RobotConfiguration) -> Option<CollisionHit> {
         let ends = [self.way.parts.first(), self.way.parts.last()];
         let mut ends = ends.into_iter().flatten();
-        ends.find_map(|part| part.checker().first_hit(robot, &AllowedPairs::none(), 0.0))
+        ends.find_map(|part| part.checker().first_hit(robot, &self.close, 0.0))
     }
 
     /// The poses of the tool that must be within reach: before the bar, at it, and at the end.
-    fn stations(&self, grasp: &Grasp) -> Vec<Pose> {
+    fn stations(&self, grasp: &HandleGrasp) -> Vec<Pose> {
         let ends = [self.way.parts.first(), self.way.parts.last()];
         let [Some(first), Some(last)] = ends.map(|part| part.map(|p| p.pose(grasp.grip.handle)))
         else {
@@ -325,7 +314,11 @@ impl<'w> HandleChooser<'w> {
 
     /// The angles about the bar with which the hand may be within reach all the way and after it: the arm is
     /// asked at some points, the last ones first, since most ways lead out of reach.
-    fn pivots_within_reach(&self, grasp: &Grasp, may_reach: impl Fn(&Pose) -> bool) -> Vec<f64> {
+    fn pivots_within_reach(
+        &self,
+        grasp: &HandleGrasp,
+        may_reach: impl Fn(&Pose) -> bool,
+    ) -> Vec<f64> {
         let mut pivots = self.pivots();
         pivots.retain(|pivot| {
             let tools = self.way.tools(&grasp.grip, [0.0, *pivot]);
@@ -342,7 +335,7 @@ impl<'w> HandleChooser<'w> {
         &self,
         side: Side,
         torso: &TorsoSearch<'_>,
-        grasp: &Grasp,
+        grasp: &HandleGrasp,
         pivots: &[f64],
         robot: &RobotConfiguration,
         (checks, most_checks): (&mut usize, usize),
@@ -391,7 +384,7 @@ impl<'w> HandleChooser<'w> {
     fn whole_way(
         &self,
         side: Side,
-        grasp: &Grasp,
+        grasp: &HandleGrasp,
         pivots: &[f64],
         robot: &RobotConfiguration,
         posture: &ArmPositions,
@@ -414,13 +407,14 @@ impl<'w> HandleChooser<'w> {
             let joints = models.description.arm(side).joints();
             let mut hits = points.iter().map(|point| {
                 let there = with_joints(robot, joints, point);
-                checker.first_hit(&there, &AllowedPairs::none(), MARGIN)
+                checker.first_hit(&there, &self.close, MARGIN)
             });
             match hits.find_map(|hit| hit) {
                 None => Ok(()),
                 Some(hit) => Err(HandleObstacle::Collision(Box::new(hit))),
             }
         };
+        self.points.set(self.points() + 1);
         is_free(&[*posture], first)?;
         let tool = grasp.grip.tool(&first.pose(handle), 0.0);
         let approach = line(&(tool * away()), &tool);
@@ -454,6 +448,31 @@ impl<'w> HandleChooser<'w> {
     }
 }
 
+/// The links of the robot that are close to each other as it stands, and that neither the torso nor one of the arms
+/// moves relative to each other: a head that looks down at its shoulders, say, wherever the base is.
+fn close_links(world: &World, arms: &[Side]) -> AllowedPairs {
+    let models = world.models();
+    let mut moved: Vec<JointId> = models.description.torso.joint.into_iter().collect();
+    for side in arms {
+        let arm = models.description.arm(*side);
+        moved.extend(arm.joints());
+        moved.push(arm.gripper.joint);
+    }
+    let parts = MovingParts::of_joints(&models.robot, &moved);
+    let robot = world.robot_configuration();
+    let mut checker = world.collision_checker();
+    let near = checker.all_hits(robot, &AllowedPairs::none(), MARGIN);
+    near.into_iter().fold(AllowedPairs::none(), |close, hit| {
+        let links = [&hit.moving, &hit.other].map(BodyName::robot_link);
+        match links {
+            [Some(one), Some(other)] if !parts.part(one, other) && hit.depth < GREATEST_LAG => {
+                close.and(hit.moving, hit.other)
+            }
+            _ => close,
+        }
+    })
+}
+
 /// From the bar to where the hand is before the approach, along the tool's axis.
 fn away() -> Translation3<f64> {
     Translation3::new(-AWAY, 0.0, 0.0)
@@ -464,126 +483,4 @@ fn line(from: &Pose, to: &Pose) -> Vec<Pose> {
     let count = (AWAY / APPROACH_STEP).ceil() as u32;
     let at = |i: u32| spatial::pose::between(from, to, f64::from(i) / f64::from(count));
     (0..=count).map(at).collect()
-}
-
-/// The ways to take the bar, the plainest first.
-fn grasps(world: &World, question: &HandleQuestion) -> Vec<Grasp> {
-    let handle = question.handle;
-    if let Some(knob) = world.models().knob(handle) {
-        return grasps_of_knob(world, question, &knob);
-    }
-    let (bar, half) = world.bar(handle);
-    let middle = world.bar_middle(handle);
-    let out = outward(world, handle, &bar);
-    let is_upright = (world.furniture_pose(handle).rotation * bar).z.abs() > 0.7;
-    let mut all = Vec::new();
-    for shift in SHIFTS {
-        if shift.abs() > (half - END).max(0.0) {
-            continue;
-        }
-        for tilt in TILTS {
-            for roll in [1.0, -1.0] {
-                let name = match (is_upright, tilt) {
-                    (false, _) => "FRONT-ALONG-Y",
-                    (true, t) if t > 0.0 => "LEFT-SIDE",
-                    (true, t) if t < 0.0 => "RIGHT-SIDE",
-                    (true, _) => "FRONT",
-                };
-                let is_wanted = |wanted: &String| wanted == name;
-                if !question.grasps.is_empty() && !question.grasps.iter().any(is_wanted) {
-                    continue;
-                }
-                // x towards the furniture, z along the bar, so that the fingers close across it.
-                let x = -out;
-                let z = bar * roll;
-                let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
-                let facing =
-                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-                let point = Point3::from(middle + bar * shift);
-                let tool =
-                    Pose::from_parts(Translation3::from(point.coords), turn(&bar, tilt) * facing);
-                all.push(Grasp {
-                    name,
-                    grip: BarGrip {
-                        handle,
-                        tool,
-                        point,
-                        bar,
-                    },
-                });
-            }
-        }
-    }
-    all
-}
-
-/// The ways to take a knob: the fingers level or upright first.
-fn grasps_of_knob(world: &World, question: &HandleQuestion, knob: &Knob) -> Vec<Grasp> {
-    const NAME: &str = "FRONT";
-    let models = world.models();
-    if !question.grasps.is_empty() && !question.grasps.iter().any(|wanted| wanted == NAME) {
-        return Vec::new();
-    }
-    // The fingers swing, so that their tips are elsewhere when they have closed.
-    let gaps = [OPENING, 2.0 * knob.radius];
-    let hands = question.arms.iter();
-    let reaches = hands.flat_map(|side| gaps.map(|gap| HandShape::new(models, *side, gap).ahead()));
-    let ahead = reaches.fold(0.0, f64::max);
-    let tip = knob.ends[0] + KNOB_CLEARANCE;
-    if tip >= knob.ends[1] {
-        return Vec::new();
-    }
-    let x = -knob.outward;
-    let up = world.furniture_pose(knob.link).rotation.inverse() * Vector3::z();
-    let across = (up - x * up.dot(&x)).try_normalize(1e-3);
-    let across = across.unwrap_or_else(|| {
-        let side = Vector3::y() - x * x.y;
-        side.try_normalize(1e-3).unwrap_or_else(Vector3::z)
-    });
-    let middle = Point3::from(knob.outward * (knob.ends[0] + knob.ends[1]) / 2.0);
-    let tool = knob.outward * (tip + ahead);
-    let mut turns: Vec<u32> = (0..KNOB_TURNS).collect();
-    // Quarters first.
-    turns.sort_by_key(|i| i % (KNOB_TURNS / 4) != 0);
-    let grasp = |i: u32| {
-        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(KNOB_TURNS);
-        let z = turn(&x, angle) * across;
-        let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
-        let facing = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        Grasp {
-            name: NAME,
-            grip: BarGrip {
-                handle: knob.link,
-                tool: Pose::from_parts(Translation3::from(tool), facing),
-                point: middle,
-                bar: knob.outward,
-            },
-        }
-    };
-    turns.into_iter().map(grasp).collect()
-}
-
-/// The direction from the furniture to the bar, in the frame of the handle: away from the posts, or
-/// else where the bar goes when its joint begins to move.
-fn outward(world: &World, handle: LinkId, bar: &Vector3<f64>) -> Vector3<f64> {
-    let across = |v: Vector3<f64>| v - bar * v.dot(bar);
-    let posts = world.handle_posts(handle);
-    let kitchen = &world.models().kitchen;
-    let along = kitchen
-        .ancestors(handle)
-        .map(|joint| kitchen.joint(joint))
-        .find(|joint| joint.is_actuated())
-        .map_or_else(Vector3::x, |joint| {
-            let here = world.furniture_pose(handle);
-            let child = here.inverse() * world.furniture_pose(joint.child);
-            let axis = child.rotation * joint.axis.into_inner();
-            match joint.kind {
-                JointKind::Prismatic => axis,
-                _ => axis.cross(&(world.bar_middle(handle) - child.translation.vector)),
-            }
-        });
-    across(-posts)
-        .try_normalize(1e-3)
-        .or_else(|| across(along).try_normalize(1e-3))
-        .unwrap_or_else(|| turn(&Vector3::z(), trig::wrap(std::f64::consts::FRAC_PI_2)) * bar)
 }

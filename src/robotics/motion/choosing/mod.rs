@@ -11,6 +11,7 @@ mod hand_directions;
 pub(crate) mod hand_reach;
 mod hand_shape;
 pub(crate) mod handle_chooser;
+mod handle_grasps;
 mod lone_hand;
 pub(crate) mod overhead;
 pub(crate) mod put_reach;

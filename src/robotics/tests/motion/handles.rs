@@ -181,6 +181,27 @@ fn a_hand_that_leaves_the_way_of_the_handle_loses_it() {
 }
 
 #[test]
+fn wherever_the_head_looks_the_same_way_to_take_a_handle_is_found() {
+    // Between 1.2 and 1.3 rad, the head is 4 mm from the torso.
+    let mut kitchen = Kitchen::parked(0.4, 0.6, 0.0, 0.2);
+    let level = kitchen.choose(UPPER, 0.4, &[Side::Right, Side::Left]);
+    let models = kitchen.world.models();
+    let neck = models.description.neck.joints.clone();
+    let tilt = *neck.last().unwrap();
+    let limits = models.robot.joint(tilt).limits.unwrap();
+    let count = 20;
+    for i in 0..=count {
+        let part = f64::from(i) / f64::from(count);
+        let at = limits.lower + part * (limits.upper - limits.lower);
+        let mut robot = kitchen.world.robot_configuration().clone();
+        robot.joints.set(tilt, at);
+        kitchen.world.teleport_robot(&robot);
+        let choice = kitchen.choose(UPPER, 0.4, &[Side::Right, Side::Left]);
+        assert_eq!(choice, level, "the head tilted by {at} rad");
+    }
+}
+
+#[test]
 fn a_box_in_front_of_a_drawer_stops_it_before_it_begins() {
     let mut kitchen = Kitchen::parked(0.4, 0.5, 0.0, 0.1);
     let choice = kitchen.choose(BOTTOM, 0.4, &[Side::Right, Side::Left]);
