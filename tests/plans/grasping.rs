@@ -119,7 +119,7 @@ fn what_the_fingers_do_not_hold_cannot_be_attached() {
 }
 
 /// Grips the bottle without picking it up: moves the hand around it and closes the fingers.
-const GRIP_ONLY: &str = "
+pub(super) const GRIP_ONLY: &str = "
     (destructuring-bind (pre pre2 grasp lift lift2)
         (pp-plans::grasping-poses *bottle* :right :left-side)
       (declare (ignore lift2))
@@ -134,7 +134,7 @@ const GRIP_ONLY: &str = "
           (perform (a motion (type gripping) (gripper right) (object ?b))))))";
 
 /// Lifts the hand.
-const LIFT: &str = "(let ((?p *lift*))
+pub(super) const LIFT: &str = "(let ((?p *lift*))
     (perform (a motion (type moving-tcp) (right-target (a location (pose ?p)))
                 (collision-mode :allow-hand))))";
 

@@ -1,6 +1,7 @@
 //! Parking the arms, also where there is no room for it.
 
 use super::cook::Cook;
+use super::grasping::{GRIP_ONLY, LIFT};
 
 /// Evaluates to the poses of the base (x, y) at which the arms may be parked.
 const PLACES: &str = "(mapcar (lambda (pose)
@@ -121,4 +122,21 @@ fn what_a_hand_holds_over_an_open_drawer_is_lifted_over_its_front() {
     let base = cook.session.simulation().world().robot_configuration().base;
     assert!((base.translation.x + 0.1).abs() < 0.01, "{said}");
     cook.assert_no_overlap();
+}
+
+/// The fingers are still around the bottle: any way but straight back would push it, and then nothing leads away.
+#[test]
+fn a_hand_that_something_has_slipped_out_of_is_withdrawn_before_it_is_parked() {
+    let mut cook = Cook::at_table_with_bottle_of(":mass 1.5");
+    cook.done(&GRIP_ONLY.replace("(gripper right) (object ?b)", "(gripper right) (effort 10)"));
+    let report = cook.fails("GRIPPER-CLOSED-COMPLETELY", LIFT);
+    assert!(
+        report.contains("has slipped out of the right hand"),
+        "{report}"
+    );
+    let stands = cook.pose("BOTTLE-1");
+    let said = cook.done("(with-simulated-robot (pp-plans::park-arms-nearby))");
+    assert!(!said.contains("pushed"), "{said}");
+    assert_ne!(cook.done("(pp-plans::parked-p :right)"), "NIL\n");
+    assert!(cook.distance("BOTTLE-1", &stands) < 2e-3);
 }
