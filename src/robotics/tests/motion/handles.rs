@@ -182,22 +182,20 @@ fn a_hand_that_leaves_the_way_of_the_handle_loses_it() {
 
 #[test]
 fn wherever_the_head_looks_the_same_way_to_take_a_handle_is_found() {
-    // Between 1.2 and 1.3 rad, the head is 4 mm from the torso.
     let mut kitchen = Kitchen::parked(0.4, 0.6, 0.0, 0.2);
     let level = kitchen.choose(UPPER, 0.4, &[Side::Right, Side::Left]);
-    let models = kitchen.world.models();
-    let neck = models.description.neck.joints.clone();
-    let tilt = *neck.last().unwrap();
-    let limits = models.robot.joint(tilt).limits.unwrap();
-    let count = 20;
-    for i in 0..=count {
-        let part = f64::from(i) / f64::from(count);
-        let at = limits.lower + part * (limits.upper - limits.lower);
+    let neck = kitchen.world.models().description.neck.joints.clone();
+    let [pan, tilt] = neck[..] else {
+        panic!("{neck:?}")
+    };
+    // Turned aside and down so far, the head is less than 4.5 mm from the torso.
+    for (aside, down) in [(0.4, 1.27), (-0.4, 1.33), (0.0, 1.33), (0.4, 0.5)] {
         let mut robot = kitchen.world.robot_configuration().clone();
-        robot.joints.set(tilt, at);
+        robot.joints.set(pan, aside);
+        robot.joints.set(tilt, down);
         kitchen.world.teleport_robot(&robot);
         let choice = kitchen.choose(UPPER, 0.4, &[Side::Right, Side::Left]);
-        assert_eq!(choice, level, "the head tilted by {at} rad");
+        assert_eq!(choice, level, "{aside} rad aside, {down} rad down");
     }
 }
 
