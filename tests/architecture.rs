@@ -350,9 +350,10 @@ fn root() -> &'static Path {
 }
 
 /// The crates that have Rust code in rooms.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "src/closest_name",
     "src/cram",
+    "src/defect",
     "src/front",
     "src/lisp",
     "src/robotics",

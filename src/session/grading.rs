@@ -4,13 +4,13 @@ use std::path::Path;
 use std::rc::Rc;
 use std::time::Duration;
 
+use crate::Session;
 use crate::bounds::{Limit, Limits};
 use crate::deeds::{Deed, Deeds};
 use crate::dialogue::{Evaluate, Finding};
 use crate::face::{Datum, Failure};
 use crate::lesson_file::{LessonFile, LessonPlan};
 use crate::person::Snapshot;
-use crate::{Session, defect};
 use cram::Handlers;
 use sweep::pairs::Pairs;
 use sweep::{Ending, Mark, Record};

@@ -10,7 +10,6 @@ mod console;
 mod converse;
 mod copy;
 mod deeds;
-pub mod defect;
 pub mod dialogue;
 mod face;
 mod facts;

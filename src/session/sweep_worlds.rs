@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
+use crate::Session;
 use crate::sweeping::{MAX_POLLS, Simpler};
-use crate::{Session, defect};
 use sweep::{Ending, Record};
 
 /// Runs worlds of a sweep, each in a session of its own. The file is loaded once, and every world gets a

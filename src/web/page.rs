@@ -5,10 +5,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use defect::caught;
 use lisp::guard::heap::HeapLimit;
 use lisp::visible::visible;
 use serde_json::{Value, json};
-use session::defect::caught;
 use session::dialogue::screen::input_name;
 use session::dialogue::{
     Converse, Evaluate, Event, Outcome, Repeat, Screen, Severity, Stop, is_whole,

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use cap::Cap;
+use defect::keep_caught_panics_quiet;
 use lisp::guard::heap::HeapLimit;
-use session::defect::keep_caught_panics_quiet;
 use session::outside::{Clock, Outside};
 use session::{Session, SessionOptions};
 

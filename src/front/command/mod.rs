@@ -52,7 +52,6 @@ use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
 use lisp::visible::visible;
 use paint::Paint;
-use session::defect;
 use stack::THREAD_STACK;
 use watching::WatchArguments;
 

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::panic;
 use std::path::PathBuf;
 use std::thread;
 
@@ -43,12 +42,7 @@ pub(crate) fn view(options: &Options, wanted: &ViewArguments) -> Result<Status, 
         .and_then(|()| fs::read(file))
         .map_err(|error| failed(error.into()))?;
     let history = History::new(Origin::Recording);
-    // A panic of the reader is an error of ours: its own message would only repeat that.
-    let hook = panic::take_hook();
-    panic::set_hook(Box::new(|_| {}));
-    let found = read_recording(&bytes, &history);
-    panic::set_hook(hook);
-    let found = found.map_err(failed)?;
+    let found = read_recording(&bytes, &history).map_err(failed)?;
     drop(bytes);
     // The named views depend on the kitchen that the options select.
     let session = open_session(options)?;

@@ -19,7 +19,6 @@ use super::package_text::package_name;
 use super::question::Questions;
 use super::sexp::Sexp;
 use lisp::image::input::Source;
-use session::defect;
 use session::dialogue::screen::input_name;
 use session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
 

@@ -5,7 +5,7 @@ use super::debugger;
 use super::engine::Engine;
 use super::hub::{self, Request};
 use super::sexp::Sexp;
-use session::defect::Defect;
+use defect::Defect;
 use session::dialogue::Outcome;
 use session::dialogue::screen::INTERRUPT;
 

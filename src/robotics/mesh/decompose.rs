@@ -4,6 +4,7 @@
 //! The library that does it numbers what it finds in the order of the input, and its arithmetic is that of
 //! the program, so the same surface always gives the same bits.
 
+use defect::caught;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 use parry3d_f64::transformation::voxelization::FillMode;
 
@@ -38,6 +39,9 @@ pub(super) const MAX_SOLID_TRIANGLES: usize = 200_000;
 /// longest side between which that is kept.
 const CELL: f64 = 4e-3;
 const CELLS: [f64; 2] = [32.0, 64.0];
+
+/// So many numbers of cells are tried, one after another, if the library fails.
+const TRIES: usize = 4;
 
 /// The convex bodies that stand for the parts of a mesh, the largest first.
 pub(super) fn bodies(parts: &[MeshPart]) -> Result<Vec<Polyhedron>, String> {
@@ -165,15 +169,27 @@ fn bulge(bodies: &[Polyhedron], measured: &Measured) -> f64 {
     quantile(&measured.bulges(bodies), 0.95)
 }
 
+/// The bodies that a surface is taken apart into, with so many cells along its longest side.
+///
+/// The library panics when rounding makes the hull of some of the cells fail, which has nothing to do
+/// with the surface: with one cell more there are other hulls.
 fn taken_apart(
     surface: &Polyhedron,
     cells: f64,
     concavity: f64,
     most: u32,
 ) -> Option<Vec<Polyhedron>> {
+    let fewest = cells as u32;
+    (fewest..).take(TRIES).find_map(|resolution| {
+        let bodies = caught(|| with_cells(surface, resolution, concavity, most));
+        bodies.ok().filter(|bodies| !bodies.is_empty())
+    })
+}
+
+fn with_cells(surface: &Polyhedron, resolution: u32, concavity: f64, most: u32) -> Vec<Polyhedron> {
     let parameters = VHACDParameters {
         concavity,
-        resolution: cells as u32,
+        resolution,
         max_convex_hulls: most,
         fill_mode: FillMode::FloodFill {
             detect_cavities: false,
@@ -188,5 +204,44 @@ fn taken_apart(
         let points: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
         bodies.extend(hull(&points));
     }
-    (!bodies.is_empty()).then_some(bodies)
+    bodies
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_pcg::Pcg64;
+    use rand_pcg::rand_core::{Rng, SeedableRng};
+
+    /// Triangles between points of a coarse grid.
+    fn soup(seed: u64) -> Polyhedron {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut below = |most: u32| random.next_u32() % most;
+        let corners = (0..40).map(|_| [(); 3].map(|()| 0.3 * (f64::from(below(3)) - 1.0)));
+        let corners = corners.collect();
+        let count = 1 + below(59);
+        let triangles = (0..count).map(|_| [(); 3].map(|()| below(40)));
+        Polyhedron {
+            triangles: triangles.collect(),
+            corners,
+        }
+    }
+
+    #[test]
+    fn what_the_library_fails_at_is_taken_apart_with_more_cells() {
+        let surface = soup(789);
+        let defect = caught(|| with_cells(&surface, 32, 0.01, 16));
+        assert!(defect.is_err(), "choose another surface");
+        let bodies = taken_apart(&surface, 32.0, 0.01, 16).expect("it is taken apart");
+        assert!(!bodies.is_empty());
+        // Each corner of a triangle is in one of the bodies, but for what cells round.
+        for corner in surface.triangles.iter().flatten() {
+            let corner = surface.corners[*corner as usize];
+            let is_near = |body: &Polyhedron| {
+                let [low, high] = body.bounds().expect("a body has corners");
+                (0..3).all(|axis| (low[axis] - 0.02..=high[axis] + 0.02).contains(&corner[axis]))
+            };
+            assert!(bodies.iter().any(is_near), "{corner:?}");
+        }
+    }
 }

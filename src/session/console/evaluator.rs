@@ -8,7 +8,6 @@ use super::line_breaks;
 use super::other_syntax;
 use super::stopped::Console;
 use crate::bounds::Limits;
-use crate::defect;
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Abort, Event, Outcome};
 use crate::facts;

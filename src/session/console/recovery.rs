@@ -1,8 +1,8 @@
 //! Going on after a defect: a panic in the middle of an input.
 
 use super::evaluator::Evaluator;
-use crate::defect::Defect;
 use crate::dialogue::{Abort, Event, Outcome};
+use defect::Defect;
 use view::watch::Cause;
 
 /// What people are asked to do.

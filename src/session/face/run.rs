@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::{Datum, Failure, Unhandled, from_value, into_value, names};
+use crate::Session;
 use crate::bounds::{InterruptHandle, Limit, Limits};
 use crate::console::{Ended, end_of, recovery};
 use crate::dialogue::screen::INTERRUPT;
 use crate::dialogue::{Abort, Event, Outcome};
-use crate::{Session, defect};
 use lisp::files::utf8;
 use lisp::reader::Reader;
 use lisp::value::Value;

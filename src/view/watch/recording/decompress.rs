@@ -5,8 +5,8 @@
 
 use std::borrow::Cow;
 use std::io::{self, ErrorKind, Read};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use defect::caught;
 use lz4_flex::frame::FrameDecoder;
 use mcap::records::op;
 use mcap::{MAGIC, McapError};
@@ -14,7 +14,6 @@ use ruzstd::decoding::StreamingDecoder;
 
 use super::RecordingError;
 use super::chunks::Content;
-use super::read::panicked;
 
 /// Maximum unpacked size (bytes) of a chunk. Recorders write chunks of some megabytes.
 pub(super) const MAX_CHUNK: u64 = 1 << 30;
@@ -158,8 +157,7 @@ impl<'a> Chunk<'a> {
     pub(super) fn unpacked(record: &[u8], mut bytes: Vec<u8>) -> Result<Content, RecordingError> {
         let chunk = Chunk::of(record).ok_or(McapError::UnexpectedEof)?;
         if chunk.is_compressed() {
-            let unpack = AssertUnwindSafe(|| chunk.unpack_content(&mut bytes));
-            catch_unwind(unpack).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))?;
+            caught(|| chunk.unpack_content(&mut bytes))??;
         } else {
             bytes.clear();
             bytes.extend_from_slice(chunk.content);

@@ -37,6 +37,7 @@ pub use rows::{Datum, Rows};
 
 use std::io::{self, ErrorKind};
 
+use defect::Defect;
 use thiserror::Error;
 
 /// Why a recording cannot be written or read.
@@ -95,6 +96,12 @@ impl From<mcap::McapError> for RecordingError {
             Some(code) => io::Error::from_raw_os_error(code).into(),
             None => Self::Format(error),
         }
+    }
+}
+
+impl From<Defect> for RecordingError {
+    fn from(defect: Defect) -> Self {
+        Self::Reader(defect.message().to_owned())
     }
 }
 

@@ -1,9 +1,8 @@
 //! Reading a recording back.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use defect::caught;
 use indexmap::IndexMap;
 use mcap::read::Options;
 use mcap::{McapError, MessageStream};
@@ -37,16 +36,7 @@ pub struct Recording {
 ///
 /// Damage that makes the library for MCAP files panic is an error, too.
 pub fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
-    let read = AssertUnwindSafe(|| read_messages(&decompressed(bytes)?, to));
-    catch_unwind(read).unwrap_or_else(|payload| Err(panicked(payload.as_ref())))
-}
-
-/// The error for a panic of the library for MCAP files.
-pub(super) fn panicked(payload: &(dyn Any + Send)) -> RecordingError {
-    let text = payload.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
-    let text = text.unwrap_or("no reason is given");
-    RecordingError::Reader(text.to_owned())
+    caught(|| read_messages(&decompressed(bytes)?, to))?
 }
 
 fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {

@@ -1,4 +1,4 @@
-//! Defects: panics, in this program or in a library, which end no session.
+//! Defects: panics, in the program or in a library, which end no session.
 //!
 //! Whoever can go on after a panic catches it here. Nothing is written to the terminal then; what
 //! the panic says, and where, is in the [`Defect`].
@@ -15,6 +15,13 @@ pub struct Defect {
     message: String,
     /// The file and line of the source, if known.
     place: Option<String>,
+}
+
+impl Defect {
+    /// What the panic says.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
 }
 
 impl fmt::Display for Defect {
