@@ -229,6 +229,46 @@ fn circles_of_all_kinds_of_objects_are_freed_whatever_their_size() {
 }
 
 #[test]
+fn symbols_go_with_what_refers_to_them() {
+    let _alone = alone();
+    let mut session = Session::new(&limited(1 << 30)).unwrap();
+    let mut run = |text: &str| allocated_after(&mut session, text);
+    run(
+        "(defmacro twice (x) (let ((g (gensym))) `(let ((,g ,x)) (+ ,g ,g))))
+         (defvar *place* (list 1 2))",
+    );
+    for form in [
+        "(eval '(loop for x in '(1 2) collect x))",
+        "(eval '(dolist (x '(1 2)) x))",
+        "(eval '(incf (car *place*)))",
+        "(eval '(twice 3))",
+        "(eval '(handler-case (error \"no\") (error (e) e)))",
+        "(eval '(cpl:with-failure-handling ((cpl:simple-plan-failure (e) e)) 1))",
+        "(let ((g (gensym))) (eval `(let ((,g 1)) (lambda () ,g))))",
+        "(let ((g (gensym))) (eval `(flet ((,g (x) x)) (,g 1))))",
+        "(let ((g (gensym))) (eval `(defun ,g (n) (if (= n 0) 1 (,g (- n 1))))))",
+        "(let ((g (gensym))) (eval `(defun ,g () (lambda () '(,g)))))",
+        "(let ((g (gensym))) (setf (symbol-function g) (eval `(lambda () (,g)))))",
+        "(unintern (intern (format nil \"NEW-~a\" (random 1000000000))))",
+        "(unintern (gentemp))",
+        "(let ((s (intern (format nil \"NEW-~a\" (random 1000000000)))))
+           (setf (get s 'self) s (symbol-value s) (list s))
+           (unintern s))",
+        "(let ((p (make-package (format nil \"NEW-~a\" (random 1000000000)))))
+           (intern \"A\" p)
+           (export (intern \"B\" p) p)
+           (delete-package p))",
+    ] {
+        let before = run(&format!("(dotimes (i 1000) {form}) (tg:gc :full t)"));
+        let after = run(&format!("(dotimes (i 3000) {form}) (tg:gc :full t)"));
+        assert!(
+            after < before + 65_536,
+            "{before} B after 1,000 times {form}, {after} B after 4,000"
+        );
+    }
+}
+
+#[test]
 fn memory_that_circles_hold_is_freed_before_it_is_said_to_be_exhausted() {
     let _alone = alone();
     let limit = HEAP.allocated() + (48 << 20);

@@ -391,7 +391,7 @@ fn with_desig_props(image: &mut Image, form: &Value) -> Result<Value> {
     let rest = form.cdr_or_nil();
     let (names, rest) = (rest.car_or_nil(), rest.cdr_or_nil());
     let (designator, body) = (rest.car_or_nil(), rest.cdr_or_nil());
-    let variable = Value::from(image.gensym("DESIG"));
+    let variable = image.gensym("DESIG");
     let reader = packages::symbol(image, "CRAM-DESIGNATORS", "DESIG-PROP-VALUE");
     let mut bindings = vec![list(vec![variable.clone(), designator])];
     for name in names.iter_list() {

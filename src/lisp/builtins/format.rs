@@ -206,8 +206,8 @@ fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>
         // A wrong control string is reported now, not when the function is called.
         Control::parse(&text)?;
     }
-    let target: Value = image.gensym("STREAM").into();
-    let arguments: Value = image.gensym("ARGUMENTS").into();
+    let target = image.gensym("STREAM");
+    let arguments = image.gensym("ARGUMENTS");
     let parameters = [target.clone(), known::L_REST.into(), arguments.clone()];
     let call: [Value; 5] = [
         known::APPLY.into(),

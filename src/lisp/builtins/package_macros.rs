@@ -241,7 +241,7 @@ fn package_symbols(image: &mut Image, package: &Value, kind_value: &Value) -> Ou
             chosen.map(|(sym, _)| *sym).collect()
         }
     };
-    Ok(Value::list(symbols.into_iter().map(Value::symbol)))
+    Ok(image.symbols.values(symbols))
 }
 
 /// An iterator over the symbols of packages.
@@ -261,7 +261,8 @@ fn package_iterator(image: &mut Image, packages: &Value, kinds_value: &Value) ->
                 .map(|(_, access)| access);
             let status = status(access);
             if kinds.iter().any(|kind| kind.is_eq(&status)) {
-                entries.push(Value::list([sym.into(), status, Value::Package(id)]));
+                let symbol = image.symbols.value(sym);
+                entries.push(Value::list([symbol, status, Value::Package(id)]));
             }
         }
     }

@@ -176,11 +176,8 @@ fn package_shadowing_symbols(image: &mut Image, package: PackageId) -> Outcome {
     let id = package;
     let this = image.packages.get(id);
     let symbols = this.shadowing.iter().filter_map(|n| this.symbols.get(n));
-    Ok(Value::list(
-        symbols
-            .map(|(sym, _)| Value::symbol(*sym))
-            .collect::<Vec<_>>(),
-    ))
+    let symbols: Vec<Sym> = symbols.map(|(sym, _)| *sym).collect();
+    Ok(image.symbols.values(symbols))
 }
 
 /// All packages.
@@ -207,7 +204,7 @@ fn find_all_symbols(image: &mut Image, name: String) -> Outcome {
             found.push(*sym);
         }
     }
-    Ok(Value::list(found.into_iter().map(Value::symbol)))
+    Ok(image.symbols.values(found))
 }
 
 pub(super) fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>> {

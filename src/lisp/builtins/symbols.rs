@@ -120,7 +120,7 @@ fn gentemp(
     loop {
         let name = format!("{prefix}{count}");
         if image.packages.find_symbol(package, &name).is_none() {
-            return Ok(image.intern(package, &name).into());
+            return Ok(image.intern_for_program(package, &name));
         }
         count += 1;
     }
@@ -323,12 +323,9 @@ fn intern(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>) -> 
     let name = name.text();
     let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
-    let sym = match found {
-        Some((sym, _)) => sym,
-        None => image.intern(package, &name),
-    };
+    let symbol = image.intern_for_program(package, &name);
     let status = super::packages::status(found.map(|(_, access)| access));
-    Ok(Value::values(vec![sym.into(), status]))
+    Ok(Value::values(vec![symbol, status]))
 }
 
 /// The symbol of a name, and how it is accessible, or `NIL`.
@@ -340,7 +337,7 @@ fn find_symbol(image: &mut Image, name: &Rc<LispString>, package: Option<&Value>
     let package = super::packages::or_current(image, package)?;
     let found = image.packages.find_symbol(package, &name);
     Ok(Value::values(vec![
-        found.map_or(Value::NIL, |(sym, _)| sym.into()),
+        found.map_or(Value::NIL, |(sym, _)| image.symbols.value(sym)),
         super::packages::status(found.map(|(_, access)| access)),
     ]))
 }

@@ -40,6 +40,8 @@ pub(super) struct Compiler<'a> {
     pub place: Place,
     /// The macro call that the next form is the expansion of.
     pub(super) expanded_from: Option<Value>,
+    /// What is to last until the code is made, since that may refer to symbols in it.
+    held: RefCell<Vec<Value>>,
 }
 
 impl<'a> Compiler<'a> {
@@ -52,6 +54,7 @@ impl<'a> Compiler<'a> {
             stopped: None,
             place: Place::NONE,
             expanded_from: None,
+            held: RefCell::default(),
         }
     }
 
@@ -81,7 +84,21 @@ impl<'a> Compiler<'a> {
             lambda_list: Value::NIL,
             doc: None,
         };
-        emit::emit_function(&lambda)
+        emit::emit_function(&lambda, &self.image.symbols)
+    }
+
+    /// Lets a passing symbol last until the code is made, which holds those that it refers to.
+    fn hold(&self, name: Sym) {
+        self.held
+            .borrow_mut()
+            .extend(self.image.symbols.held_value(name));
+    }
+
+    /// The same for the symbols in a macro's expansion.
+    fn hold_expansion(&self, expansion: &Value) {
+        if matches!(expansion, Value::Cons(_)) {
+            self.held.borrow_mut().push(expansion.clone());
+        }
     }
 
     /// Starts a function; returns its number.
@@ -155,7 +172,7 @@ impl<'a> Compiler<'a> {
 
     /// A new variable of the current function.
     pub(crate) fn new_var(&self, name: Sym) -> Rc<Var> {
-        self.image.symbols.keep(name);
+        self.hold(name);
         Rc::new(Var {
             name,
             owner: self.current,
@@ -274,7 +291,7 @@ impl<'a> Compiler<'a> {
             Some(VariableMeaning::Special) => return Ok(Node::Global(name, self.place)),
             None => {}
         }
-        self.image.symbols.keep(name);
+        self.hold(name);
         let data = self.image.symbol(name);
         if let Some(expansion) = data.symbol_macro.clone() {
             return self.analyze(&expansion, scope);
@@ -357,6 +374,7 @@ impl<'a> Compiler<'a> {
             None => {}
         }
         if let Some(guarded) = super::locks::guarded_definition(self.image, form, self.place) {
+            self.hold_expansion(&guarded);
             return self.analyze(&guarded, scope);
         }
         match &self.image.symbol(name).function {
@@ -418,6 +436,7 @@ impl<'a> Compiler<'a> {
         expansion: &Value,
         scope: &Scope,
     ) -> Compiled<Node> {
+        self.hold_expansion(expansion);
         self.expanded_from = Some(call.clone());
         let node = self.analyze(expansion, scope);
         self.expanded_from = None;

@@ -33,7 +33,7 @@ pub(super) fn or(image: &mut Image, form: &Value) -> Expansion {
     if rest.is_nil() {
         return Ok(first);
     }
-    let value: Value = image.gensym("VALUE").into();
+    let value = image.gensym("VALUE");
     let test = form![
         known::IF,
         value.clone(),
@@ -49,7 +49,7 @@ pub(super) fn prog1(image: &mut Image, form: &Value) -> Expansion {
     if args.is_nil() {
         return Err(Raise::program("PROG1 takes a form whose value it returns."));
     }
-    let value: Value = image.gensym("VALUE").into();
+    let value = image.gensym("VALUE");
     let binding = form![form![value.clone(), args.car_or_nil()]];
     let rest = args.cdr_or_nil();
     Ok(form![
@@ -71,7 +71,7 @@ pub(super) fn multiple_value_bind(image: &mut Image, form: &Value) -> Expansion 
             print::to_string(image, &name.into(), true)
         )));
     }
-    let others: Value = image.gensym("OTHERS").into();
+    let others = image.gensym("OTHERS");
     let mut parameters = vec![known::L_OPTIONAL.into()];
     parameters.extend(variables.iter_list());
     parameters.extend([known::L_REST.into(), others.clone()]);

@@ -13,7 +13,7 @@ use crate::value::symbol::Sym;
 type Expansion = Result<Value, Box<Raise>>;
 
 fn gensym(image: &mut Image, prefix: &str) -> Value {
-    image.gensym(prefix).into()
+    image.gensym(prefix)
 }
 
 /// First argument, and the others.

@@ -26,7 +26,7 @@ impl Bindings<'_> {
     }
 
     fn gensym(&mut self, prefix: &str) -> Value {
-        self.image.gensym(prefix).into()
+        self.image.gensym(prefix)
     }
 
     /// Binds a name or, through a temporary variable, the names of a pattern.
@@ -168,7 +168,7 @@ pub(super) fn expand_destructuring_bind(
     let args = form.cdr_or_nil();
     let lambda_list = args.car_or_nil();
     let rest = args.cdr_or_nil();
-    let whole: Value = image.gensym("WHOLE").into();
+    let whole = image.gensym("WHOLE");
     let parsed = LambdaList::parse(image, &lambda_list, true)?;
     let mut bindings = Bindings {
         image,
@@ -191,8 +191,8 @@ pub(crate) fn macro_function(
     lambda_list: &Value,
     body: &Value,
 ) -> Result<Value, Box<Raise>> {
-    let whole: Value = image.gensym("FORM").into();
-    let environment: Value = image.gensym("ENVIRONMENT").into();
+    let whole = image.gensym("FORM");
+    let environment = image.gensym("ENVIRONMENT");
     let parsed = LambdaList::parse(image, lambda_list, true)?;
     let mut bindings = Bindings {
         image,

@@ -99,7 +99,7 @@ fn asking(image: &mut Image, locked: &[Sym], what: &'static str, form: &Value) -
     let mut pairs = Vec::new();
     for name in locked {
         let text = image.name(*name).to_owned();
-        let other: Value = image.make_symbol(&text).into();
+        let other = image.symbols.make_for_program(text.into());
         pairs.push(Value::cons((*name).into(), other.clone()));
         others.insert(*name, other);
     }

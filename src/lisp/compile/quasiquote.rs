@@ -131,7 +131,7 @@ fn splice(image: &mut Image, item: &Value, depth: usize) -> Result<Option<Value>
         Some(known::UNQUOTE) if depth > 1 => match splice(image, &inner, depth - 1)? {
             Some(forms) => {
                 let unquote = quote(known::UNQUOTE.into());
-                let item = Value::symbol(image.gensym("ITEM"));
+                let item = image.gensym("ITEM");
                 let each = call(known::LIST, [unquote, item.clone()]);
                 let function = call(known::LAMBDA, [Value::list([item]), each]);
                 Ok(Some(call(known::MAPCAR, [function, forms])))

@@ -127,7 +127,7 @@ fn function_expansion(
 }
 
 fn gensym(image: &mut Image, prefix: &str) -> Value {
-    image.gensym(prefix).into()
+    image.gensym(prefix)
 }
 
 fn not_a_place(image: &Image, place: &Value) -> Box<Raise> {

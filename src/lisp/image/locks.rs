@@ -72,6 +72,7 @@ const BOUND_BY_MACROS: &[&str] = &[
 impl Image {
     /// Locks what all packages define by now, except those that are named.
     pub fn lock_packages(&mut self, open: &[&str]) {
+        self.symbols.complete_library();
         let open: Vec<PackageId> = open.iter().filter_map(|p| self.packages.find(p)).collect();
         let package = |data: &SymbolData| data.package.filter(|p| *p != PackageTable::KEYWORD);
         let mut locked = Names::default();

@@ -281,9 +281,17 @@ impl Image {
         self.symbols.get_mut(sym).value = value;
     }
 
-    /// The symbol `name` of a package, created if necessary.
+    /// The symbol `name` of a package, created if necessary. It stays.
     pub fn intern(&mut self, package: PackageId, name: &str) -> Sym {
-        self.packages.intern(&mut self.symbols, package, name)
+        let sym = self.packages.intern(&mut self.symbols, package, name);
+        self.symbols.keep(sym);
+        sym
+    }
+
+    /// The symbol `name` of a package as a running program interns it, created if necessary.
+    pub(crate) fn intern_for_program(&mut self, package: PackageId, name: &str) -> Value {
+        self.packages
+            .intern_for_program(&mut self.symbols, package, name)
     }
 
     /// The keyword of that name.
@@ -331,10 +339,10 @@ impl Image {
         self.symbols.make(name.into())
     }
 
-    /// An uninterned symbol with a fresh number, which stays: `G123`.
-    pub fn gensym(&mut self, prefix: &str) -> Sym {
+    /// An uninterned symbol with a fresh number: `G123`.
+    pub fn gensym(&mut self, prefix: &str) -> Value {
         let name = self.fresh_name(prefix);
-        self.make_symbol(&name)
+        self.symbols.make_for_program(name.into())
     }
 
     /// A name with a fresh number: `G123`.

@@ -13,7 +13,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
 
 /// The form of a whole loop.
 pub(crate) fn form(image: &mut Image, mut plan: Plan) -> Value {
-    let next_tag: Value = image.gensym("NEXT").into();
+    let next_tag = image.gensym("NEXT");
     let first_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.first));
     let next_steps = steps(image, &mut plan, |plan| std::mem::take(&mut plan.next));
     let mut tagbody = std::mem::take(&mut plan.initially);
@@ -128,7 +128,7 @@ fn assignments(image: &mut Image, plan: &mut Plan, sets: Vec<Assignment>, forms:
         if matches!(&tree, Value::Symbol(sym, ..) if *sym != known::NIL) {
             pairs.extend([tree, form]);
         } else {
-            let whole: Value = image.gensym("WHOLE").into();
+            let whole = image.gensym("WHOLE");
             plan.scratch.push(whole.clone());
             for (variable, part) in assign::parts(&tree, &whole) {
                 parts.extend([variable, part]);

@@ -41,7 +41,7 @@ fn expand(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
 
 /// A loop without clauses: repeats the forms for ever.
 fn simple(image: &mut Image, forms: Vec<Value>) -> Value {
-    let tag: Value = image.gensym("AGAIN").into();
+    let tag = image.gensym("AGAIN");
     let again = Value::list([known::GO.into(), tag.clone()]);
     let body = Value::list_with_tail(
         [known::TAGBODY.into(), tag],

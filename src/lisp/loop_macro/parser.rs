@@ -116,6 +116,6 @@ impl<'a> Parser<'a> {
 
     /// A fresh variable.
     pub(crate) fn fresh(&mut self, name: &str) -> Value {
-        self.image.gensym(name).into()
+        self.image.gensym(name)
     }
 }

@@ -153,8 +153,8 @@ impl Definition {
         Ok(match &self.report {
             None => Value::NIL,
             Some(text @ Value::Str(_)) => {
-                let condition = Value::symbol(image.gensym("CONDITION"));
-                let stream = Value::symbol(image.gensym("STREAM"));
+                let condition = image.gensym("CONDITION");
+                let stream = image.gensym("STREAM");
                 form![
                     known::LAMBDA,
                     form![condition.clone(), stream.clone()],

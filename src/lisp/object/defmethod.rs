@@ -105,8 +105,8 @@ fn method_function(
         let forms = Value::list_with_tail(body.declarations, body.forms);
         return form![known::NAMED_LAMBDA, name.clone(), lambda_list; forms];
     }
-    let next = Value::symbol(image.gensym("NEXT-METHOD"));
-    let args = Value::symbol(image.gensym("ARGS"));
+    let next = image.gensym("NEXT-METHOD");
+    let args = image.gensym("ARGS");
     // (or next (%no-next-method 'name)): the function to call.
     let callee = form![
         known::OR,

@@ -158,7 +158,10 @@ pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKi
         return Ok(image.intern(package, &name.name));
     }
     match image.packages.find_symbol(package, &name.name) {
-        Some((sym, Access::External)) => Ok(sym),
+        Some((sym, Access::External)) => {
+            image.symbols.keep(sym);
+            Ok(sym)
+        }
         _ if image.packages.get(package).is_open => Ok(image.export_symbol(package, &name.name)),
         Some(_) => Err(ReadErrorKind::NotExternal {
             name: name.name.clone(),

@@ -30,9 +30,12 @@ fn by_keywords(image: &mut Image, slots: &[StructureSlot]) -> (Value, Vec<Value>
     for slot in slots {
         let name = image.name(slot.name).to_owned();
         let keyword = image.keyword(&name);
-        let variable = image.make_symbol(&name);
-        parameters.push(form![form![keyword, variable], slot.initform.clone()]);
-        values.push(variable.into());
+        let variable = image.symbols.make_for_program(name.into());
+        parameters.push(form![
+            form![keyword, variable.clone()],
+            slot.initform.clone()
+        ]);
+        values.push(variable);
     }
     (Value::list(parameters), values)
 }

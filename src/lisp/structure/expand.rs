@@ -130,8 +130,8 @@ fn print_method(image: &mut Image, definition: &StructureDefinition) -> Option<V
         (None, Some(function)) => (function, true),
         (None, None) => return None,
     };
-    let object = Value::symbol(image.gensym("OBJECT"));
-    let stream = Value::symbol(image.gensym("STREAM"));
+    let object = image.gensym("OBJECT");
+    let stream = image.gensym("STREAM");
     let function = form![known::FUNCTION, function.clone()];
     let mut call = vec![
         known::FUNCALL.into(),

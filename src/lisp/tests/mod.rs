@@ -17,6 +17,7 @@ mod malformed_forms;
 mod metaobjects;
 mod method_combinations;
 mod package_locks;
+mod passing_symbols;
 mod pathnames;
 mod pretty_printer;
 mod printing;

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+use super::Value;
 use super::present_symbols::PresentSymbols;
 use super::symbol::{Sym, SymbolTable};
 
@@ -177,6 +178,29 @@ impl PackageTable {
         self.make_present(symbols, package, name, false)
     }
 
+    /// The same for a running program, as a value: a new symbol lasts until it is removed from the package and no
+    /// value refers to it. Keywords stay.
+    pub(crate) fn intern_for_program(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        name: &str,
+    ) -> Value {
+        if let Some((sym, _)) = self.find_symbol(package, name) {
+            return symbols.value(sym);
+        }
+        if package == Self::KEYWORD {
+            return self.make_present(symbols, package, name, false).into();
+        }
+        let name: Rc<str> = name.into();
+        let value = symbols.make_for_program(name.clone());
+        if let Some(sym) = value.as_symbol() {
+            symbols.get_mut(sym).package = Some(package);
+            self.get_mut(package).symbols.get_or_insert(&name, sym);
+        }
+        value
+    }
+
     /// The symbol under a name whose home is the package, where it is known that the package inherits none of
     /// that name; made present if there is none.
     pub(crate) fn intern_at_home(
@@ -289,6 +313,7 @@ impl PackageTable {
         let data = symbols.get_mut(sym);
         if data.package == Some(package) {
             data.package = None;
+            symbols.let_go(sym);
         }
         true
     }

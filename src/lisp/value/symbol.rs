@@ -3,10 +3,11 @@
 //! A symbol is an index into the image's symbol table. The symbols that Rust code names
 //! have fixed indices, listed in [`known`].
 //!
-//! The symbols that a running program makes without interning them, by `gensym` for example, are
-//! passing: the values of such a symbol share a [`Hold`], and when the last of them is gone, so is
-//! what the table knows of the symbol, its value, function and properties included. A passing symbol
-//! that compiled code refers to, or that has been declared to mean something, stays.
+//! The symbols that a running program makes, by `gensym` or `intern` for example, are passing: the values
+//! of such a symbol share a [`Hold`], and when the last of them is gone, so is what the table knows of the
+//! symbol, its value, function and properties included. A passing symbol that compiled code refers to, that
+//! the reader has found, or that has been declared to mean something, stays; so does one that belongs to a
+//! package, until it is removed from it.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashSet};
@@ -246,6 +247,8 @@ pub struct SymbolTable {
     gone: Rc<RefCell<Vec<Sym>>>,
     /// What is known of these.
     forgotten: SymbolData,
+    /// Are the symbols passing that a program interns? Those of the library are not.
+    is_library_complete: bool,
 }
 
 impl SymbolTable {
@@ -257,6 +260,20 @@ impl SymbolTable {
             next_passing: PASSING,
             gone: Rc::default(),
             forgotten: SymbolData::named("FORGOTTEN".into()),
+            is_library_complete: false,
+        }
+    }
+
+    /// From now on, the symbols that programs intern are passing.
+    pub fn complete_library(&mut self) {
+        self.is_library_complete = true;
+    }
+
+    /// Adds a symbol that belongs to no package, on behalf of a program.
+    pub(crate) fn make_for_program(&mut self, name: Rc<str>) -> Value {
+        match self.is_library_complete {
+            true => self.make_passing(name),
+            false => self.make(name).into(),
         }
     }
 
@@ -317,6 +334,43 @@ impl SymbolTable {
             next_passing: self.next_passing,
             gone: copier.holds().gone.clone(),
             forgotten: SymbolData::named(self.forgotten.name.clone()),
+            is_library_complete: self.is_library_complete,
+        }
+    }
+
+    /// A value of a symbol of a package, which holds it if it is passing.
+    pub fn value(&mut self, sym: Sym) -> Value {
+        let Some(passing) = self.passing.get_mut(&sym.0) else {
+            return sym.into();
+        };
+        let held = passing.held.upgrade().unwrap_or_else(|| {
+            let held = Held::new(sym, &self.gone);
+            passing.held = Rc::downgrade(&held);
+            if passing.is_suspect {
+                cycles::note_symbol(Suspect::Symbol(WeakHold(passing.held.clone())));
+            }
+            held
+        });
+        Value::Symbol(sym, Hold(Some(held)))
+    }
+
+    /// The list of such values.
+    pub(crate) fn values(&mut self, symbols: Vec<Sym>) -> Value {
+        let values: Vec<Value> = symbols.into_iter().map(|sym| self.value(sym)).collect();
+        Value::list(values)
+    }
+
+    /// A value that holds a passing symbol, if there are others; `None` for a symbol that needs none.
+    pub(crate) fn held_value(&self, sym: Sym) -> Option<Value> {
+        let held = self.passing.get(&sym.0)?.held.upgrade()?;
+        Some(Value::Symbol(sym, Hold(Some(held))))
+    }
+
+    /// Forgets a passing symbol that no longer belongs to a package, unless a value refers to it or it stays
+    /// for other reasons.
+    pub(super) fn let_go(&mut self, sym: Sym) {
+        if sym.0 >= PASSING {
+            self.gone.borrow_mut().push(sym);
         }
     }
 
@@ -412,12 +466,14 @@ impl SymbolTable {
         self.entries.len() + self.passing.len()
     }
 
-    /// All symbols but passing ones, in order of creation.
+    /// All symbols but passing ones that belong to no package, in order of creation.
     pub fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
-        self.entries
-            .iter()
-            .enumerate()
-            .map(|(i, data)| (Sym(u32::try_from(i).unwrap_or(u32::MAX)), data))
+        let entries = (0..).zip(&self.entries);
+        let passing = self.passing.iter();
+        let interned = passing.filter(|(_, passing)| passing.data.package.is_some());
+        let interned = interned.map(|(index, passing)| (*index, &passing.data));
+        let all = entries.chain(interned);
+        all.map(|(index, data)| (Sym(index), data))
     }
 }
 

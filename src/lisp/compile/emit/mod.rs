@@ -12,6 +12,7 @@ mod variables;
 
 pub use calls::is_inlined;
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::analyze::Compiled;
@@ -19,10 +20,11 @@ use super::node::{LambdaNode, Node};
 use super::scope::{Block, Tagbody, Var};
 use crate::source::Place;
 use crate::value::Value;
-use crate::value::code::{Capture, Code, Content, Local, SharedList, Signature};
+use crate::value::code::{Capture, Code, Content, Local, Parameters, SharedList, Signature};
 use crate::value::known;
 use crate::value::operation::Op;
 use crate::value::raise::Raise;
+use crate::value::symbol::{Sym, SymbolTable};
 
 /// Which values of a form its context uses.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -52,6 +54,7 @@ struct OpenTagbody {
 }
 
 struct Emitter<'a> {
+    symbols: &'a SymbolTable,
     id: usize,
     free: &'a [Rc<Var>],
     ops: Vec<Op>,
@@ -72,8 +75,9 @@ struct Emitter<'a> {
 const MORE_ROOM: usize = 2;
 
 /// Emits the code of a function.
-pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
+pub(super) fn emit_function(lambda: &LambdaNode, symbols: &SymbolTable) -> Compiled<Rc<Code>> {
     let mut emitter = Emitter {
+        symbols,
         id: lambda.id,
         free: &lambda.free,
         ops: Vec::new(),
@@ -97,6 +101,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         let name = lambda.name.as_symbol();
         tail_calls::mark(&mut emitter.ops, name, &lambda.parameters);
     }
+    emitter.hold_symbols(&lambda.parameters);
     let content = Content {
         ops: emitter.ops.into(),
         constants: emitter.constants,
@@ -130,6 +135,24 @@ fn short(slot: u32) -> Compiled<u16> {
 }
 
 impl Emitter<'_> {
+    /// Holds, among the constants, the passing symbols that the code refers to by their numbers.
+    fn hold_symbols(&mut self, parameters: &Parameters) {
+        let in_ops = self
+            .ops
+            .iter()
+            .filter_map(|op| op.clone().symbol_mut().copied());
+        let locals = self.locals.iter().map(|local| local.name);
+        let free = self.free.iter().map(|var| var.name);
+        let keys = parameters.keys.iter().copied();
+        let names: BTreeSet<Sym> = in_ops.chain(locals).chain(free).chain(keys).collect();
+        for name in names {
+            match self.symbols.held_value(name) {
+                Some(held) => self.constants.push(held),
+                None => self.symbols.keep(name),
+            }
+        }
+    }
+
     fn op(&mut self, op: Op) {
         self.most = self.most.max(self.height);
         self.ops.push(op);
@@ -421,7 +444,7 @@ impl Emitter<'_> {
     }
 
     fn emit_lambda(&mut self, lambda: &LambdaNode) -> Compiled<()> {
-        let code = emit_function(lambda)?;
+        let code = emit_function(lambda, self.symbols)?;
         let captures = lambda
             .free
             .iter()

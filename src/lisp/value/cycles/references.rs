@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::mark::Mark;
 use crate::value::Value;
+use crate::value::code::Code;
 use crate::value::function::{Body, Function};
 use crate::value::stream::{Stream, StreamKind};
 use crate::value::symbol::{FunctionCell, SymbolData, SymbolTable};
@@ -83,8 +84,9 @@ impl<'a> Objects<'a> {
             Value::Cons(cons) => cons.for_each(&mut visit),
             Value::Cell(slot) => slot.with(visit),
             Value::Function(function) => {
-                if let Body::Closure { captured, .. } = &function.body {
-                    captured.iter().for_each(visit);
+                if let Body::Closure { code, captured } = &function.body {
+                    captured.iter().for_each(&mut visit);
+                    of_code(code, &mut visit);
                 }
             }
             Value::Instance(instance) => {
@@ -105,6 +107,22 @@ impl<'a> Objects<'a> {
             }
             _ => {}
         }
+    }
+}
+
+/// What others use, too, appears to have no references, so that what it holds counts as held.
+fn of_code(code: &Rc<Code>, visit: &mut dyn FnMut(&Value)) {
+    if code.is_fixed || Rc::strong_count(code) > 1 {
+        return;
+    }
+    visit(code.name.shown());
+    if let Some(content) = code.content() {
+        visit(content.lambda_list.shown());
+        content.constants.iter().for_each(&mut *visit);
+        content
+            .inner
+            .iter()
+            .for_each(|(inner, _)| of_code(inner, visit));
     }
 }
 
