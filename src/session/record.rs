@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use lz4_flex::block::{compress_prepend_size, decompress_size_prepended};
+
 use super::dialogue::prompt_line::prompt_line;
 use super::dialogue::repeat::with_interrupt;
 use super::dialogue::{Event, Outcome, Screen};
@@ -24,10 +26,35 @@ struct Entry {
     /// What the prompt showed, with the state of a stopped evaluation.
     prompt: String,
     input: String,
-    screen: Screen<Vec<u8>>,
+    output: Output,
     interrupted_at: Option<u64>,
     /// Whether it asked to end the session; if the session went on, it had no effect.
     quits: bool,
+}
+
+/// What was shown after an input.
+#[derive(Clone)]
+enum Output {
+    /// More may follow.
+    Open(Screen<Vec<u8>>),
+    /// All of it, packed: a long session shows much.
+    Packed(Vec<u8>),
+}
+
+impl Output {
+    fn pack(&mut self) {
+        if let Output::Open(screen) = self {
+            *self = Output::Packed(compress_prepend_size(screen.written()));
+        }
+    }
+
+    fn text(&self) -> String {
+        let bytes: Cow<'_, [u8]> = match self {
+            Output::Open(screen) => screen.written().into(),
+            Output::Packed(bytes) => decompress_size_prepended(bytes).unwrap_or_default().into(),
+        };
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
 }
 
 impl Extension for Record {
@@ -41,10 +68,14 @@ impl Record {
     pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
-        self.0.borrow_mut().push(Entry {
+        let mut entries = self.0.borrow_mut();
+        if let Some(before) = entries.last_mut() {
+            before.output.pack();
+        }
+        entries.push(Entry {
             prompt,
             input: input.to_owned(),
-            screen,
+            output: Output::Open(screen),
             interrupted_at: None,
             quits: false,
         });
@@ -52,9 +83,11 @@ impl Record {
 
     /// Records an event.
     pub(crate) fn note(&self, event: &Event) {
-        if let Some(entry) = self.0.borrow_mut().last_mut() {
+        if let Some(entry) = self.0.borrow_mut().last_mut()
+            && let Output::Open(screen) = &mut entry.output
+        {
             // Writing to memory does not fail.
-            let _ = entry.screen.show(event);
+            let _ = screen.show(event);
         }
     }
 
@@ -96,7 +129,7 @@ impl Entry {
             None => Cow::Borrowed(input),
         };
         let mut text = format!("{}> {input}\n", self.prompt);
-        for line in String::from_utf8_lossy(self.screen.written()).lines() {
+        for line in self.output.text().lines() {
             text.push_str(&comparable(line));
             text.push('\n');
         }

@@ -16,6 +16,7 @@ use std::f64::consts::FRAC_PI_8;
 
 use super::base_path::Search;
 use super::drive_legs::{self, BACK_COST, TURN_COST};
+use super::pages::Pages;
 use crate::motion::failure::base_place::BasePlace;
 use crate::robot::description::DriveKind;
 use crate::world::{ExploredGrid, Known};
@@ -340,8 +341,8 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         self.known[start as usize] = Known::Free;
         self.known[goal as usize] = Known::Free;
         let size = self.known.len();
-        let mut costs = vec![f64::INFINITY; size];
-        let mut parents: Vec<Cell> = vec![start; size];
+        let mut costs = Pages::new(size, f64::INFINITY);
+        let mut parents = Pages::new(size, start);
         let mut done = vec![false; size];
         let mut backwards = Backwards {
             queue: VecDeque::from([goal]),
@@ -356,7 +357,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
                 return None;
             }
         }
-        costs[start as usize] = 0.0;
+        costs.set(start as usize, 0.0);
         let mut open = BinaryHeap::from([Candidate {
             total: 0.0,
             cell: start,
@@ -373,10 +374,10 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             if expanded > ONE_SIDED && !self.explore(&mut backwards, &done) {
                 return None;
             }
-            let so_far = costs[cell as usize];
+            let so_far = costs.get(cell as usize);
             let next: Vec<_> = self.beside(cell).chain(self.across(cell)).collect();
             for (next, step) in next {
-                if so_far + step >= costs[next as usize]
+                if so_far + step >= costs.get(next as usize)
                     || done[next as usize]
                     || self.bad_edges.contains(&(cell, next))
                 {
@@ -388,9 +389,9 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
                     (false, false) => continue,
                 };
                 let new = so_far + step + touch;
-                if new < costs[next as usize] {
-                    costs[next as usize] = new;
-                    parents[next as usize] = cell;
+                if new < costs.get(next as usize) {
+                    costs.set(next as usize, new);
+                    parents.set(next as usize, cell);
                     let total = new + GREED * self.estimate(&self.place(next));
                     open.push(Candidate { total, cell: next });
                 }
@@ -465,11 +466,11 @@ fn cost_between(from: &BasePlace, to: &BasePlace) -> f64 {
 }
 
 /// The cells from the start to the goal.
-fn trace(parents: &[Cell], start: Cell, goal: Cell) -> Vec<Cell> {
+fn trace(parents: &Pages<Cell>, start: Cell, goal: Cell) -> Vec<Cell> {
     let mut cells = vec![goal];
     let mut cell = goal;
     while cell != start {
-        cell = parents[cell as usize];
+        cell = parents.get(cell as usize);
         cells.push(cell);
     }
     cells.reverse();
