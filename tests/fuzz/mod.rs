@@ -75,7 +75,7 @@ fn short_run() {
 #[test]
 #[ignore = "runs as long as it is asked to"]
 fn long_run() {
-    session::defect::keep_caught_panics_quiet();
+    defect::keep_caught_panics_quiet();
     run::abort_when_stuck();
     let found = with_large_stack(|| {
         run::all(&targets(), &run::Plan::of_environment(), &mut |line| {

@@ -3,7 +3,6 @@
 use std::thread;
 
 use lisp::guard::set_stack_budget;
-use session::defect;
 
 /// A part of the program that reads.
 pub struct Target {

@@ -77,6 +77,10 @@ fn an_interned_symbol_lasts_after_it_has_been_removed_from_its_package() {
                 "(#:IT)",
             ),
             (
+                "(progn (make-package \"HOME\") (make-package \"AWAY\") (let ((s (intern \"GUEST\" \"HOME\"))) (setf (get s 'a) 3) (import s \"AWAY\")) (delete-package \"HOME\") (tg:gc :full t) (dotimes (i 10) (gensym)) (let ((s (find-symbol \"GUEST\" \"AWAY\"))) (list (symbol-name s) (get s 'a))))",
+                "(\"GUEST\" 3)",
+            ),
+            (
                 "(let ((s (intern \"SELF\"))) (setf (symbol-value s) (list s)) (unintern s) (tg:gc :full t) (eq s (first (symbol-value s))))",
                 "T",
             ),

@@ -257,8 +257,9 @@ impl PackageTable {
     pub fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         let data = symbols.get_mut(sym);
-        if data.package.is_none() {
-            data.package = Some(package);
+        if *data.package.get_or_insert(package) != package {
+            // It may be removed from its home, and is still in this package.
+            symbols.keep(sym);
         }
         self.get_mut(package).symbols.get_or_insert(&name, sym);
     }

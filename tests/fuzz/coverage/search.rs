@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use planwright::fuzz::{Mutation, Taken, Target, attempt, targets, with_large_stack};
 
-use session::defect::keep_caught_panics_quiet;
+use defect::keep_caught_panics_quiet;
 
 use crate::counters::Coverage;
 
