@@ -140,3 +140,25 @@ fn a_hand_that_something_has_slipped_out_of_is_withdrawn_before_it_is_parked() {
     assert_ne!(cook.done("(pp-plans::parked-p :right)"), "NIL\n");
     assert!(cook.distance("BOTTLE-1", &stands) < 2e-3);
 }
+
+/// What has slipped in a hand on the way is still between its fingers. To open the hand would throw it down, and as long as
+/// the hand does not hold it, it is in the way of every way.
+#[test]
+fn a_hand_closes_again_on_what_has_slipped_in_it_on_the_way() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(in-package :pp-tut)
+         (btr-utils:spawn-object 'milk-1 :milk :pose '((-0.8 1.0 0.97) (0 0 0 1)))
+         (with-simulated-robot
+           (perform (an action (type fetching) (arms (left)) (object (an object (type milk))))))
+         (btr:detach-all-objects (btr:get-robot-object))
+         (btr:simulate btr:*current-bullet-world* 3)",
+    );
+    assert_eq!(cook.done("(pp-plans::objects-in-hand :left)"), "NIL\n");
+    cook.done(
+        "(let ((?there (make-pose \"map\" '((-0.3 -0.2 0) (0 0 0 1)))))
+           (with-simulated-robot
+             (perform (an action (type navigating) (location (a location (pose ?there)))))))",
+    );
+    assert_eq!(cook.done("(pp-plans::objects-in-hand :left)"), "(MILK-1)\n");
+}

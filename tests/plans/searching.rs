@@ -180,3 +180,43 @@ fn a_head_that_cannot_turn_so_far_where_the_robot_cannot_turn_round_is_a_look_th
     );
     assert!(report.contains("cannot stand"), "{report}");
 }
+
+#[test]
+fn what_the_front_of_a_drawer_hides_at_first_is_found_from_near_by() {
+    let mut cook = Cook::new();
+    let spawn = "(btr-utils:spawn-object 'bowl-1 :bowl :pose '((1.3543 0.9663 0.4631) (0 0 0 1)))";
+    cook.done(&format!("(in-package :pp-tut) {spawn}"));
+    let said = cook.done(
+        "(with-simulated-robot
+           (get-object-name
+             (perform (an action (type searching) (object (an object (type bowl)))
+                          (context table-setting)))))",
+    );
+    assert!(
+        said.contains("hidden by sink_area_left_middle_drawer_main"),
+        "{said}"
+    );
+    assert!(said.ends_with("BOWL-1\n"), "{said}");
+}
+
+/// It used to try all places to stand for each point of each place, for minutes.
+#[test]
+fn where_no_way_leads_anywhere_a_search_ends_soon() {
+    let mut cook = Cook::unwatched();
+    cook.done(
+        "(in-package :pp-tut)
+         (btr-utils:spawn-object 'spoon-1 :spoon :pose '((1.425 0.94 0.4631) (0 0 0 1)))
+         (dotimes (i 14)
+           (let ((angle (* i (/ pi 7))))
+             (btr-utils:spawn-object (intern (format nil \"BOX-~a\" i)) :breakfast-cereal
+               :pose `((,(* 0.62 (cos angle)) ,(* 0.62 (sin angle)) 0.15) (0 0 0 1)))))",
+    );
+    assert_eq!(cook.done("(pp-plans::way-out-p)"), "NIL\n");
+    let search = "(with-simulated-robot
+                    (perform (an action (type searching) (object (an object (type spoon))))))";
+    let (report, class) = cook.say(search).unwrap_err();
+    assert!(class.contains("SEARCHING-FAILED"), "{class}");
+    let count = report.split("no place to stand is free (×").nth(1);
+    let count = count.and_then(|rest| rest.split(')').next()?.parse::<u32>().ok());
+    assert!(count.is_some_and(|count| count < 20), "{report}");
+}
