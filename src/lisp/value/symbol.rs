@@ -5,9 +5,9 @@
 //!
 //! The symbols that a running program makes, by `gensym` or `intern` for example, are passing: the values
 //! of such a symbol share a [`Hold`], and when the last of them is gone, so is what the table knows of the
-//! symbol, its value, function and properties included. A passing symbol that compiled code refers to, that
-//! the reader has found, or that has been declared to mean something, stays; so does one that belongs to a
-//! package, until it is removed from it.
+//! symbol, its value, function and properties included. Compiled code holds the passing symbols that it
+//! refers to. One that the reader has found, or that has been declared to mean something, stays; so does one
+//! that belongs to a package, until it is removed from it.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, HashSet};
