@@ -155,10 +155,18 @@ fn a_hand_closes_again_on_what_has_slipped_in_it_on_the_way() {
          (btr:simulate btr:*current-bullet-world* 3)",
     );
     assert_eq!(cook.done("(pp-plans::objects-in-hand :left)"), "NIL\n");
+    // As hard as milk is gripped, not as hard as the hand can.
+    cook.done(
+        "(defvar *efforts* '())
+         (defmethod man-int:get-action-gripping-effort :heuristics 10 ((type (eql :milk)))
+           (push type *efforts*)
+           15)",
+    );
     cook.done(
         "(let ((?there (make-pose \"map\" '((-0.3 -0.2 0) (0 0 0 1)))))
            (with-simulated-robot
              (perform (an action (type navigating) (location (a location (pose ?there)))))))",
     );
     assert_eq!(cook.done("(pp-plans::objects-in-hand :left)"), "(MILK-1)\n");
+    assert_eq!(cook.done("*efforts*"), "(:MILK)\n");
 }
