@@ -4,8 +4,7 @@
 //! the base is free, or cannot be reached, holds until something moves: a search need not find it
 //! out again.
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, DefaultHasher};
+use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::body_name::BodyName;
@@ -53,9 +52,9 @@ const FREE: u32 = u32::MAX;
 /// ones.
 #[derive(Debug, Default)]
 pub(crate) struct KnownStands {
-    /// The obstacle, as an index, of each pose, whose numbers are multiples of [`SAME_STAND`]. Nobody asks for their
-    /// order.
-    poses: HashMap<[i32; 3], u32, BuildHasherDefault<DefaultHasher>>,
+    /// The obstacle, as an index, of each pose, whose numbers are multiples of [`SAME_STAND`]. In small pieces of
+    /// memory: one large piece that comes and goes lets the system's allocator keep as much from then on.
+    poses: BTreeMap<[i32; 3], u32>,
     obstacles: Vec<BodyName>,
 }
 

@@ -47,6 +47,7 @@ pub mod object_definitions;
 pub mod object_library;
 mod object_shapes;
 mod obstacles;
+mod opening_fingers;
 pub(crate) mod oriented_box;
 mod packed_snapshot;
 mod packing;

@@ -28,6 +28,7 @@ use super::models::Models;
 use super::noise::Noise;
 use super::object::Object;
 use super::obstacles::Obstacles;
+use super::opening_fingers::OpeningFingers;
 use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
 use super::riding::Riding;
@@ -87,6 +88,8 @@ pub(super) struct State {
     pub(super) cuts: Vec<Cut>,
     /// What stands on what two hands carry.
     pub(super) riding: Riding,
+    /// Fingers that are opening, and when that was last said.
+    pub(super) opening: Vec<OpeningFingers>,
 }
 
 impl State {
@@ -168,6 +171,7 @@ impl World {
                 noise: None,
                 touches: Vec::new(),
                 cuts: Vec::new(),
+                opening: Vec::new(),
                 riding: Riding::default(),
             },
             robot_bodies,

@@ -188,6 +188,15 @@ impl JointGoal for FingerGoal {
         Vec::new()
     }
 
+    /// What moves beside opening fingers leaves them the room.
+    fn follows(&self, world: &mut World) {
+        if !self.is_closing {
+            let gripper = gripper_of(world, self.side);
+            let (joint, to) = (gripper.joint, gripper.limits.clamp(self.position(world)));
+            world.fingers_are_opening(joint, to);
+        }
+    }
+
     /// Closing fingers have arrived when something is between them.
     fn met(&self, world: &World, _: f64) -> Option<MotionOutcome> {
         let holds = || !held_objects(world, self.side).is_empty();

@@ -46,6 +46,9 @@ pub trait JointGoal: Clone + 'static {
         None
     }
 
+    /// Called in each step while the trajectory is followed.
+    fn follows(&self, _: &mut World) {}
+
     /// How the motion ends at the end of the trajectory.
     fn arrived(&mut self, _: &mut World) -> Arrival {
         Arrival::Done(MotionOutcome::Arrived)
@@ -148,6 +151,7 @@ impl<G: JointGoal> JointMotion<G> {
         if met.is_some() {
             return Ok(met);
         }
+        self.goal.follows(world);
         let carriers = self.goal.carriers(world);
         match follower.tick(world, |link| carriers.contains(&link)) {
             FollowStep::Moving => {}

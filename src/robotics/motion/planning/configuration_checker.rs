@@ -22,6 +22,9 @@ pub(crate) struct ConfigurationChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
     joints: Vec<JointId>,
+    /// Fingers that are opening meanwhile, and where they are going: each configuration is to be free with the
+    /// fingers as they are, and as they will be.
+    opening: Vec<(JointId, f64)>,
     touching: TouchingPairs,
     /// The pairs that decide whether a configuration is free.
     pairs: Pairs,
@@ -51,7 +54,23 @@ impl PathTest<PathObstacle> for ConfigurationChecker<'_> {
 impl<'w> ConfigurationChecker<'w> {
     pub(crate) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
         let robot = world.robot_configuration().clone();
-        Self::at(world, robot, joints, contacts)
+        Self::at(world, robot, joints, contacts).beside_opening_fingers(world)
+    }
+
+    /// The fingers that are opening in the world have room on the way, if they have it at the start.
+    fn beside_opening_fingers(mut self, world: &World) -> Self {
+        let others = world.opening_fingers();
+        let others = others.filter(|(joint, _)| !self.joints.contains(joint));
+        self.opening = others.collect();
+        if self.opening.is_empty() {
+            return self;
+        }
+        let joints = &self.robot.joints;
+        let start: Vec<f64> = self.joints.iter().map(|joint| joints.get(*joint)).collect();
+        if !self.is_free(&start) {
+            self.opening.clear();
+        }
+        self
     }
 
     fn at(
@@ -98,6 +117,7 @@ impl<'w> ConfigurationChecker<'w> {
             checker,
             robot,
             joints,
+            opening: Vec::new(),
             touching,
             pairs: Pairs::All,
             level: LevelHands::default(),
@@ -176,9 +196,39 @@ impl<'w> ConfigurationChecker<'w> {
     pub(crate) fn accept_goal(&mut self, positions: &[f64]) {
         self.set(positions);
         self.checker.look_at(Pairs::All);
-        self.touching
-            .expect(&mut self.checker, &self.robot, PLAN_MARGIN);
+        self.with_fingers(|touching, checker, robot| {
+            touching.expect(checker, robot, PLAN_MARGIN);
+            None::<()>
+        });
         self.checker.look_at(self.pairs);
+    }
+
+    /// What is found with the fingers as they are, or else with those that are opening as they will be.
+    fn with_fingers<T>(
+        &mut self,
+        mut find: impl FnMut(
+            &mut TouchingPairs,
+            &mut CollisionChecker<'w>,
+            &RobotConfiguration,
+        ) -> Option<T>,
+    ) -> Option<T> {
+        let found = find(&mut self.touching, &mut self.checker, &self.robot);
+        if found.is_some() || self.opening.is_empty() {
+            return found;
+        }
+        self.exchange_fingers();
+        let found = find(&mut self.touching, &mut self.checker, &self.robot);
+        self.exchange_fingers();
+        found
+    }
+
+    /// Exchanges the positions of the opening fingers in the configuration for the others.
+    fn exchange_fingers(&mut self) {
+        for (joint, other) in &mut self.opening {
+            let position = self.robot.joints.get(*joint);
+            self.robot.joints.set(*joint, *other);
+            *other = position;
+        }
     }
 
     fn set(&mut self, positions: &[f64]) {
@@ -190,29 +240,34 @@ impl<'w> ConfigurationChecker<'w> {
     /// What rules out the joint positions, if anything does.
     pub(crate) fn blocked(&mut self, positions: &[f64]) -> Option<CollisionHit> {
         self.set(positions);
-        self.touching
-            .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
+        self.with_fingers(|touching, checker, robot| {
+            touching.first_hit(checker, robot, PLAN_MARGIN)
+        })
     }
 
     /// As [`Self::blocked`], without finding out how far the two overlap, nor where.
     pub(crate) fn touching(&mut self, positions: &[f64]) -> Option<CollisionHit> {
         self.set(positions);
-        self.touching
-            .first_touch(&mut self.checker, &self.robot, PLAN_MARGIN)
+        self.with_fingers(|touching, checker, robot| {
+            touching.first_touch(checker, robot, PLAN_MARGIN)
+        })
     }
 
     /// Whether the joint positions are free: as [`Self::blocked`], without saying what is touched.
     pub(crate) fn is_free(&mut self, positions: &[f64]) -> bool {
         self.set(positions);
-        self.touching
-            .is_free(&mut self.checker, &self.robot, PLAN_MARGIN)
+        let touches = self.with_fingers(|touching, checker, robot| {
+            (!touching.is_free(checker, robot, PLAN_MARGIN)).then_some(())
+        });
+        touches.is_none()
     }
 
     /// What keeps the joint positions from being free, one of all.
     pub(crate) fn in_the_way(&mut self, positions: &[f64]) -> Option<InTheWay<'w>> {
         self.set(positions);
-        self.touching
-            .in_the_way(&mut self.checker, &self.robot, PLAN_MARGIN)
+        self.with_fingers(|touching, checker, robot| {
+            touching.in_the_way(checker, robot, PLAN_MARGIN)
+        })
     }
 
     /// Whether one of the links is too close to what is no part of the robot in that
