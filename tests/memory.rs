@@ -251,6 +251,9 @@ fn symbols_go_with_what_refers_to_them() {
         "(let ((g (gensym))) (setf (symbol-function g) (eval `(lambda () (,g)))))",
         "(unintern (intern (format nil \"NEW-~a\" (random 1000000000))))",
         "(unintern (gentemp))",
+        "(unintern (read-from-string (format nil \"new-~a\" (random 1000000000))))",
+        "(with-input-from-string (s (format nil \"(cl-user::new-~a)\" (random 1000000000)))
+           (unintern (first (read s))))",
         "(let ((s (intern (format nil \"NEW-~a\" (random 1000000000)))))
            (setf (get s 'self) s (symbol-value s) (list s))
            (unintern s))",

@@ -2,6 +2,7 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
+use std::ops::Deref;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -28,13 +29,61 @@ const COMMON: u32 = 1 << 31;
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct SourceId(pub u32);
 
+/// A text: one of the program itself, or one that came later.
+#[derive(Clone, Debug)]
+pub enum Text {
+    /// A part of the program.
+    BuiltIn(&'static str),
+    /// Another one.
+    Own(Rc<str>),
+}
+
+impl Text {
+    /// The text as one that several may hold; one of the program is copied.
+    pub(crate) fn shared(&self) -> Rc<str> {
+        match self {
+            Self::BuiltIn(text) => (*text).into(),
+            Self::Own(text) => Rc::clone(text),
+        }
+    }
+}
+
+impl Deref for Text {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        match self {
+            Self::BuiltIn(text) => text,
+            Self::Own(text) => text,
+        }
+    }
+}
+
+impl From<Rc<str>> for Text {
+    fn from(text: Rc<str>) -> Self {
+        Self::Own(text)
+    }
+}
+
+impl From<String> for Text {
+    fn from(text: String) -> Self {
+        Self::Own(text.into())
+    }
+}
+
+impl From<&str> for Text {
+    fn from(text: &str) -> Self {
+        Self::Own(text.into())
+    }
+}
+
 /// One text that forms were read from: a file, or an input at the prompt.
 #[derive(Clone)]
 pub struct Source {
     /// File name, or a name such as `prompt[3]`.
     pub name: Rc<str>,
     /// The whole text.
-    pub text: Rc<str>,
+    pub text: Text,
     /// Is it a part of the language that is written in Lisp?
     is_library: bool,
     /// Byte offset of the start of each line, once that was asked for.
@@ -144,19 +193,24 @@ pub struct Sources {
 impl Sources {
     /// Adds a text.
     pub fn add(&mut self, name: &str, text: &str) -> SourceId {
-        self.add_text(name, text, false)
+        self.add_text(name, text.into(), false)
+    }
+
+    /// Adds a text of the program itself.
+    pub fn add_built_in(&mut self, name: &str, text: &'static str) -> SourceId {
+        self.add_text(name, Text::BuiltIn(text), false)
     }
 
     /// Adds a text of the part of the language that is written in Lisp.
-    pub(crate) fn add_library(&mut self, name: &str, text: &str) -> SourceId {
-        self.add_text(name, text, true)
+    pub(crate) fn add_library(&mut self, name: &str, text: &'static str) -> SourceId {
+        self.add_text(name, Text::BuiltIn(text), true)
     }
 
-    fn add_text(&mut self, name: &str, text: &str, is_library: bool) -> SourceId {
+    fn add_text(&mut self, name: &str, text: Text, is_library: bool) -> SourceId {
         let id = SourceId(offset(self.sources.len()));
         self.sources.push(Source {
             name: name.into(),
-            text: text.into(),
+            text,
             is_library,
             line_starts: OnceCell::new(),
         });
@@ -173,7 +227,7 @@ impl Sources {
         let loaded = self.loaded.take().into_iter();
         let sources = loaded.filter_map(|id| self.get(id));
         sources
-            .map(|source| (Rc::clone(&source.name), Rc::clone(&source.text)))
+            .map(|source| (Rc::clone(&source.name), source.text.shared()))
             .collect()
     }
 

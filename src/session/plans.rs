@@ -69,8 +69,8 @@ pub(super) fn load(evaluator: &mut Evaluator) -> Result<(), SessionError> {
 }
 
 /// Loads a file of built-in plans, from its code that has been made ahead, or from its text.
-fn load_file(evaluator: &mut Evaluator, name: &str, text: &str) -> Result<(), Box<Raise>> {
-    let source = evaluator.image.sources.add(name, text);
+fn load_file(evaluator: &mut Evaluator, name: &str, text: &'static str) -> Result<(), Box<Raise>> {
+    let source = evaluator.image.sources.add_built_in(name, text);
     let precompiled = evaluator.image.library.precompiled;
     let Some((precompiled, forms)) =
         precompiled.and_then(|precompiled| Some((precompiled, precompiled.file(name)?)))

@@ -358,7 +358,8 @@ fn reading_of_stream(image: &mut Image, then: After) -> Result<Reading, Box<Rais
         Value::Stream(stream) => stream.backquotes.get(),
         _ => 0,
     };
-    let mut reader = Reader::of_text(text).at(start).within(backquotes);
+    let mut reader = Reader::of_text(text).for_program();
+    reader = reader.at(start).within(backquotes);
     if image.special(known::V_STANDARD_FIRST).is_true() {
         // What is read inside is read with the readtable.
         image.set_special(known::V_STANDARD_FIRST, Value::NIL);
@@ -441,7 +442,7 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
     };
     let stream = Value::Stream(Rc::new(Stream::from_text(text.clone())));
     let reading = Reading {
-        reader: Reader::of_text(text),
+        reader: Reader::of_text(text).for_program(),
         start: 0,
         then: After::String {
             before: bounds.start,

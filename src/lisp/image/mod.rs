@@ -220,14 +220,13 @@ impl Image {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
-    /// The symbol that a name without a prefix is read as.
-    pub(crate) fn intern_read(&mut self, name: &str) -> Sym {
+    /// The package in which a name without a prefix is read.
+    pub(crate) fn package_of_read(&self, name: &str) -> PackageId {
         let current = self.current_package();
-        let package = match self.new_symbols {
+        match self.new_symbols {
             Some(elsewhere) if self.packages.find_symbol(current, name).is_none() => elsewhere,
             _ => current,
-        };
-        self.intern(package, name)
+        }
     }
 
     /// A number that no block or tagbody has had before.

@@ -12,7 +12,7 @@ use super::label::Labels;
 use super::lexer::{Lexer, is_blank};
 use super::readtable::Readtable;
 use crate::image::Image;
-use crate::source::{Place, SourceId};
+use crate::source::{Place, SourceId, Text};
 use crate::stream::{Stream, StreamKind};
 use crate::value::Value;
 use crate::value::known;
@@ -34,7 +34,7 @@ pub enum Outcome {
 /// A form is read in the package that is current at that moment, so `in-package` between
 /// two calls takes effect.
 pub struct Reader {
-    text: Rc<str>,
+    text: Text,
     source: Option<SourceId>,
     position: usize,
     frames: Vec<Frame>,
@@ -53,6 +53,8 @@ pub struct Reader {
     terminator: Option<char>,
     /// Is the first token read as in the standard syntax, whatever the readtable says?
     begins_as_standard: bool,
+    /// Does a running program read? Then new symbols last as long as something refers to them.
+    is_for_program: bool,
 }
 
 /// Reads all forms of a source in the current package.
@@ -72,16 +74,16 @@ impl Reader {
         let text = image
             .sources
             .get(source)
-            .map_or_else(|| Rc::from(""), |source| source.text.clone());
+            .map_or_else(|| Text::BuiltIn(""), |source| source.text.clone());
         Reader::make(text, Some(source))
     }
 
     /// A reader at the start of a text that belongs to no source: forms get no places.
-    pub fn of_text(text: impl Into<Rc<str>>) -> Reader {
+    pub fn of_text(text: impl Into<Text>) -> Reader {
         Reader::make(text.into(), None)
     }
 
-    fn make(text: Rc<str>, source: Option<SourceId>) -> Reader {
+    fn make(text: Text, source: Option<SourceId>) -> Reader {
         Reader {
             text,
             source,
@@ -95,6 +97,15 @@ impl Reader {
             macro_input: None,
             terminator: None,
             begins_as_standard: false,
+            is_for_program: false,
+        }
+    }
+
+    /// Reads for a running program.
+    pub(crate) fn for_program(self) -> Reader {
+        Reader {
+            is_for_program: true,
+            ..self
         }
     }
 
@@ -122,7 +133,7 @@ impl Reader {
     }
 
     /// The text.
-    pub fn text(&self) -> &Rc<str> {
+    pub fn text(&self) -> &Text {
         &self.text
     }
 
@@ -220,7 +231,7 @@ impl Reader {
     /// begins at the position. The form's value is the list of the values it returns.
     fn call_macro(&mut self, position: usize, function: Value, arguments: &[Value]) -> Outcome {
         let stream = Rc::new(Stream::new(StreamKind::StringInput {
-            text: self.text.clone(),
+            text: self.text.shared(),
             position,
         }));
         stream.backquotes.set(self.backquotes);

@@ -5,8 +5,8 @@ use super::lexer::is_blank;
 use super::readtable::LetterCase;
 use super::suggest::nearest;
 use crate::image::Image;
+use crate::value::Value;
 use crate::value::package::{Access, PackageId, PackageTable};
-use crate::value::symbol::Sym;
 
 /// A token split at its package marker, escapes resolved and letters in the case of the readtable.
 pub(crate) struct Name {
@@ -139,13 +139,22 @@ pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
     }
 }
 
-/// The symbol that a split token denotes.
-pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
+/// The symbol that a split token denotes, as a value. Unless a running program reads it, it stays.
+pub(crate) fn resolve(
+    image: &mut Image,
+    name: &Name,
+    is_for_program: bool,
+) -> Result<Value, ReadErrorKind> {
+    let intern = |image: &mut Image, package| match is_for_program {
+        true => image.intern_for_program(package, &name.name),
+        false => image.intern(package, &name.name).into(),
+    };
     let Some(package_name) = &name.package else {
-        return Ok(image.intern_read(&name.name));
+        let package = image.package_of_read(&name.name);
+        return Ok(intern(image, package));
     };
     if package_name.is_empty() {
-        return Ok(image.keyword(&name.name));
+        return Ok(image.keyword(&name.name).into());
     }
     let Some(package) = image.packages.find(package_name) else {
         let known_names = image.packages.names().map(|(known, _)| known);
@@ -155,14 +164,18 @@ pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKi
         });
     };
     if name.is_internal || package == PackageTable::KEYWORD {
-        return Ok(image.intern(package, &name.name));
+        return Ok(intern(image, package));
     }
     match image.packages.find_symbol(package, &name.name) {
         Some((sym, Access::External)) => {
-            image.symbols.keep(sym);
-            Ok(sym)
+            if !is_for_program {
+                image.symbols.keep(sym);
+            }
+            Ok(image.symbols.value(sym))
         }
-        _ if image.packages.get(package).is_open => Ok(image.export_symbol(package, &name.name)),
+        _ if image.packages.get(package).is_open => {
+            Ok(image.export_symbol(package, &name.name).into())
+        }
         Some(_) => Err(ReadErrorKind::NotExternal {
             name: name.name.clone(),
             package: image.packages.get(package).name.to_string(),

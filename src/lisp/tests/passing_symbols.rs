@@ -49,6 +49,31 @@ fn a_symbol_lasts_as_long_as_code_that_calls_it() {
 }
 
 #[test]
+fn what_a_program_reads_lasts_as_long_as_it_is_in_its_package_or_referred_to() {
+    check_in(
+        &mut locked_image(),
+        &[
+            (
+                "(progn (eval (read-from-string \"(defun read-late (read-x) (list :read-key read-x))\")) (tg:gc :full t) (dotimes (i 10) (gensym)) (read-late 1))",
+                "(:READ-KEY 1)",
+            ),
+            (
+                "(let ((s (read-from-string \"cl-user::read-only\"))) (setf (symbol-value s) 2) (tg:gc :full t) read-only)",
+                "2",
+            ),
+            (
+                "(let ((s (read-from-string \"read-removed\"))) (setf (get s 'a) s) (unintern s) (tg:gc :full t) (dotimes (i 10) (gensym)) (list (symbol-name s) (symbol-package s) (eq s (get s 'a)) (eq s (read-from-string \"read-removed\"))))",
+                "(\"READ-REMOVED\" NIL T NIL)",
+            ),
+            (
+                "(progn (defvar *code* (eval (read-from-string \"(lambda () 'read-in-code)\"))) (unintern (funcall *code*)) (tg:gc :full t) (dotimes (i 10) (gensym)) (symbol-name (funcall *code*)))",
+                "\"READ-IN-CODE\"",
+            ),
+        ],
+    );
+}
+
+#[test]
 fn an_interned_symbol_lasts_after_it_has_been_removed_from_its_package() {
     check_in(
         &mut locked_image(),

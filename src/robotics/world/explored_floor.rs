@@ -39,8 +39,8 @@ pub(crate) struct ExploredGrid {
 /// What is known of each of the grids that a search uses, in its order.
 pub(crate) type ExploredGrids = [ExploredGrid; 3];
 
-/// How many poses of the base are kept at most: as many as a search looks at that finds none. They take 5 MB.
-const MAX_STANDS: usize = 200_000;
+/// How many poses of the base are kept at most: half as many as a search looks at that finds none. They take 2 MB.
+const MAX_STANDS: usize = 100_000;
 /// Poses of the base nearer to each other than this (m, rad) count as one: what is in the way is told with a margin of
 /// millimetres.
 const SAME_STAND: f64 = 1e-6;
@@ -117,6 +117,13 @@ struct Arranged {
 pub(super) struct ExploredFloor {
     grids: Mutex<Option<(Arrangement, ExploredGrids)>>,
     stands: Mutex<Option<(Arrangement, KnownStands)>>,
+}
+
+impl ExploredFloor {
+    /// Forgets everything, since something moves.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
 }
 
 /// Calls a function with what is kept of an arrangement, which is nothing if another one was kept.

@@ -44,7 +44,7 @@ impl KeptReference {
 pub struct Packer {
     /// The state against which the next one is written.
     reference: Option<Arc<KeptReference>>,
-    /// The bytes of that.
+    /// The bytes of that; empty where they have to be unpacked first.
     bytes: Vec<u8>,
     /// How many bytes the differences to it take.
     written: usize,
@@ -95,6 +95,12 @@ impl Packer {
         })
     }
 
+    /// Gives the room back that is used on the way, until the next snapshot.
+    pub fn leave_room(&mut self) {
+        self.bytes = Vec::new();
+        self.rooms = Default::default();
+    }
+
     /// The difference to a state: an earlier one, unless the differences to that already take too much memory.
     fn written(
         &mut self,
@@ -102,6 +108,9 @@ impl Packer {
         numbers: &Numbers,
     ) -> Result<(Compressed, Arc<KeptReference>), PackingError> {
         if let Some(reference) = self.reference.clone() {
+            if self.bytes.is_empty() {
+                self.bytes = reference.bytes.bytes()?;
+            }
             let changes = self.changes(physics, numbers, &reference)?;
             self.written += changes.size();
             if self.written <= MAX_WRITTEN * reference.size() {

@@ -196,6 +196,9 @@ impl World {
     /// Advances by one physics step: robot and kitchen move to where they were set; objects
     /// fall, slide and are carried.
     pub fn step(&mut self) {
+        if self.state.robot_moves || self.state.kitchen_moves {
+            self.explored.forget();
+        }
         if self.state.robot_moves {
             self.release_opened_hands();
             self.follow_hands();

@@ -8,14 +8,13 @@ mod timeline;
 use lisp::value::Value;
 use lisp::value::copy::{Copied, Copier};
 pub(crate) use progress::{Done, Progress};
-use shelf::Shelf;
+use shelf::{Pace, Shelf};
 pub(crate) use snapshots::{Snapshot, Snapshots};
 use timeline::Timeline;
 
 use crate::simulation::Simulation;
 
 /// The state of the prompt.
-#[derive(Default)]
 pub(crate) struct Person {
     /// Snapshots of earlier states.
     pub snapshots: Snapshots,
@@ -36,6 +35,22 @@ pub(crate) struct Person {
     pub port: Option<u16>,
     /// The exit status, once an exit has been requested.
     pub quit: Option<u8>,
+}
+
+impl Default for Person {
+    fn default() -> Self {
+        Self {
+            snapshots: Snapshots::default(),
+            timeline: Timeline::default(),
+            of_forms: Shelf::new(Pace::Forms),
+            of_moments: Shelf::new(Pace::Moments),
+            progress: None,
+            inspected: None,
+            can_serve: false,
+            port: None,
+            quit: None,
+        }
+    }
 }
 
 impl Person {
@@ -92,8 +107,8 @@ impl Person {
         Person {
             snapshots: self.snapshots.copied(copier),
             timeline: self.timeline.emptied(),
-            of_forms: Shelf::default(),
-            of_moments: Shelf::default(),
+            of_forms: Shelf::new(Pace::Forms),
+            of_moments: Shelf::new(Pace::Moments),
             // A copy is not the person's.
             progress: None,
             inspected: self.inspected.copied(copier),

@@ -8,9 +8,25 @@ use super::snapshots::Snapshot;
 use crate::simulation::Simulation;
 use robotics::world::{self, Packed, Packer, World};
 
-/// How many of the newest snapshots stay as they are: what comes next is most often the return to one of these, or
-/// that they are forgotten.
-const MAX_WHOLE: usize = 2;
+/// How often a shelf takes snapshots, on which it depends what it keeps at hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// Now and then, before forms.
+    Forms,
+    /// Many times a second, some of which are forgotten at once.
+    Moments,
+}
+
+impl Pace {
+    /// How many of the newest snapshots stay as they are: what comes next is most often the return to one of these, or
+    /// that they are forgotten.
+    fn whole(self) -> usize {
+        match self {
+            Self::Forms => 1,
+            Self::Moments => 2,
+        }
+    }
+}
 
 /// A world that is kept.
 pub(super) enum KeptWorld {
@@ -50,19 +66,28 @@ impl KeptWorld {
 }
 
 /// Takes snapshots, and packs those that are no longer among the newest.
-#[derive(Default)]
 pub(super) struct Shelf {
+    pace: Pace,
     packer: Packer,
     /// Those that are not packed yet, the oldest first.
     whole: VecDeque<Weak<RefCell<KeptWorld>>>,
 }
 
 impl Shelf {
+    /// An empty shelf.
+    pub(super) fn new(pace: Pace) -> Self {
+        Self {
+            pace,
+            packer: Packer::default(),
+            whole: VecDeque::new(),
+        }
+    }
+
     /// Takes a snapshot of the present state.
     pub(super) fn take(&mut self, simulation: &Simulation) -> Snapshot {
         let snapshot = Snapshot::take(simulation);
         self.whole.push_back(Rc::downgrade(snapshot.world()));
-        while self.whole.len() > MAX_WHOLE {
+        while self.whole.len() > self.pace.whole() {
             let oldest = self.whole.pop_front();
             if let Some(kept) = oldest.and_then(|kept| kept.upgrade()) {
                 self.pack(&kept);
@@ -78,6 +103,9 @@ impl Shelf {
         };
         if let Some(packed) = packed {
             *kept.borrow_mut() = KeptWorld::Packed(Box::new(packed));
+        }
+        if self.pace == Pace::Forms {
+            self.packer.leave_room();
         }
     }
 }

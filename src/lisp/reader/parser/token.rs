@@ -175,12 +175,12 @@ impl Reader {
             return Err(error);
         }
         let name = symbol::split(token, LetterCase::current(image))?;
-        let sym = if self.features > 0 && name.package.is_none() {
-            image.keyword(&name.name)
+        let symbol = if self.features > 0 && name.package.is_none() {
+            image.keyword(&name.name).into()
         } else {
-            symbol::resolve(image, &name)?
+            symbol::resolve(image, &name, self.is_for_program)?
         };
-        Ok(Some(sym.into()))
+        Ok(Some(symbol))
     }
 
     fn dot(&mut self, length: usize) -> Result<(), ReadErrorKind> {

@@ -9,7 +9,7 @@ use crate::motion::contact::expected_contacts::{CollisionMode, ExpectedContacts}
 use crate::motion::contact::hand::hand_names;
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::PLAN_MARGIN;
-use crate::robot::{JointId, JointKind, Side};
+use crate::robot::{JointId, JointKind, LinkId, Side};
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, World,
 };
@@ -63,7 +63,9 @@ pub(super) struct LoneHand<'w> {
 /// A forearm behind a hand.
 struct Forearm<'w> {
     checker: CollisionChecker<'w>,
-    /// Poses of the robot's links in the frame of the wrist, for each way to turn the joints of the wrist.
+    /// The links that turn with it, as indices.
+    links: Vec<usize>,
+    /// Poses of these links in the frame of the wrist, for each way to turn the joints of the wrist.
     in_wrist: Vec<Vec<Pose>>,
 }
 
@@ -157,8 +159,9 @@ impl<'w> LoneHand<'w> {
             let wrist = arm.wrist_for_tool(&station.tool);
             let mut first = None;
             for placed in &forearm.in_wrist {
-                self.in_map.clear();
-                self.in_map.extend(placed.iter().map(|pose| wrist * pose));
+                for (link, in_wrist) in forearm.links.iter().zip(placed) {
+                    self.in_map[*link] = wrist * *in_wrist;
+                }
                 let hit = forearm
                     .checker
                     .first_hit_around(&self.in_map, &self.touching, 0.0)?;
@@ -194,20 +197,27 @@ impl<'w> Forearm<'w> {
         let mut joints = world.robot_configuration().joints.clone();
         let fingers = arm.gripper.position_for_opening(opening);
         joints.set(arm.gripper.joint, fingers);
+        let moving = MovingParts::of_joints(&models.robot, &[*turned]);
+        let links = models.robot.links().map(|(link, _)| link);
+        let links = links.filter(|link| moving.moves(*link));
+        let links: Vec<usize> = links.map(LinkId::index).collect();
         let mut in_wrist = Vec::new();
+        let mut poses = Vec::new();
         for (i, j) in (0..=FOREARM_TURNS).flat_map(|i| (0..=FOREARM_TURNS).map(move |j| (i, j))) {
             joints.set(*flex, at(ranges[0], i));
             joints.set(*roll, at(ranges[1], j));
-            let mut poses = Vec::new();
             models
                 .robot
                 .forward_kinematics(&Pose::identity(), &joints, &mut poses);
             let to_wrist = poses.get(arm.wrist.index())?.inverse();
-            in_wrist.push(poses.iter().map(|pose| to_wrist * pose).collect());
+            in_wrist.push(links.iter().map(|link| to_wrist * poses[*link]).collect());
         }
         let mut checker = world.collision_checker();
-        let moving = MovingParts::of_joints(&models.robot, &[*turned]);
         checker.expect_once(moving, Pairs::Changing);
-        Some(Self { checker, in_wrist })
+        Some(Self {
+            checker,
+            links,
+            in_wrist,
+        })
     }
 }
