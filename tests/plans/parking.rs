@@ -170,3 +170,23 @@ fn a_hand_closes_again_on_what_has_slipped_in_it_on_the_way() {
     assert_eq!(cook.done("(pp-plans::objects-in-hand :left)"), "(MILK-1)\n");
     assert_eq!(cook.done("*efforts*"), "(:MILK)\n");
 }
+
+/// With its fingers open, the wrist cannot turn past the forearm: neither another height nor another place helped.
+#[test]
+fn a_hand_whose_open_fingers_have_no_room_is_closed_before_it_is_parked() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(in-package :pp-tut)
+         (init-projection)
+         (with-simulated-robot
+           (pp-plans::park-arms)
+           (perform (an action (type closing) (gripper left)))
+           (let ((?angles '(0.918 0.026 2.757 -1.822 2.926 -1.828 -2.582)))
+             (perform (an action (type positioning-arm) (left-configuration ?angles))))
+           (perform (an action (type opening) (gripper left)))
+           (pp-plans::park-arms))",
+    );
+    assert_eq!(cook.done("(pp-plans::parked-p :left)"), "NIL\n");
+    cook.done("(with-simulated-robot (pp-plans::park-arms-nearby))");
+    assert_ne!(cook.done("(pp-plans::parked-p :left)"), "NIL\n");
+}

@@ -132,6 +132,7 @@ impl<'w> HandReach<'w> {
             goals: vec![(self.side, *tool)],
             contacts: ExpectedContacts::default(),
             search: PathSearch::Long,
+            leaves_room: false,
         }
     }
 

@@ -11,6 +11,7 @@ use crate::motion::planning::configuration_checker::ConfigurationChecker;
 use crate::motion::planning::joint_path::JointPathEffort;
 use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::planning::joint_trajectory::plan_joint_trajectory;
+use crate::motion::planning::opening_hands::with_room_for_fingers;
 use crate::motion::planning::planning_group::PlanningGroup;
 use crate::robot::Side;
 use crate::world::{AllowedPairs, CollisionHit, World};
@@ -91,21 +92,22 @@ impl JointGoal for ArmGoal {
     fn plan(&mut self, world: &World, _: u32) -> Result<JointPlan, MotionFailure> {
         let group = PlanningGroup::new(world, false, &self.sides());
         let goal = self.goal(world, &group)?;
-        let none = AllowedPairs::none();
         let contacts = ExpectedContacts::default();
-        // What is to be tilted may be; else it stays upright on the way.
-        let level = LevelHands::of(world, &group.joints).level_at(&goal);
-        let mut checker =
-            ConfigurationChecker::new(world, group.joints.clone(), &contacts).keeping(level);
-        checker.accept_goal(&goal);
-        let trajectory = plan_joint_trajectory(
-            world,
-            &group,
-            &goal,
-            &mut checker,
-            JointPathEffort::default(),
-        )?;
-        Ok(JointPlan::new(group.joints, trajectory, none))
+        with_room_for_fingers(world, |leaves_room| {
+            // What is to be tilted may be; else it stays upright on the way.
+            let level = LevelHands::of(world, &group.joints).level_at(&goal);
+            let checker = ConfigurationChecker::new(world, group.joints.clone(), &contacts);
+            let checker = match leaves_room {
+                true => checker.beside_opening_fingers(world),
+                false => checker,
+            };
+            let mut checker = checker.keeping(level);
+            checker.accept_goal(&goal);
+            let effort = JointPathEffort::default();
+            let trajectory = plan_joint_trajectory(world, &group, &goal, &mut checker, effort)?;
+            let none = AllowedPairs::none();
+            Ok(JointPlan::new(group.joints.clone(), trajectory, none))
+        })
     }
 
     fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {

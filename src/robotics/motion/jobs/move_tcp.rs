@@ -8,6 +8,7 @@ use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::planning::joint_plan::JointPlan;
+use crate::motion::planning::opening_hands::with_room_for_fingers;
 use crate::motion::planning::pose_goal::{PathSearch, PoseGoalTask};
 use crate::robot::Side;
 use crate::world::{AllowedPairs, CollisionHit, World};
@@ -73,6 +74,46 @@ impl MoveTcp {
 }
 
 impl HandGoal {
+    /// The plan to goals in the frame of the base.
+    fn plan_to(
+        &self,
+        world: &World,
+        goals: Vec<(Side, Pose)>,
+        plans: u32,
+        leaves_room: bool,
+    ) -> Result<JointPlan, MotionFailure> {
+        let sides = goals.iter().map(|(side, _)| *side);
+        let contacts = ExpectedContacts::of(world, sides, self.mode, self.target.as_deref());
+        let mut task = PoseGoalTask {
+            world,
+            goals,
+            contacts,
+            search: self.search,
+            leaves_room,
+        };
+        if self.path == TcpPath::Straight {
+            if let Some(straight) = task.plan_line() {
+                return Ok(straight);
+            }
+            // A hand that approaches straight may touch an object; one on a detour would sweep
+            // it away. So the arm first takes another posture, from which the next plan can
+            // lead straight, or makes the detour without touching.
+            if self.mode == CollisionMode::AllowHand {
+                let careful = ExpectedContacts {
+                    allowed: AllowedPairs::none(),
+                    touching: task.contacts.touching.clone(),
+                };
+                if plans == 0
+                    && let Some(first) = task.plan_to_start_of_line(None, &careful)
+                {
+                    return Ok(first);
+                }
+                task.contacts = careful;
+            }
+        }
+        task.plan_free()
+    }
+
     /// Goals of the left and of the right hand, which may touch only the target.
     pub(super) fn new(
         poses: [Option<PoseGoal>; 2],
@@ -135,35 +176,9 @@ impl JointGoal for HandGoal {
         for (_, goal) in &goals {
             check_finite(Self::MODULE, &numbers_of(goal))?;
         }
-        let sides = goals.iter().map(|(side, _)| *side);
-        let contacts = ExpectedContacts::of(world, sides, self.mode, self.target.as_deref());
-        let mut task = PoseGoalTask {
-            world,
-            goals,
-            contacts,
-            search: self.search,
-        };
-        if self.path == TcpPath::Straight {
-            if let Some(straight) = task.plan_line() {
-                return Ok(straight);
-            }
-            // A hand that approaches straight may touch an object; one on a detour would sweep
-            // it away. So the arm first takes another posture, from which the next plan can
-            // lead straight, or makes the detour without touching.
-            if self.mode == CollisionMode::AllowHand {
-                let careful = ExpectedContacts {
-                    allowed: AllowedPairs::none(),
-                    touching: task.contacts.touching.clone(),
-                };
-                if plans == 0
-                    && let Some(first) = task.plan_to_start_of_line(None, &careful)
-                {
-                    return Ok(first);
-                }
-                task.contacts = careful;
-            }
-        }
-        task.plan_free()
+        with_room_for_fingers(world, |leaves_room| {
+            self.plan_to(world, goals.clone(), plans, leaves_room)
+        })
     }
 
     /// Another job may have moved the torso, or the base for a goal in the map frame.

@@ -109,6 +109,7 @@ impl JointGoal for PutGoal {
             goals,
             contacts,
             search: PathSearch::Long,
+            leaves_room: false,
         };
         let plan = PutPlan {
             task,

@@ -22,7 +22,7 @@ pub(crate) struct ConfigurationChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
     joints: Vec<JointId>,
-    /// Fingers that are opening meanwhile, and where they are going: each configuration is to be free with the
+    /// Fingers that are opening meanwhile, and where they are going, if each configuration is to be free with the
     /// fingers as they are, and as they will be.
     opening: Vec<(JointId, f64)>,
     touching: TouchingPairs,
@@ -54,11 +54,12 @@ impl PathTest<PathObstacle> for ConfigurationChecker<'_> {
 impl<'w> ConfigurationChecker<'w> {
     pub(crate) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
         let robot = world.robot_configuration().clone();
-        Self::at(world, robot, joints, contacts).beside_opening_fingers(world)
+        Self::at(world, robot, joints, contacts)
     }
 
-    /// The fingers that are opening in the world have room on the way, if they have it at the start.
-    fn beside_opening_fingers(mut self, world: &World) -> Self {
+    /// The fingers that are opening in the world have room on the whole way, if they have it at the start.
+    #[must_use]
+    pub(crate) fn beside_opening_fingers(mut self, world: &World) -> Self {
         let others = world.opening_fingers();
         let others = others.filter(|(joint, _)| !self.joints.contains(joint));
         self.opening = others.collect();

@@ -16,6 +16,7 @@ pub mod interruption;
 pub(crate) mod joint_path;
 pub(crate) mod joint_plan;
 pub(crate) mod joint_trajectory;
+pub(crate) mod opening_hands;
 mod pages;
 mod path_test;
 pub(crate) mod planning_group;

@@ -68,6 +68,8 @@ pub(crate) struct PoseGoalTask<'a> {
     pub(crate) goals: Vec<(Side, Pose)>,
     pub(crate) contacts: ExpectedContacts,
     pub(crate) search: PathSearch,
+    /// Whether fingers that are opening meanwhile have room on the whole way.
+    pub(crate) leaves_room: bool,
 }
 
 /// How long a path of the arms is searched for, where a straight one is blocked.
@@ -152,7 +154,12 @@ impl PoseGoalTask<'_> {
         contacts: &ExpectedContacts,
     ) -> ConfigurationChecker<'_> {
         let level = LevelHands::of(self.world, &group.joints).level_with(&self.goals);
-        ConfigurationChecker::new(self.world, group.joints.clone(), contacts).keeping(level)
+        let checker = ConfigurationChecker::new(self.world, group.joints.clone(), contacts);
+        let checker = match self.leaves_room {
+            true => checker.beside_opening_fingers(self.world),
+            false => checker,
+        };
+        checker.keeping(level)
     }
 
     /// The finger joints of the moving hands: wide open, or, if they hold something, as far as they

@@ -95,6 +95,7 @@ pub fn straight_ways(
         goals,
         contacts,
         search: PathSearch::Long,
+        leaves_room: false,
     };
     let heights = match begin {
         WayBegin::AtAnyHeight | WayBegin::HereAtAnyHeight => task.heights(REASON_STEP),

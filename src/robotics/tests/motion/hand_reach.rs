@@ -39,6 +39,7 @@ fn any_posture(
         goals: vec![(side, *tool)],
         contacts,
         search: PathSearch::Long,
+        leaves_room: false,
     };
     task.heights(TORSO_STEP).into_iter().any(|height| {
         let group = task.group(height);
