@@ -190,3 +190,31 @@ fn a_hand_whose_open_fingers_have_no_room_is_closed_before_it_is_parked() {
     cook.done("(with-simulated-robot (pp-plans::park-arms-nearby))");
     assert_ne!(cook.done("(pp-plans::parked-p :left)"), "NIL\n");
 }
+
+/// A way was planned each time, and the robot stopped on it at once: all places were tried, for minutes.
+#[test]
+fn a_robot_that_was_stopped_before_it_had_moved_has_no_way_out_until_its_arms_are_to_be_parked() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(in-package :pp-tut)
+         (init-projection)
+         (with-simulated-robot (pp-plans::park-arms))
+         (defun stop-at (pose)
+           (pp-plans::note-stop (make-condition 'navigation-goal-not-reached) pose))",
+    );
+    let is_free = |cook: &mut Cook, free: bool| {
+        let said = cook.done("(if (pp-plans::way-out-p) 'free 'enclosed)");
+        assert_eq!(said == "FREE\n", free, "{said}");
+    };
+    is_free(&mut cook, true);
+    cook.done("(stop-at (rob-int::base-pose))");
+    is_free(&mut cook, false);
+    cook.done("(with-simulated-robot (pp-plans::park-arms-nearby))");
+    is_free(&mut cook, true);
+    cook.done("(stop-at (rob-int::base-pose))");
+    cook.done("(btr-utils:move-robot '((0.0 0.5 0) (0 0 0 1)))");
+    is_free(&mut cook, true);
+    // Stopped on the way.
+    cook.done("(stop-at (make-pose \"map\" '((0.0 0.0 0) (0 0 0 1))))");
+    is_free(&mut cook, true);
+}
