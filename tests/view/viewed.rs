@@ -31,8 +31,13 @@ pub(super) fn viewed() -> Viewed {
 }
 
 impl Viewed {
+    /// A connection on which nothing is waited for endlessly.
     pub(super) fn connect(&self) -> TcpStream {
-        TcpStream::connect(&self.host).unwrap()
+        let stream = TcpStream::connect(&self.host).unwrap();
+        stream
+            .set_read_timeout(Some(Duration::from_secs(60)))
+            .unwrap();
+        stream
     }
 
     /// Sends bytes and reads until the server ends the connection.

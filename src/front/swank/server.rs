@@ -4,7 +4,6 @@ use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::thread;
-use std::time::Duration;
 
 use thiserror::Error;
 
@@ -15,7 +14,7 @@ use super::keep::Keep;
 use super::secret::SecretError;
 use super::version::Version;
 use session::dialogue::Serve;
-use view::watch::live::Door;
+use view::watch::live::{Door, Stranger};
 
 /// Maximum number of clients at a time.
 const MAX_CLIENTS: usize = 32;
@@ -113,7 +112,7 @@ impl Server {
         let secret = options.secret;
         let thread = thread::Builder::new()
             .name("swank".to_owned())
-            .spawn(move || accept(&listener, &accepting, secret.as_deref()))
+            .spawn(move || accept(&listener, &accepting, secret))
             .map_err(ServerError::Thread)?;
         begin(Stopper(Arc::clone(&hub)));
         let ended = Engine::new(session, keeper, hub).run();
@@ -125,31 +124,17 @@ impl Server {
     }
 }
 
-fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
-    let door = Arc::new(Door::new(MAX_STRANGERS, MAX_CLIENTS));
-    for stream in listener.incoming() {
-        if hub.is_ending() {
-            return;
-        }
-        let Ok(stream) = stream else {
-            // Most likely out of file descriptors; some will be given back soon.
-            thread::sleep(Duration::from_millis(50));
-            continue;
-        };
-        let Ok(stranger) = door.admit(&stream) else {
-            continue;
-        };
-        let own = Arc::clone(hub);
-        let secret = secret.map(str::to_owned);
-        let serve = move || {
-            // A client that breaks off, or sends what is no message, is merely gone.
-            let _ = connection::serve(&own, &stranger, stream, secret.as_deref());
-        };
-        let thread = thread::Builder::new()
-            .name("swank input".to_owned())
-            .stack_size(STACK_BYTES);
-        if thread.spawn(serve).is_err() {
-            thread::sleep(Duration::from_millis(50));
-        }
-    }
+fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<String>) {
+    let own = Arc::clone(hub);
+    let serve = move |stranger: &Stranger, stream| {
+        // A client that breaks off, or sends what is no message, is merely gone.
+        let _ = connection::serve(&own, stranger, stream, secret.as_deref());
+    };
+    let is_open = || !hub.is_ending();
+    Door::new(MAX_STRANGERS, MAX_CLIENTS).serve(
+        listener,
+        ("swank input", STACK_BYTES),
+        is_open,
+        serve,
+    );
 }

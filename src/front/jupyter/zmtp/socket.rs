@@ -30,6 +30,9 @@ const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 500 } else { 30
 /// How often a wait looks whether it is to be ended.
 const LOOK: Duration = Duration::from_millis(20);
 
+/// Bytes of stack for a connection's thread.
+const STACK_BYTES: usize = 2 << 20;
+
 /// The kinds of sockets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Kind {
@@ -206,28 +209,14 @@ impl Socket {
     }
 
     fn accept(&self, listener: &TcpListener) {
-        let door = Arc::new(Door::new(MAX_STRANGERS, MAX_PEERS));
-        for stream in listener.incoming() {
-            if self.0.is_closed.load(Ordering::Relaxed) {
-                return;
-            }
-            let Ok(stream) = stream else {
-                // Too many files are open, for example; that may pass.
-                thread::sleep(LOOK);
-                continue;
-            };
-            let Ok(stranger) = door.admit(&stream) else {
-                continue;
-            };
-            let socket = self.clone();
-            let serving = thread::Builder::new().spawn(move || {
-                // Whatever ends a connection, the peer is gone.
-                let _ = socket.serve(&stranger, stream);
-            });
-            if serving.is_err() {
-                thread::sleep(LOOK);
-            }
-        }
+        let socket = self.clone();
+        let serve = move |stranger: &Stranger, stream| {
+            // Whatever ends a connection, the peer is gone.
+            let _ = socket.serve(stranger, stream);
+        };
+        let is_open = || !self.0.is_closed.load(Ordering::Relaxed);
+        let kind = ("jupyter input", STACK_BYTES);
+        Door::new(MAX_STRANGERS, MAX_PEERS).serve(listener, kind, is_open, serve);
     }
 
     /// Reads what a peer sends until it is gone.

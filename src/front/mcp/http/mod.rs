@@ -47,29 +47,18 @@ pub(crate) fn serve(
     let path = format!("/{word}/mcp");
     thread::Builder::new()
         .name("mcp".to_owned())
-        .spawn(move || accept(&listener, &path, &to))?;
+        .spawn(move || accept(&listener, path, to))?;
     answer_jobs(&jobs, open);
     Ok(())
 }
 
-fn accept(listener: &TcpListener, path: &str, to: &SyncSender<Job>) {
-    let door = Arc::new(Door::new(MAX_STRANGERS, MAX_GUESTS));
-    for stream in listener.incoming() {
-        let admitted = stream.and_then(|mut stream| {
-            let stranger = door.admit(&stream)?;
-            let (path, to) = (path.to_owned(), to.clone());
-            let thread = thread::Builder::new().stack_size(STACK_BYTES);
-            let serve = move || {
-                // A client that sent something malformed, is too slow or has left gets no answer.
-                let _ = read_and_answer(&path, &to, &stranger, &mut stream);
-            };
-            thread.spawn(serve).map(drop)
-        });
-        if admitted.is_err() {
-            // Most likely out of file descriptors or threads; some will be given back soon.
-            thread::sleep(Duration::from_millis(50));
-        }
-    }
+fn accept(listener: &TcpListener, path: String, to: SyncSender<Job>) {
+    let serve = move |stranger: &Stranger, mut stream| {
+        // A client that sent something malformed, is too slow or has left gets no answer.
+        let _ = read_and_answer(&path, &to, stranger, &mut stream);
+    };
+    let kind = ("mcp client", STACK_BYTES);
+    Door::new(MAX_STRANGERS, MAX_GUESTS).serve(listener, kind, || true, serve);
 }
 
 fn read_and_answer(

@@ -21,12 +21,12 @@ const MAX_BODY: usize = 256;
 const TIMEOUT: Duration = Duration::from_secs(3);
 
 /// Answers one request, or drops it.
-pub(super) fn serve(shared: &Arc<Shared>, stranger: Stranger, mut to: TcpStream) {
+pub(super) fn serve(shared: &Arc<Shared>, stranger: &Stranger, mut to: TcpStream) {
     // Send frames, which are small, at once.
     let prepared = to.set_nodelay(true);
     // A client that sent something malformed, is too slow or has left gets no answer.
     if prepared.is_ok() {
-        let _ = read_and_answer(shared, &stranger, &mut to);
+        let _ = read_and_answer(shared, stranger, &mut to);
     }
 }
 

@@ -1,13 +1,13 @@
 //! The server of the page.
 
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::connection;
-use super::door::Door;
+use super::door::{Door, Stranger};
 use super::history::History;
 use super::pace_control::PaceControl;
 use super::place::{Place, PlaceError};
@@ -42,7 +42,6 @@ pub(super) struct Shared {
     pub views: Views,
     /// The random word in the page's address.
     pub token: String,
-    door: Arc<Door>,
     viewers: AtomicUsize,
     had_viewer: AtomicBool,
     is_stopped: AtomicBool,
@@ -63,7 +62,6 @@ impl Server {
             pace,
             views,
             token: place.token().to_owned(),
-            door: Arc::new(Door::new(MAX_STRANGERS, MAX_GUESTS)),
             viewers: AtomicUsize::new(0),
             had_viewer: AtomicBool::new(false),
             is_stopped: AtomicBool::new(false),
@@ -71,7 +69,18 @@ impl Server {
         let accepting = Arc::clone(&shared);
         let thread = thread::Builder::new()
             .name("live view".to_owned())
-            .spawn(move || accept(&listener, &accepting))
+            .spawn(move || {
+                let is_open = || !accepting.is_stopped();
+                let own = Arc::clone(&accepting);
+                let serve =
+                    move |stranger: &Stranger, stream| connection::serve(&own, stranger, stream);
+                Door::new(MAX_STRANGERS, MAX_GUESTS).serve(
+                    &listener,
+                    ("live view", STACK_BYTES),
+                    is_open,
+                    serve,
+                );
+            })
             .map_err(PlaceError::Other)?;
         Ok(Self {
             shared,
@@ -137,25 +146,6 @@ impl Drop for Viewing {
         thread::sleep(GONE);
         if self.0.viewers.load(Ordering::Relaxed) == 0 {
             pace.set_paused(false);
-        }
-    }
-}
-
-fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
-    for stream in listener.incoming() {
-        if shared.is_stopped() {
-            return;
-        }
-        let admitted = stream.and_then(|stream| {
-            let stranger = shared.door.admit(&stream)?;
-            let own = Arc::clone(shared);
-            let serve = move || connection::serve(&own, stranger, stream);
-            let thread = thread::Builder::new().stack_size(STACK_BYTES);
-            thread.spawn(serve).map(drop)
-        });
-        if admitted.is_err() {
-            // Most likely out of file descriptors or threads; some will be given back soon.
-            thread::sleep(Duration::from_millis(50));
         }
     }
 }
