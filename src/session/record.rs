@@ -17,44 +17,34 @@ use lisp::value::copy::Copier;
 use lisp::value::known;
 use lisp::value::raise::Raise;
 
+/// Bytes of text from which on it is packed together: inputs of a session are much like earlier ones, but only what
+/// is in the same block is found by the packer.
+const BLOCK_BYTES: usize = 64 << 10;
+
 /// The inputs of a session with their outputs.
 #[derive(Default)]
-pub(super) struct Record(RefCell<Vec<Entry>>);
+pub(super) struct Record(RefCell<Inputs>);
+
+#[derive(Clone, Default)]
+struct Inputs {
+    /// The transcript of all but the last, packed where there is much of it.
+    blocks: Vec<Vec<u8>>,
+    /// The part of it that is not packed.
+    text: String,
+    /// How many there are.
+    count: usize,
+    last: Option<Entry>,
+}
 
 #[derive(Clone)]
 struct Entry {
     /// What the prompt showed, with the state of a stopped evaluation.
     prompt: String,
     input: String,
-    output: Output,
+    output: Screen<Vec<u8>>,
     interrupted_at: Option<u64>,
     /// Whether it asked to end the session; if the session went on, it had no effect.
     quits: bool,
-}
-
-/// What was shown after an input.
-#[derive(Clone)]
-enum Output {
-    /// More may follow.
-    Open(Screen<Vec<u8>>),
-    /// All of it, packed: a long session shows much.
-    Packed(Vec<u8>),
-}
-
-impl Output {
-    fn pack(&mut self) {
-        if let Output::Open(screen) = self {
-            *self = Output::Packed(compress_prepend_size(screen.written()));
-        }
-    }
-
-    fn text(&self) -> String {
-        let bytes: Cow<'_, [u8]> = match self {
-            Output::Open(screen) => screen.written().into(),
-            Output::Packed(bytes) => decompress_size_prepended(bytes).unwrap_or_default().into(),
-        };
-        String::from_utf8_lossy(&bytes).into_owned()
-    }
 }
 
 impl Extension for Record {
@@ -63,19 +53,44 @@ impl Extension for Record {
     }
 }
 
+impl Inputs {
+    /// The last one has ended.
+    fn close(&mut self) {
+        if let Some(entry) = self.last.take().filter(|entry| !entry.quits) {
+            self.text.push_str(&entry.text());
+        }
+        if self.text.len() > BLOCK_BYTES {
+            let mut block = compress_prepend_size(self.text.as_bytes());
+            block.shrink_to_fit();
+            self.blocks.push(block);
+            self.text = String::new();
+        }
+    }
+
+    /// The transcript of all but the last.
+    fn text(&self) -> String {
+        let mut bytes = Vec::new();
+        for block in &self.blocks {
+            bytes.extend(decompress_size_prepended(block).unwrap_or_default());
+        }
+        bytes.extend_from_slice(self.text.as_bytes());
+        // Each block ends where an input does.
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
+}
+
 impl Record {
     /// Call when an input is about to be evaluated.
     pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
-        let mut screen = Screen::new(Vec::new());
-        screen.begin_input(source_name, input);
-        let mut entries = self.0.borrow_mut();
-        if let Some(before) = entries.last_mut() {
-            before.output.pack();
-        }
-        entries.push(Entry {
+        let mut output = Screen::new(Vec::new());
+        output.begin_input(source_name, input);
+        let mut inputs = self.0.borrow_mut();
+        inputs.close();
+        inputs.count += 1;
+        inputs.last = Some(Entry {
             prompt,
             input: input.to_owned(),
-            output: Output::Open(screen),
+            output,
             interrupted_at: None,
             quits: false,
         });
@@ -83,40 +98,33 @@ impl Record {
 
     /// Records an event.
     pub(crate) fn note(&self, event: &Event) {
-        if let Some(entry) = self.0.borrow_mut().last_mut()
-            && let Output::Open(screen) = &mut entry.output
-        {
+        if let Some(entry) = &mut self.0.borrow_mut().last {
             // Writing to memory does not fail.
-            let _ = screen.show(event);
+            let _ = entry.output.show(event);
         }
     }
 
     /// Call when the input has been evaluated.
     pub(crate) fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
-        if let Some(entry) = self.0.borrow_mut().last_mut() {
+        if let Some(entry) = &mut self.0.borrow_mut().last {
             entry.interrupted_at = interrupted_at;
             entry.quits = matches!(outcome, Outcome::Quit(_));
         }
     }
 
-    /// The transcript of all entries but the last, which is still being evaluated.
-    fn transcript(&self) -> String {
-        let entries = self.0.borrow();
-        let Some((last, earlier)) = entries.split_last() else {
-            return String::new();
-        };
-        let mut text: String = earlier
-            .iter()
-            .filter(|entry| !entry.quits)
-            .map(Entry::text)
-            .collect();
-        let is_stopped = prompt_line(&format!("{}>", last.prompt))
-            .is_some_and(|prompt| !prompt.state.is_empty());
-        if is_stopped {
-            // A replay stops where the next prompt shows that the evaluation stopped.
-            text.push_str(&format!("{}>\n", last.prompt));
+    /// The transcript of all inputs but the last, which is still being evaluated, and how many these are.
+    fn transcript(&self) -> (String, usize) {
+        let inputs = self.0.borrow();
+        let mut text = inputs.text();
+        if let Some(last) = &inputs.last {
+            let is_stopped = prompt_line(&format!("{}>", last.prompt))
+                .is_some_and(|prompt| !prompt.state.is_empty());
+            if is_stopped {
+                // A replay stops where the next prompt shows that the evaluation stopped.
+                text.push_str(&format!("{}>\n", last.prompt));
+            }
         }
-        text
+        (text, inputs.count.saturating_sub(1))
     }
 }
 
@@ -129,7 +137,7 @@ impl Entry {
             None => Cow::Borrowed(input),
         };
         let mut text = format!("{}> {input}\n", self.prompt);
-        for line in self.output.text().lines() {
+        for line in String::from_utf8_lossy(self.output.written()).lines() {
             text.push_str(&comparable(line));
             text.push('\n');
         }
@@ -179,10 +187,7 @@ fn save_transcript(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let record = image.extension::<Record>();
-    let (text, count) = record.map_or_else(Default::default, |record| {
-        let count = record.0.borrow().len().saturating_sub(1);
-        (record.transcript(), count)
-    });
+    let (text, count) = record.map_or_else(Default::default, |record| record.transcript());
     let written = image.files.write(&path, text.as_bytes());
     written.map_err(|error| Raise::simple(format!("{path} cannot be written: {error}.")))?;
     Ok(Value::from(count))

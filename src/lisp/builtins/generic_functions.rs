@@ -11,7 +11,8 @@ use crate::object::combine::{invoke_method, no_next_method};
 use crate::object::dispatch::no_applicable_method_error;
 use crate::object::effective::applicable_methods;
 use crate::object::method::{
-    MethodObject, add_method, has_qualifiers, method_value, remove_method, specializer,
+    MethodObject, add_method, generic_named, generic_of, has_qualifiers, method_value,
+    remove_method, specializer,
 };
 use crate::object::{defmethod, text};
 use crate::typed::FromValue;
@@ -50,7 +51,7 @@ fn add_method_builtin(
     generic_function: &Value,
     method: &Rc<Method>,
 ) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(generic_function)?.clone();
+    let function = generic_of(image, generic_function)?;
     let required = as_generic(&function)?.parameters.borrow().required;
     let count = method.specializers.len();
     if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
@@ -66,10 +67,11 @@ fn add_method_builtin(
 /// `(progn (defgeneric lift (x)) (let ((m (defmethod lift ((x integer)) x))) (remove-method #'lift m) (find-method #'lift '() (list (find-class 'integer)) nil)))` => `NIL`
 #[builtin("REMOVE-METHOD")]
 fn remove_method_builtin(
+    image: &mut Image,
     generic_function: &Value,
     method: &Rc<Method>,
 ) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(generic_function)?;
+    let function = generic_of(image, generic_function)?;
     if let Some(generic) = function.as_generic() {
         remove_method(generic, method);
     }
@@ -82,10 +84,10 @@ fn remove_method_builtin(
 #[builtin]
 fn compute_applicable_methods(
     image: &mut Image,
-    generic_function: Generic<'_>,
+    generic_function: Generic,
     arguments: &Value,
 ) -> Result<Value, Box<Raise>> {
-    let function = generic_function.0.clone();
+    let function = generic_function.0;
     let arguments: Vec<Value> = arguments.iter_list().collect();
     let generic = as_generic(&function)?;
     let methods = applicable_methods(image, generic, &arguments);
@@ -188,27 +190,17 @@ pub(crate) static OPERATORS: &[Operator] = &[
 ];
 
 /// A generic function.
-pub(super) struct Generic<'a>(pub(super) &'a Rc<Function>);
+pub(super) struct Generic(pub(super) Rc<Function>);
 
-impl<'a> FromValue<'a> for Generic<'a> {
-    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
-        generic_argument(value).map(Generic)
+impl<'a> FromValue<'a> for Generic {
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+        generic_of(image, value).map(Generic)
     }
 }
 
 impl<'a> FromValue<'a> for &'a Rc<Method> {
     fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
         method_argument(value)
-    }
-}
-
-pub(super) fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
-    match value {
-        Value::Function(function) if function.as_generic().is_some() => Ok(function),
-        other => Err(Raise::type_error(
-            other,
-            Value::symbol(known::GENERIC_FUNCTION),
-        )),
     }
 }
 
@@ -234,7 +226,7 @@ fn check_owner(
     function: &Rc<Function>,
     method: &Rc<Method>,
 ) -> Result<(), Box<Raise>> {
-    let owner = image.named_function(&method.name);
+    let owner = generic_named(image, &method.name);
     let other = owner.filter(|owner| !Rc::ptr_eq(owner, function));
     let other = other.as_ref().and_then(|other| other.as_generic());
     if other.is_some_and(|other| other.methods.borrow().iter().any(|m| Rc::ptr_eq(m, method))) {
@@ -261,17 +253,17 @@ fn wrong_count(image: &Image, function: &Value, required: usize, count: usize) -
 /// `(progn (defgeneric f (x)) (find-method #'f '() (list (find-class 'string)) nil))` => `NIL`
 #[builtin(_, "generic-function qualifiers specializers &optional (errorp t)")]
 fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let function = generic_argument(&args[0])?;
+    let function = generic_of(image, &args[0])?;
     let qualifiers: Vec<Value> = args[1].iter_list().collect();
     let specializers = args[2]
         .iter_list()
         .map(|s| specializer(image, &s))
         .collect::<Result<Vec<_>, _>>()?;
-    let required = as_generic(function)?.parameters.borrow().required;
+    let required = as_generic(&function)?.parameters.borrow().required;
     if specializers.len() != required {
         return Err(wrong_count(image, &args[0], required, specializers.len()));
     }
-    let methods = as_generic(function)?.methods.borrow();
+    let methods = as_generic(&function)?.methods.borrow();
     let found = methods.iter().find(|m| {
         has_qualifiers(m, &qualifiers)
             && m.specializers.len() == specializers.len()

@@ -19,14 +19,14 @@ type Outcome = Result<Value, Box<Raise>>;
 
 /// The name of a generic function.
 #[builtin("%GENERIC-FUNCTION-NAME")]
-fn generic_function_name(generic_function: Generic<'_>) -> Outcome {
+fn generic_function_name(generic_function: Generic) -> Outcome {
     let generic = generic_function.0.as_generic();
     Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
 }
 
 /// The methods of a generic function, in order of definition.
 #[builtin("%GENERIC-FUNCTION-METHODS")]
-fn generic_function_methods(generic_function: Generic<'_>) -> Outcome {
+fn generic_function_methods(generic_function: Generic) -> Outcome {
     let generic = generic_function.0.as_generic();
     let methods = generic.map(|generic| generic.methods.borrow().clone());
     Ok(Value::list(methods.iter().flatten().map(method_value)))

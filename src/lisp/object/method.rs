@@ -176,6 +176,29 @@ fn traced_generic(image: &Image, name: &Value) -> Option<Rc<Function>> {
     functions.find(|function| function.as_generic().is_some())
 }
 
+/// A generic function, also from the function that shows its calls: see `trace`.
+pub(crate) fn generic_of(image: &Image, value: &Value) -> Result<Rc<Function>, Box<Raise>> {
+    if let Value::Function(function) = value {
+        if function.as_generic().is_some() {
+            return Ok(function.clone());
+        }
+        let traced = image.special(known::SYS_TRACED).iter_list();
+        let mut names = traced.map(|entry| entry.car_or_nil());
+        let is_shown_by = |name: &Value| {
+            let named = image.named_function(name);
+            named.is_some_and(|named| Rc::ptr_eq(&named, function))
+        };
+        let behind = names.find(is_shown_by);
+        if let Some(behind) = behind.and_then(|name| traced_generic(image, &name)) {
+            return Ok(behind);
+        }
+    }
+    Err(Raise::type_error(
+        value,
+        Value::symbol(known::GENERIC_FUNCTION),
+    ))
+}
+
 fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
     let generic = GenericFunction::new(name.clone(), parameters);
     Rc::new(Body::Generic(Box::new(generic)).into())

@@ -107,3 +107,18 @@ fn methods_are_added_to_a_generic_function_that_is_traced() {
         ),
     ]);
 }
+
+#[test]
+fn the_methods_of_a_generic_function_that_is_traced_are_found() {
+    check(&[
+        (
+            "(progn (defgeneric hue (x)) (defmethod hue ((x integer)) :int) (defmethod hue (x) :any) (trace hue)
+                    (list (length (compute-applicable-methods #'hue '(1)))
+                          (length (closer-mop:generic-function-methods #'hue))
+                          (closer-mop:generic-function-name #'hue)
+                          (null (remove-method #'hue (find-method #'hue '() (list (find-class 'integer)))))
+                          (progn (untrace hue) (hue 1))))",
+            "(2 2 HUE NIL :ANY)",
+        ),
+    ]);
+}
