@@ -180,10 +180,11 @@ fn taken_apart(
     most: u32,
 ) -> Option<Vec<Polyhedron>> {
     let fewest = cells as u32;
-    (fewest..).take(TRIES).find_map(|resolution| {
-        let bodies = caught(|| with_cells(surface, resolution, concavity, most));
-        bodies.ok().filter(|bodies| !bodies.is_empty())
-    })
+    let tries = (fewest..).take(TRIES);
+    let mut bodies = tries.map(|cells| caught(|| with_cells(surface, cells, concavity, most)));
+    bodies
+        .find_map(Result::ok)
+        .filter(|bodies| !bodies.is_empty())
 }
 
 fn with_cells(surface: &Polyhedron, resolution: u32, concavity: f64, most: u32) -> Vec<Polyhedron> {

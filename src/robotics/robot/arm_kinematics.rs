@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::closed_form::ClosedForm;
 use super::{
     ArmPlane, ArmPositions, JointChainError, JointId, KinematicTree, Limits, LinkId,
-    NumericKinematics, Unreachable,
+    NumericKinematics, ReachMap, Unreachable,
 };
 use spatial::{Pose, trig};
 
@@ -113,15 +113,15 @@ impl ArmKinematics {
     pub(crate) fn surely_misses(&self, wrist: &Pose) -> bool {
         match &self.solver {
             Solver::ClosedForm(solver) => !solver.reaches(wrist),
-            Solver::Numeric(_) => false,
+            Solver::Numeric(solver) => solver.is_too_far(wrist),
         }
     }
 
-    /// Whether the wrist is farther away than the arm is long; said only of arms of which that is known.
+    /// Whether the wrist is farther away than the arm is long.
     pub(crate) fn is_too_far(&self, wrist: &Pose) -> bool {
         match &self.solver {
             Solver::ClosedForm(solver) => solver.is_too_far(wrist),
-            Solver::Numeric(_) => false,
+            Solver::Numeric(solver) => solver.is_too_far(wrist),
         }
     }
 
@@ -155,8 +155,27 @@ impl ArmKinematics {
                 let mut wrist = solver.forward(positions);
                 let hand = Rotation3::from_matrix_unchecked(*hand);
                 wrist.rotation = UnitQuaternion::from_rotation_matrix(&hand);
-                solver.nearest(&wrist, positions).ok()
+                solver.adjusted(&wrist, positions)
             }
+        }
+    }
+
+    /// Where the arm may bring a tool (m, frame of the wrist) ahead of its wrist. `None` for an arm that is solved in
+    /// closed form, which tells that sooner itself, or that cannot be mapped.
+    pub(super) fn map(&self, tool: Vector3<f64>) -> Option<ReachMap> {
+        match &self.solver {
+            Solver::ClosedForm(_) => None,
+            Solver::Numeric(solver) => solver.map(tool),
+        }
+    }
+
+    /// The arm on a lift that moves its base along a direction (m per m of the lift, frame of the base): it tells of all
+    /// heights at once what is out of reach. `None` for an arm that is solved in closed form, which tells that sooner of
+    /// each height, or that has no room for another joint.
+    pub(super) fn on_lift(&self, rise: &Vector3<f64>, limits: Limits) -> Option<NumericKinematics> {
+        match &self.solver {
+            Solver::ClosedForm(_) => None,
+            Solver::Numeric(solver) => solver.on_lift(rise, limits),
         }
     }
 }

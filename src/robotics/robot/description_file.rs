@@ -142,12 +142,13 @@ impl<'a> Reader<'a> {
             return Err(self.missing("camera"));
         };
         let base = self.base()?;
+        let torso = self.torso(&base)?;
         Ok(RobotDescription {
             name: robot.thing("name")?.symbol()?.to_owned(),
-            torso: self.torso(&base)?,
             neck: self.neck(camera)?,
             cameras,
-            arms: self.arms(&base)?,
+            arms: self.arms(&base, &torso)?,
+            torso,
             base,
             touching: self.groups("touching")?,
             wheels: self.groups("wheels")?.concat(),
@@ -389,11 +390,11 @@ impl<'a> Reader<'a> {
         Ok(camera)
     }
 
-    fn arms(&self, base: &Base) -> Result<Vec<Arm>, DataError> {
+    fn arms(&self, base: &Base, torso: &Torso) -> Result<Vec<Arm>, DataError> {
         let mut arms = Vec::new();
         for side in Side::BOTH {
             if let Some(record) = self.sided("arm", side)? {
-                arms.push(self.arm(record, side, base)?);
+                arms.push(self.arm(record, side, base, torso)?);
             }
         }
         match arms.is_empty() {
@@ -402,7 +403,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn arm(&self, record: &Record<'_>, side: Side, base: &Base) -> Result<Arm, DataError> {
+    fn arm(
+        &self,
+        record: &Record<'_>,
+        side: Side,
+        base: &Base,
+        torso: &Torso,
+    ) -> Result<Arm, DataError> {
         let arm_base = record.required("base")?;
         let wrist = record.required("wrist")?;
         let (base_link, wrist_link) = (self.link(arm_base)?, self.link(wrist)?);
@@ -422,6 +429,8 @@ impl<'a> Reader<'a> {
         })?;
         let tool_offset = record.required("tool-offset")?.number()?;
         let (tool_axes, ahead) = rotation(record.required("tool-axes")?)?;
+        let kinematics = kinematics.with_tool_at(ahead * tool_offset);
+        let rise = torso.rise(self.tree, base.frame, base_link);
         Ok(Arm {
             side,
             base: base_link,
@@ -432,7 +441,9 @@ impl<'a> Reader<'a> {
             tool_axes,
             start: *start,
             payload: optional_positive(record, "payload")?,
-            kinematics: kinematics.with_tool_at(ahead * tool_offset),
+            map: kinematics.map(ahead * tool_offset),
+            on_lift: kinematics.on_lift(&rise, torso.limits),
+            kinematics,
             postures,
             gripper: self.gripper(side)?,
         })

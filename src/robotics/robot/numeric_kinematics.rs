@@ -16,7 +16,7 @@ use super::arm_positions::{ArmPositions, MOST_ARM_JOINTS};
 use super::chain_length::ChainLength;
 use super::joint_chain::{ChainPositions, Columns, JointChain, JointChainError};
 use super::shares::Shares;
-use super::{JointId, KinematicTree, Limits, LinkId, Miss};
+use super::{JointId, KinematicTree, Limits, LinkId, Miss, ReachMap};
 use spatial::{Pose, trig};
 
 /// Greatest distance (m) and angle (rad) of a solution from the goal.
@@ -34,8 +34,11 @@ const LEVER: f64 = 0.01;
 const SETTLING_STEPS: usize = 12;
 /// Starts of a search, the seed among them.
 const TRIES: usize = 100;
-/// Starts after which a goal is taken as out of reach where only that is asked.
-const QUICK_TRIES: usize = 40;
+/// Starts after which a goal is taken as out of reach where only that is asked, and after how many it is so already
+/// if no end has come this near (root of the squared error). Of 1,500 poses that a TIAGo reaches in 100 tries, 1 % is
+/// lost by that; of the others, three in four are given up after 12 tries at most.
+const QUICK_TRIES: usize = 24;
+const HOPELESS: [(usize, f64); 2] = [(6, 0.25), (12, 0.05)];
 /// Random postures of which those are starts whose tips are nearest to the goal.
 const POSTURES: usize = 400;
 /// A squared error that no step makes smaller.
@@ -100,7 +103,10 @@ impl NumericKinematics {
     /// If `tip` does not hang on `base`, if there are no moving joints or more than
     /// [`MOST_ARM_JOINTS`] between the two, or if one of them follows a joint elsewhere.
     pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, JointChainError> {
-        let chain = JointChain::read(tree, base, tip)?;
+        JointChain::read(tree, base, tip).map(Self::of)
+    }
+
+    fn of(chain: JointChain) -> Self {
         let mut bounds = [[0.0; 2]; MOST_ARM_JOINTS];
         for (bound, limits) in bounds.iter_mut().zip(&chain.limits) {
             *bound = match limits {
@@ -123,7 +129,7 @@ impl NumericKinematics {
             (posture, chain.forward(&posture))
         });
         let postures = postures.collect();
-        Ok(Self {
+        Self {
             middle: bounds.map(|bound| drawn(bound, 0.5)),
             postures,
             length: ChainLength::of(&chain),
@@ -132,7 +138,7 @@ impl NumericKinematics {
             point: Vector3::zeros(),
             bounds,
             chain,
-        })
+        }
     }
 
     /// The joints from the base to the tip that move on their own.
@@ -220,6 +226,32 @@ impl NumericKinematics {
         }
     }
 
+    /// The solution to which the seed leads, if it leads to one: for a pose of the tip near that of the seed.
+    pub fn adjusted(&self, goal: &Pose, seed: &ArmPositions) -> Option<ArmPositions> {
+        if !self.is_general() {
+            return self.nearest(goal, seed).ok();
+        }
+        let seed = self.start_at(seed);
+        let found = self.descend(goal, &seed);
+        let positions = self.turned_to(&found.positions, &seed);
+        let away = self.greatest_move(&positions, &seed);
+        self.is_solution(&found)
+            .then(|| self.cut(&self.towards(goal, &positions, away, &seed)))
+    }
+
+    /// The same chain on a lift that moves its base along a direction (m per m of the lift, frame of the base);
+    /// `None` if there are too many joints for that, or too few for poses in general.
+    pub(super) fn on_lift(&self, rise: &Vector3<f64>, limits: Limits) -> Option<Self> {
+        let chain = self.chain.on_lift(rise, limits)?;
+        self.is_general.then(|| Self::of(chain))
+    }
+
+    /// Where the chain may bring a tool (m, frame of the tip) ahead of its tip, if that can be mapped.
+    pub(super) fn map(&self, tool: Vector3<f64>) -> Option<ReachMap> {
+        self.is_general
+            .then(|| ReachMap::of(&self.chain, &self.bounds, tool))?
+    }
+
     /// Different solutions, with continuous joints within -π..π: any two differ by `step` (rad or m), or
     /// at least 0.1, in some joint. Bounded in number; some may be missing.
     pub fn solutions(&self, goal: &Pose, step: f64) -> Vec<ArmPositions> {
@@ -228,11 +260,14 @@ impl NumericKinematics {
         if self.check(goal).is_err() {
             return Vec::new();
         }
+        let mut least = f64::INFINITY;
         for (tries, start) in self.starts(goal, self.middle).take(TRIES).enumerate() {
-            if tries == QUICK_TRIES && found.is_empty() || found.len() == MOST_SOLUTIONS {
+            let is_lost = found.is_empty() && self.is_hopeless(tries, least);
+            if is_lost || found.len() == MOST_SOLUTIONS {
                 break;
             }
             let end = self.descend(goal, &start);
+            least = least.min(end.error);
             let turned = self.turned_to(&end.positions, &[0.0; MOST_ARM_JOINTS]);
             let is_known = |known: &ChainPositions| self.greatest_move(known, &turned) < apart;
             if self.is_solution(&end) && !found.iter().any(is_known) {
@@ -249,9 +284,32 @@ impl NumericKinematics {
         if self.plane.as_ref().is_some_and(|plane| !plane.holds(goal)) {
             return false;
         }
-        let mut starts = self.starts(goal, self.middle).take(QUICK_TRIES);
-        self.check(goal).is_ok()
-            && starts.any(|start| self.is_solution(&self.descend(goal, &start)))
+        if self.check(goal).is_err() {
+            return false;
+        }
+        let mut least = f64::INFINITY;
+        for (tries, start) in self.starts(goal, self.middle).enumerate() {
+            if self.is_hopeless(tries, least) {
+                return false;
+            }
+            let end = self.descend(goal, &start);
+            if self.is_solution(&end) {
+                return true;
+            }
+            least = least.min(end.error);
+        }
+        false
+    }
+
+    /// Whether a goal counts as out of reach after so many tries, of which the best one has left that squared error.
+    fn is_hopeless(&self, tries: usize, least: f64) -> bool {
+        let is_far = |(after, near): (usize, f64)| tries >= after && least > near * near;
+        tries >= QUICK_TRIES || self.is_general() && HOPELESS.into_iter().any(is_far)
+    }
+
+    /// Whether it is certain, without a search, that there is no solution.
+    pub(super) fn is_too_far(&self, goal: &Pose) -> bool {
+        self.check(goal).is_err()
     }
 
     /// Whether the chain has enough joints for poses in general.

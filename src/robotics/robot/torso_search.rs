@@ -99,6 +99,20 @@ impl<'a> TorsoSearch<'a> {
         base.inv_mul(wrist)
     }
 
+    /// Whether the arm may reach the wrist, which is given in the robot's frame on the floor, at one of some heights (m).
+    /// Known at once; next to none that it reaches are missed.
+    pub(crate) fn may_reach(&self, wrist: &Pose, mut heights: impl Iterator<Item = f64>) -> bool {
+        let map = self.arm.map.as_ref();
+        map.is_none_or(|map| heights.any(|height| map.holds(&self.in_arm_base(wrist, height))))
+    }
+
+    /// Whether the arm reaches the wrist, which is given in the robot's frame on the floor, at some height within the
+    /// lift's limits; `None` if only each height can be asked. Few that it reaches are missed.
+    pub(crate) fn any_height_reaches(&self, wrist: &Pose) -> Option<bool> {
+        let lifted = self.arm.on_lift.as_ref()?;
+        Some(lifted.reaches(&self.in_arm_base(wrist, 0.0)))
+    }
+
     /// All heights (m) that are tried, in order.
     pub fn heights(&self) -> &[f64] {
         &self.heights

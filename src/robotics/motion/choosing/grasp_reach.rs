@@ -10,6 +10,7 @@ use crate::motion::contact::hand::{arm_names, hand_names};
 use crate::motion::failure::grasp_obstacle::{GraspObstacle, GraspPart};
 use crate::motion::planning::configuration_checker::ConfigurationChecker;
 use crate::motion::planning::goal_configurations::CONFIGURATION_STEP;
+use crate::robot::description::Arm;
 use crate::robot::torso_search::TorsoSearch;
 use crate::robot::{ArmPositions, JointId, Side};
 use crate::world::{BodyName, CollisionHit, RobotConfiguration, World};
@@ -17,8 +18,11 @@ use spatial::Pose;
 
 /// Step (m) between torso heights that are tried.
 const HEIGHT_STEP: f64 = 0.06;
-/// How often an arm is asked whether it reaches a pose in the time in which a posture is checked.
-const ASKED_PER_POSTURE: u32 = 10;
+/// How long it takes to ask an arm whether it reaches a pose, in tenths of the time in which a posture is checked: one
+/// that is solved in closed form, and a numeric one that does or does not.
+const ASKED: u32 = 1;
+const ASKED_AND_FOUND: u32 = 5;
+const ASKED_IN_VAIN: u32 = 20;
 /// Open fingers may overlap their object this much (m) where they will grip it.
 const TIGHT_FIT: f64 = 0.002;
 
@@ -81,7 +85,7 @@ pub(crate) struct GraspReach<'w> {
     heights: Vec<f64>,
     /// Number of postures that have been checked for collisions.
     postures: Cell<u32>,
-    /// How often the arm has been asked whether it reaches a pose.
+    /// How long arms have been asked whether they reach a pose, in tenths of that.
     asked: Cell<u32>,
 }
 
@@ -134,7 +138,17 @@ impl<'w> GraspReach<'w> {
     /// Number of postures that have been checked for collisions, for all base poses, and of what takes as
     /// long: most of the time goes there.
     pub(crate) fn postures(&self) -> u32 {
-        self.postures.get() + self.asked.get() / ASKED_PER_POSTURE
+        self.postures.get() + self.asked.get() / 10
+    }
+
+    /// Counts that an arm was asked whether it reaches a pose.
+    fn count_asked(&self, arm: &Arm, reached: bool) {
+        let tenths = match (arm.kinematics.is_closed_form(), reached) {
+            (true, _) => ASKED,
+            (false, true) => ASKED_AND_FOUND,
+            (false, false) => ASKED_IN_VAIN,
+        };
+        self.asked.set(self.asked.get().saturating_add(tenths));
     }
 
     /// Names of the links of a hand.
@@ -204,6 +218,13 @@ impl<'w> GraspReachFrom<'w> {
         first: usize,
     ) -> Result<(f64, usize), GraspObstacle> {
         let mut part = GraspPart::Grasp;
+        // Of many base poses, the next one is as good as one at which that is wrong.
+        if self.effort == Effort::QUICK && first == 0 {
+            let lost = stations.iter().find(|s| !self.may_reach(side, &s.tool));
+            if let Some(Station { part, .. }) = lost {
+                return Err(GraspObstacle::OutOfReach { part: *part });
+            }
+        }
         for (i, height) in self.reach.heights.iter().enumerate().skip(first) {
             let lost = stations
                 .iter()
@@ -220,8 +241,27 @@ impl<'w> GraspReachFrom<'w> {
     /// matter.
     pub(crate) fn reaches(&self, side: Side, tool: &Pose, height: f64) -> bool {
         let arm = self.reach.world.models().description.arm(side);
-        self.reach.asked.set(self.reach.asked.get() + 1);
-        arm.kinematics.reaches(&self.wrist(side, tool, height))
+        let reached = arm.kinematics.reaches(&self.wrist(side, tool, height));
+        self.reach.count_asked(arm, reached);
+        reached
+    }
+
+    /// Whether the arm may reach the pose at some height of the torso; most that it does not reach are ruled out.
+    fn may_reach(&self, side: Side, tool: &Pose) -> bool {
+        let arm = self.reach.world.models().description.arm(side);
+        let torso = &self.reach.hands[side.index()].torso;
+        let wrist = arm.wrist_for_tool(tool);
+        let heights = &self.reach.heights;
+        if !torso.may_reach(&wrist, heights.iter().copied()) {
+            return false;
+        }
+        // One question in place of many.
+        let reached = (heights.len() > 1).then(|| torso.any_height_reaches(&wrist));
+        let Some(reached) = reached.flatten() else {
+            return true;
+        };
+        self.reach.count_asked(arm, reached);
+        reached
     }
 
     /// The pose of the wrist in the frame of the arm's base.
