@@ -5,48 +5,44 @@ use crate::audience::Audience;
 use crate::person::Person;
 use crate::simulation::Simulation;
 use cram::Reply;
-use lisp::image::Image;
+use lisp::typed::{self, Owner};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 
-/// A function that acts on the host.
-pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
-
 /// The request to call a function on the host.
-pub(crate) struct HostCall {
-    /// The function.
-    pub call: HostFn,
-    /// Its arguments.
-    pub args: Vec<Value>,
-    /// Does it change the world otherwise than the robot could, or open a door to the outside?
-    pub is_edit: bool,
-}
+pub(crate) type HostCall = typed::HostCall<SimulationHost>;
 
-/// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
-pub(crate) trait Owner {
-    /// That part of the host.
-    fn of(host: &mut SimulationHost) -> &mut Self;
+impl typed::Host for SimulationHost {
+    type Reply = Reply;
 }
 
 impl Owner for SimulationHost {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         host
     }
 }
 
 impl Owner for Simulation {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.simulation
     }
 }
 
 impl Owner for Person {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.person
     }
 }
 
 impl Owner for Audience {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.audience
     }
@@ -62,9 +58,7 @@ macro_rules! host {
         |_, args| {
             Ok(lisp::vm::step::Step::request(
                 $crate::host::call::HostCall {
-                    call: |host, image, args| {
-                        $function($crate::host::call::Owner::of(host), image, args)
-                    },
+                    call: |host, image, args| $function(lisp::typed::Owner::of(host), image, args),
                     args,
                     is_edit: $is_edit,
                 },
