@@ -31,7 +31,7 @@ impl Parse for Wording {
     fn parse(input: ParseStream<'_>) -> syn::Result<Wording> {
         let mut wording = Wording::default();
         wording.take_edit(input)?;
-        if input.is_empty() {
+        if wording.edit.is_some() || input.is_empty() {
             return Ok(wording);
         }
         if input.peek(Token![_]) {

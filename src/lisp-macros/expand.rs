@@ -503,6 +503,20 @@ mod tests {
     }
 
     #[test]
+    fn a_keyword_argument_may_have_another_name() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn f(#[key("2nd-x")] second: Option<u8>) {}
+            },
+        );
+        holds(&code, "lambda_list:\"&key2nd-x\"");
+        holds(&code, "const{[typed::keyword(\"2ND-X\")]}");
+        holds(&code, "f(argument_second)");
+    }
+
+    #[test]
     fn what_does_not_fit_is_an_error() {
         let errors = [
             (
