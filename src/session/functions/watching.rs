@@ -1,6 +1,7 @@
 //! Watching the session: the live view, and recordings.
 
 use std::path::Path;
+use std::rc::Rc;
 
 use crate::host::SimulationHost;
 use lisp::builtin::Builtin;
@@ -9,6 +10,7 @@ use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 use view::watch::live::open_in_browser;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -45,19 +47,16 @@ fn view(
 /// view with all that has been seen since the view was opened, with its slider; if it is not open, the world
 /// as it is now. Returns the file's name.
 #[builtin]
-fn save_view(host: &mut SimulationHost, image: &mut Image, file: &Value) -> Result<Value> {
-    let Value::Str(name) = file else {
-        return Err(Raise::type_error(file, known::STRING));
-    };
+fn save_view(host: &mut SimulationHost, image: &mut Image, file: &Rc<LispString>) -> Result<Value> {
     let SimulationHost {
         simulation,
         audience,
         ..
     } = host;
     audience
-        .save_view(simulation, image, Path::new(&name.text()))
+        .save_view(simulation, image, Path::new(&file.text()))
         .map_err(Raise::reporting)?;
-    Ok(file.clone())
+    Ok(Value::Str(Rc::clone(file)))
 }
 
 /// Starts to record the session into an MCAP file, which Foxglove and `planwright view` show; with NIL, ends
