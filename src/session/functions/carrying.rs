@@ -14,7 +14,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
 pub(super) static TABLE: &[Builtin] =
-    builtins![upright_in_hand, posture_for_carrying, carries_upright];
+    builtins![upright_in_hand, posture_for_carrying, carries_upright_p];
 
 /// The name of what a hand holds upright and what is open at the top, as a cup or a plate is; NIL if it holds
 /// no such thing.
@@ -54,8 +54,8 @@ fn posture_for_carrying(
 /// joint?
 ///
 /// `(progn (pp-tut:init-projection) (pp-plans::carries-upright-p :left 0.02))` => `NIL`
-#[builtin("CARRIES-UPRIGHT-P")]
-fn carries_upright(
+#[builtin]
+fn carries_upright_p(
     simulation: &mut Simulation,
     image: &mut Image,
     arm: &Value,

@@ -21,7 +21,8 @@ use spatial::Pose;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(super) static TABLE: &[Builtin] = builtins![choose_grasp, grasps_for_target, room_to_put_down];
+pub(super) static TABLE: &[Builtin] =
+    builtins![choose_grasp, grasps_for_target, room_to_put_down_p];
 
 /// One thing or a list of things.
 fn listed(value: Option<&Value>) -> Vec<Value> {
@@ -146,8 +147,8 @@ fn grasps_for_target(
 }
 
 /// Has the hand that holds an object of the world room to put it down at a pose, wherever the robot stands?
-#[builtin("ROOM-TO-PUT-DOWN-P")]
-fn room_to_put_down(
+#[builtin]
+fn room_to_put_down_p(
     simulation: &mut Simulation,
     image: &mut Image,
     arm: &Value,

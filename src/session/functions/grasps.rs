@@ -19,7 +19,7 @@ use robotics::world::grasp_library::{GraspDefinition, Lift};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-OBJECT-INTERFACES`.
-pub(super) static TABLE: &[Builtin] = builtins![define_grasp];
+pub(super) static TABLE: &[Builtin] = builtins![def_object_type_to_gripper_transforms];
 
 fn triple(image: &Image, value: &Value, what: &str) -> Result<[f64; 3]> {
     let numbers: Vec<f64> = value
@@ -69,8 +69,8 @@ fn lift_of(
 /// quaternion) move hand and object along the axes of the robot's base. A grasp that exists is replaced.
 ///
 /// `(progn (obj-int:def-object-type-to-gripper-transforms :bread '(:left :right) :from-above :grasp-translation '(0 0 0.02) :grasp-rot-matrix '((0 1 0) (1 0 0) (0 0 -1)) :pregrasp-offsets '(0 0 0.15) :lift-offsets '(0 0 0.15)) (pp-tut:list-defined-grasps :bread))` => `(:FROM-ABOVE)`
-#[builtin("DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS")]
-fn define_grasp(
+#[builtin]
+fn def_object_type_to_gripper_transforms(
     simulation: &mut Simulation,
     image: &mut Image,
     types: &Value,

@@ -17,17 +17,17 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-LOCATION-COSTMAP`.
 pub(super) static TABLE: &[Builtin] = builtins![
-    next_sample,
+    next_location_sample,
     suitable_robot_pose,
-    judge,
-    has_begun,
+    judge_location_sample,
+    location_search_begun_p,
     horizontal_size,
     furniture_extent,
-    show_map
+    show_location_map
 ];
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(crate) static VISUALIZATION_TABLE: &[Builtin] = builtins![clear_map];
+pub(crate) static VISUALIZATION_TABLE: &[Builtin] = builtins![clear_costmap_vis_object];
 
 /// Builtins of package `PLANWRIGHT`.
 pub(crate) static FURNITURE_TABLE: &[Builtin] = builtins![list_surfaces];
@@ -37,8 +37,8 @@ pub(crate) static FURNITURE_TABLE: &[Builtin] = builtins![list_surfaces];
 /// LOCATION-REFERENCES gives.
 ///
 /// `(costmap:next-location-sample (desig:a location) nil)` => `NIL`
-#[builtin("NEXT-LOCATION-SAMPLE")]
-fn next_sample(
+#[builtin]
+fn next_location_sample(
     host: &mut SimulationHost,
     image: &mut Image,
     location: &Value,
@@ -83,8 +83,8 @@ fn suitable_robot_pose(
 /// none, else a text that says why not.
 ///
 /// `(costmap:judge-location-sample (desig:a location) nil nil)` => `:UNKNOWN`
-#[builtin("JUDGE-LOCATION-SAMPLE")]
-fn judge(
+#[builtin]
+fn judge_location_sample(
     simulation: &mut Simulation,
     image: &mut Image,
     location: &Value,
@@ -108,8 +108,8 @@ fn judge(
 /// Has the search for the location begun, so that its references are known?
 ///
 /// `(costmap:location-search-begun-p (desig:a location))` => `NIL`
-#[builtin("LOCATION-SEARCH-BEGUN-P")]
-fn has_begun(_: &mut Simulation, location: &Value) -> bool {
+#[builtin]
+fn location_search_begun_p(_: &mut Simulation, location: &Value) -> bool {
     let oldest = first(location);
     as_designator(&oldest).is_some_and(|d| d.memory.borrow().is_some())
 }
@@ -145,8 +145,8 @@ fn furniture_extent(
 /// Shows where a location may be in pictures and the live view: cells coloured by their values, and the poses
 /// offered so far as arrows, the last one in another colour. Writes how large the area is. It stays until
 /// another one is shown.
-#[builtin("SHOW-LOCATION-MAP")]
-fn show_map(
+#[builtin]
+fn show_location_map(
     simulation: &mut Simulation,
     image: &mut Image,
     location: &Value,
@@ -173,8 +173,8 @@ fn show_map(
 /// Shows no map of a location any more.
 ///
 /// `(btr:clear-costmap-vis-object)` => `NIL`
-#[builtin("CLEAR-COSTMAP-VIS-OBJECT")]
-fn clear_map(simulation: &mut Simulation) {
+#[builtin]
+fn clear_costmap_vis_object(simulation: &mut Simulation) {
     simulation.location_map = None;
     simulation.resolved_map = None;
 }

@@ -46,7 +46,7 @@ pub(super) static TABLE: &[Builtin] = builtins![
     putting_headings,
     free_heading,
     putting_poses_at,
-    poses_reachable
+    poses_reachable_p
 ];
 
 /// An object as described by perception.
@@ -500,8 +500,8 @@ fn putting_poses_at(
 
 /// Can a hand be brought to all poses, which are in the frame of the robot's base, by some height of the
 /// torso?
-#[builtin("POSES-REACHABLE-P")]
-fn poses_reachable(
+#[builtin]
+fn poses_reachable_p(
     simulation: &mut Simulation,
     image: &mut Image,
     arm: &Value,

@@ -17,15 +17,15 @@ use spatial::pose;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub(super) static TABLE: &[Builtin] = builtins![base_pose_free, base_path, grasp_reachable];
+pub(super) static TABLE: &[Builtin] = builtins![base_pose_free_p, base_path_p, grasp_reachable_p];
 
 /// Could the robot, with its arms as they are, stand at a pose of its base without touching anything? Does
 /// not check whether a path leads there.
 ///
 /// `(progn (pp-tut:init-projection) (pp-tut:base-pose-free-p '((0 1 0) (0 0 0 1))))` => `T`
 /// `(pp-tut:base-pose-free-p '((-1 1.5 0) (0 0 0 1)))` => `NIL`
-#[builtin("BASE-POSE-FREE-P")]
-fn base_pose_free(
+#[builtin]
+fn base_pose_free_p(
     simulation: &mut Simulation,
     image: &mut Image,
     base_pose: &Value,
@@ -38,8 +38,8 @@ fn base_pose_free(
 ///
 /// `(progn (pp-tut:init-projection) (pp-tut:base-path-p '((0 1 0) (0 0 0 1))))` => `T`
 /// `(pp-tut:base-path-p '((-1 1.5 0) (0 0 0 1)))` => `NIL`
-#[builtin("BASE-PATH-P")]
-fn base_path(simulation: &mut Simulation, image: &mut Image, base_pose: &Value) -> Result<bool> {
+#[builtin]
+fn base_path_p(simulation: &mut Simulation, image: &mut Image, base_pose: &Value) -> Result<bool> {
     let place = place(simulation, image, base_pose)?;
     Ok(plan_drive(&simulation.world, place).is_ok())
 }
@@ -57,8 +57,8 @@ fn place(simulation: &mut Simulation, image: &mut Image, pose: &Value) -> Result
 ///
 /// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-tut:grasp-reachable-p 'bottle-1 :right :left-side))` => `NIL`
 /// `(pp-tut:grasp-reachable-p 'bottle-1 :right :left-side :base-pose '((-1.447 -0.15 0) (0 0 -0.7071 0.7071)))` => `T`
-#[builtin("GRASP-REACHABLE-P")]
-fn grasp_reachable(
+#[builtin]
+fn grasp_reachable_p(
     simulation: &mut Simulation,
     image: &mut Image,
     object: &Value,

@@ -24,7 +24,7 @@ const TIPPED: f64 = 5.0;
 pub(super) static TABLE: &[Builtin] = builtins![
     scene_at_rest,
     disturbed_objects,
-    object_lifted,
+    object_lifted_p,
     support_of,
     carriers_of,
     drop_below
@@ -113,8 +113,8 @@ impl Simulation {
 }
 
 /// Does a hand hold the object, and has it lifted it off what it stood on?
-#[builtin("OBJECT-LIFTED-P")]
-fn object_lifted(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<bool> {
+#[builtin]
+fn object_lifted_p(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<bool> {
     let name = simulation.object_named(image, name)?;
     let object = simulation.world.object(&name).map_err(world_error)?;
     Ok(object.hold().is_some_and(|hold| hold.is_lifted()))

@@ -38,7 +38,7 @@ pub(super) static TABLE: &[Builtin] = builtins![
     get_kitchen_urdf,
     move_kitchen_joint,
     get_robot_transformation,
-    get_current_pose,
+    get_current_pose_of_object,
     get_obj_name,
     get_object_name,
     look_up_transformation
@@ -286,8 +286,12 @@ fn get_robot_transformation(simulation: &mut Simulation) -> Value {
 }
 
 /// The pose of an object in the map frame.
-#[builtin("GET-CURRENT-POSE-OF-OBJECT")]
-fn get_current_pose(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Value> {
+#[builtin]
+fn get_current_pose_of_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+) -> Result<Value> {
     let name = simulation.object_named(image, name)?;
     let pose = simulation
         .world
