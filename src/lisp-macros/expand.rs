@@ -575,6 +575,11 @@ mod tests {
                 "acts on an owner",
             ),
             (
+                quote!(edit "F"),
+                quote! { #[doc = "D"] fn f(world: &mut World) {} },
+                "unexpected token",
+            ),
+            (
                 quote!("F", "a", change),
                 quote! { #[doc = "D"] fn f(world: &mut World, a: u8) {} },
                 "is `edit`",
