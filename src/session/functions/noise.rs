@@ -44,16 +44,16 @@ fn set_noise(simulation: &mut Simulation, image: &mut Image, settings: &[Value])
     Ok(former)
 }
 
-/// The levels that arguments give.
-fn levels(image: &Image, args: &[Value]) -> Result<Option<NoiseLevels>> {
+/// The levels that settings give.
+fn levels(image: &Image, settings: &[Value]) -> Result<Option<NoiseLevels>> {
     let name = |value: &Value| name_text(image, value).unwrap_or_default();
-    match args {
+    match settings {
         [] => return Ok(None),
         [usual] if name(usual) == "USUAL" => return Ok(Some(NoiseLevels::usual())),
         _ => {}
     }
     let mut levels = NoiseLevels::default();
-    for setting in args.chunks(2) {
+    for setting in settings.chunks(2) {
         let [key, value] = setting else {
             return Err(Raise::program("A setting of noise is a name and a number."));
         };
