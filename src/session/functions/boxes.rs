@@ -34,7 +34,7 @@ fn bounding_box(
     simulation: &mut Simulation,
     image: &mut Image,
     body: &Value,
-    link: Option<&Rc<LispString>>,
+    link: Option<&Value>,
 ) -> Result<Option<Value>> {
     let world = &simulation.world;
     let found = match is_kitchen(image, body) {
@@ -43,7 +43,8 @@ fn bounding_box(
             world.box_of(&BodyName::Object(name))
         }
         Some(kitchen) => {
-            let wanted = link.map(|link| link.text());
+            let wanted: Option<&Rc<LispString>> = typed::optional(image, link)?;
+            let wanted = wanted.map(|link| link.text());
             let boxes = link_boxes(world, kitchen);
             around(boxes.into_iter().filter_map(|(body, corners)| {
                 let is_meant = wanted.as_ref().is_none_or(|name| body.to_string() == *name);
