@@ -24,6 +24,13 @@ pub enum Reply {
     Later(Ticket),
 }
 
+/// It is completed with a value.
+impl From<Value> for Reply {
+    fn from(value: Value) -> Reply {
+        Reply::Now(Ok(value))
+    }
+}
+
 /// What happened while simulated time passed.
 pub struct Advance {
     /// The time now, in simulated seconds.

@@ -34,7 +34,13 @@ pub(crate) fn builtin(attribute: TokenStream, item: TokenStream) -> Result<Token
         }
         None => lambda_list::of(&parameters.arguments),
     };
-    let call = call(&function, &parameters, &name)?;
+    if let (Some(edit), false) = (&wording.edit, parameters.has(Context::Owner)) {
+        return Err(Error::new(
+            edit.span(),
+            "only a function that acts on an owner is an `edit`",
+        ));
+    }
+    let call = call(&function, &parameters, &name, wording.edit.is_some())?;
     let entry = entry_name(&function.sig.ident);
     let visibility = &function.vis;
     let (text, examples) = (&doc.text, &doc.examples);
@@ -83,7 +89,12 @@ fn entry_name(function: &Ident) -> Ident {
 }
 
 /// A function `wrapper` as the machine calls it, and the constant `call` of it.
-fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenStream> {
+fn call(
+    function: &ItemFn,
+    parameters: &Parameters,
+    name: &str,
+    is_edit: bool,
+) -> Result<TokenStream> {
     let ident = &function.sig.ident;
     let is_async = function.sig.asyncness.is_some();
     if is_async != parameters.has(Context::Calls) {
@@ -97,7 +108,7 @@ fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenS
         .iter()
         .find(|(context, _)| *context == Context::Owner);
     if let Some((_, owner)) = owner {
-        return acting(function, parameters, owner);
+        return acting(function, parameters, owner, is_edit);
     }
     let is_control =
         is_async || parameters.has(Context::Machine) || names(&function.sig.output, "Step");
@@ -145,14 +156,28 @@ fn call(function: &ItemFn, parameters: &Parameters, name: &str) -> Result<TokenS
     })
 }
 
-/// The same of a function that acts on something in the world.
-fn acting(function: &ItemFn, parameters: &Parameters, owner: &Type) -> Result<TokenStream> {
+/// The same for a function that acts on an owner: the machine requests that the host calls it.
+fn acting(
+    function: &ItemFn,
+    parameters: &Parameters,
+    owner: &Type,
+    is_edit: bool,
+) -> Result<TokenStream> {
     let Type::Reference(owner) = owner else {
         return Err(Error::new_spanned(owner, "a reference is expected"));
     };
     let owner = &owner.elem;
     let ident = &function.sig.ident;
-    let name = ident.to_string();
+    let other = parameters
+        .contexts
+        .iter()
+        .find(|(context, _)| !matches!(context, Context::Image | Context::Owner));
+    if let Some((_, ty)) = other {
+        return Err(Error::new_spanned(
+            ty,
+            "a function that acts on an owner works on the image, and on nothing else",
+        ));
+    }
     let contexts = parameters
         .contexts
         .iter()
@@ -170,22 +195,24 @@ fn acting(function: &ItemFn, parameters: &Parameters, owner: &Type) -> Result<To
     };
     Ok(quote! {
         fn act(
-            owner: &mut #owner,
+            host: &mut typed::HostOf<#owner>,
             image: &mut typed::Image,
             args: &[typed::Value],
-        ) -> ::std::result::Result<
-            <#owner as typed::Owner>::Reply,
-            ::std::boxed::Box<typed::Raise>,
-        > {
+        ) -> ::std::result::Result<typed::ReplyTo<#owner>, ::std::boxed::Box<typed::Raise>> {
             let _ = &image;
             #converted
+            let owner = <#owner as typed::Owner>::of(host);
             #called
         }
         fn wrapper(
             _: &mut typed::Machine<'_>,
             args: ::std::vec::Vec<typed::Value>,
         ) -> ::std::result::Result<typed::Step, ::std::boxed::Box<typed::Raise>> {
-            ::std::result::Result::Ok(<#owner as typed::Owner>::request(#name, act, args))
+            ::std::result::Result::Ok(typed::Step::request(typed::HostCall {
+                call: act,
+                args,
+                is_edit: #is_edit,
+            }))
         }
         let call = typed::BuiltinCall::Control(wrapper);
     })
@@ -414,8 +441,51 @@ mod tests {
                 fn spawn(world: &mut World, image: &mut Image, name: &Value) -> Result<Reply> {}
             },
         );
-        holds(&code, "<Worldastyped::Owner>::request(\"spawn\",act,args)");
+        holds(&code, "typed::HostCall{call:act,args,is_edit:false,}");
+        holds(&code, "host:&muttyped::HostOf<World>");
+        holds(&code, "letowner=<Worldastyped::Owner>::of(host);");
         holds(&code, "spawn(owner,image,argument_name)");
+        holds(&code, "BuiltinCall::Control(wrapper)");
+    }
+
+    #[test]
+    fn what_is_no_reply_is_converted() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn count(world: &mut World) -> usize {}
+            },
+        );
+        holds(&code, "typed::Returned::returned(count(owner,)).map(");
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn wait(world: &mut World) -> Result<Reply> {}
+            },
+        );
+        holds(&code, "wait(owner,)}");
+    }
+
+    #[test]
+    fn an_edit_is_marked() {
+        let item = quote! {
+            /// Doc.
+            fn spawn(world: &mut World, name: &Value) {}
+        };
+        let attributes = [
+            (quote!(edit), "SPAWN", "name"),
+            (quote!(_, edit), "SPAWN", "name"),
+            (quote!("PUT", edit), "PUT", "name"),
+            (quote!("PUT", "thing", edit), "PUT", "thing"),
+        ];
+        for (attribute, name, lambda_list) in attributes {
+            let code = expansion(attribute, item.clone());
+            holds(&code, "is_edit:true");
+            let entry = format!("name:\"{name}\",lambda_list:\"{lambda_list}\"");
+            holds(&code, &entry);
+        }
     }
 
     #[test]
@@ -430,6 +500,20 @@ mod tests {
         holds(&code, "None=>1,");
         holds(&code, "fnlast(list:&Value,n:usize,x:u8){}");
         holds(&code, "const{[typed::keyword(\"X\")]}");
+    }
+
+    #[test]
+    fn a_keyword_argument_may_have_another_name() {
+        let code = expansion(
+            quote!(),
+            quote! {
+                /// Doc.
+                fn f(#[key("2nd-x")] second: Option<u8>) {}
+            },
+        );
+        holds(&code, "lambda_list:\"&key2nd-x\"");
+        holds(&code, "const{[typed::keyword(\"2ND-X\")]}");
+        holds(&code, "f(argument_second)");
     }
 
     #[test]
@@ -484,6 +568,26 @@ mod tests {
                 quote!(),
                 quote! { #[doc = "D"] fn f(&self) {} },
                 "no method",
+            ),
+            (
+                quote!(edit),
+                quote! { #[doc = "D"] fn f(a: u8) {} },
+                "acts on an owner",
+            ),
+            (
+                quote!(edit "F"),
+                quote! { #[doc = "D"] fn f(world: &mut World) {} },
+                "unexpected token",
+            ),
+            (
+                quote!("F", "a", change),
+                quote! { #[doc = "D"] fn f(world: &mut World, a: u8) {} },
+                "is `edit`",
+            ),
+            (
+                quote!(),
+                quote! { #[doc = "D"] fn f(world: &mut World, machine: &mut Machine<'_>) {} },
+                "on nothing else",
             ),
         ];
         for (attribute, item, part) in errors {

@@ -32,6 +32,9 @@ use syn::{Path, Token};
 /// - `#[builtin("NAME")]`: with another name.
 /// - `#[builtin("NAME", "lambda list")]`: with another lambda list too; `_` for the name leaves it
 ///   as it is.
+/// - `#[builtin(edit)]`, `#[builtin("NAME", edit)]`, `#[builtin("NAME", "lambda list", edit)]`: the
+///   function acts on an owner and changes the world otherwise than the robot could, or opens a door to the
+///   outside. The host may refuse such a call.
 ///
 /// The first parameters are what the function works on, all others the arguments of a call:
 ///
@@ -40,14 +43,18 @@ use syn::{Path, Token};
 /// | `image: &mut Image`, `image: &Image` | the image |
 /// | `machine: &mut Machine<'_>` | the machine; the function returns a `Step` |
 /// | `calls: Calls` | of an `async fn`: it calls functions and waits for them |
-/// | `owner: &mut T` with another type | what a `T` that acts on the world acts on |
+/// | `owner: &mut T` with another type | a `T: Owner` outside of the image, on which the function acts |
 /// | `x: T` | a required argument |
 /// | `x: Option<T>` | an optional argument |
 /// | `#[default(value)] x: T` | an optional argument with a default value |
 /// | `#[key] x: Option<T>`, `#[key] #[default(value)] x: T` | a keyword argument |
+/// | `#[key("2nd-x")] x: Option<T>` | a keyword argument with another name than the parameter |
 /// | `rest: &[Value]`, `rest: Vec<T>` | all further arguments |
 ///
 /// An argument is converted by `FromValue`, the result by `Into<Value>`.
+///
+/// A function with an owner is not called by the machine: a call of it is a request, which the
+/// owner's `Host` carries out. What it returns is the reply; a `Reply` of the host is passed on as it is.
 #[proc_macro_attribute]
 pub fn builtin(attribute: TokenStream, item: TokenStream) -> TokenStream {
     expand::builtin(attribute.into(), item.into())

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{
-    Attribute, Error, Expr, FnArg, GenericArgument, Ident, Pat, PatType, PathArguments, Result,
-    Signature, Type, TypePath,
+    Attribute, Error, Expr, FnArg, GenericArgument, Ident, LitStr, Meta, Pat, PatType,
+    PathArguments, Result, Signature, Type, TypePath,
 };
 
 /// What a function works on besides its arguments.
@@ -32,6 +32,8 @@ pub(crate) enum Shape {
 /// A parameter for arguments of a call.
 pub(crate) struct Argument {
     pub(crate) ident: Ident,
+    /// The name of a keyword argument that is not that of the parameter.
+    key: Option<LitStr>,
     pub(crate) ty: Type,
     pub(crate) shape: Shape,
     /// The value of an optional argument or a keyword argument that is not given.
@@ -41,6 +43,9 @@ pub(crate) struct Argument {
 impl Argument {
     /// The name in the lambda list.
     pub(crate) fn name(&self) -> String {
+        if let Some(key) = &self.key {
+            return key.value();
+        }
         let name = self.ident.to_string();
         let name = name.trim_start_matches("r#").trim_matches('_');
         name.replace('_', "-")
@@ -147,7 +152,14 @@ fn context(ty: &Type) -> Option<Context> {
 }
 
 fn argument(parameter: &mut PatType) -> Result<Argument> {
-    let is_key = take_attribute(&mut parameter.attrs, "key").is_some();
+    let key_attribute = take_attribute(&mut parameter.attrs, "key");
+    let is_key = key_attribute.is_some();
+    let key = match key_attribute {
+        Some(attribute) if matches!(attribute.meta, Meta::List(_)) => {
+            Some(attribute.parse_args::<LitStr>()?)
+        }
+        _ => None,
+    };
     let default = match take_attribute(&mut parameter.attrs, "default") {
         Some(attribute) => Some(attribute.parse_args::<Expr>()?),
         None => None,
@@ -181,6 +193,7 @@ fn argument(parameter: &mut PatType) -> Result<Argument> {
     }
     Ok(Argument {
         ident: pattern.ident.clone(),
+        key,
         ty,
         shape,
         default,

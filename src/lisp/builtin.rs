@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::image::Image;
 use super::image::definition::{Definition, Kind};
-use super::native::{BuiltinCall, ControlFn, PureFn};
+use super::native::BuiltinCall;
 use super::value::Value;
 use super::value::function::Function;
 use super::value::raise::Raise;
@@ -25,40 +25,6 @@ pub struct Builtin {
     pub examples: &'static [&'static str],
     /// The Rust function.
     pub call: BuiltinCall,
-}
-
-/// A pure builtin.
-pub const fn pure(
-    name: &'static str,
-    lambda_list: &'static str,
-    doc: &'static str,
-    examples: &'static [&'static str],
-    call: PureFn,
-) -> Builtin {
-    Builtin {
-        name,
-        lambda_list,
-        doc,
-        examples,
-        call: BuiltinCall::Pure(call),
-    }
-}
-
-/// A builtin that may call, wait or unwind.
-pub const fn control(
-    name: &'static str,
-    lambda_list: &'static str,
-    doc: &'static str,
-    examples: &'static [&'static str],
-    call: ControlFn,
-) -> Builtin {
-    Builtin {
-        name,
-        lambda_list,
-        doc,
-        examples,
-        call: BuiltinCall::Control(call),
-    }
 }
 
 impl Builtin {

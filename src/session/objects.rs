@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::dialogue::ObjectNumber;
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::image::extension::Extension;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::raise::Raise;
@@ -16,13 +17,7 @@ use lisp::value::raise::Raise;
 const MAX_OBJECTS: usize = 10_000;
 
 /// Builtins of package `SWANK`.
-pub(super) static TABLE: &[Builtin] = &[pure(
-    "LOOKUP-PRESENTED-OBJECT-OR-LOSE",
-    "number",
-    "The value that Emacs shows under a number. Emacs writes a call of it where a value is copied into an input.",
-    &[],
-    presented,
-)];
+pub(super) static TABLE: &[Builtin] = builtins![presented];
 
 /// The values, kept in the image.
 #[derive(Default)]
@@ -109,8 +104,11 @@ impl Extension for Objects {
     }
 }
 
-fn presented(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let number = match &args[0] {
+/// The value that Emacs shows under a number. Emacs writes a call of it where a value is copied into an
+/// input.
+#[builtin("LOOKUP-PRESENTED-OBJECT-OR-LOSE")]
+fn presented(image: &Image, number: &Value) -> Result<Value, Box<Raise>> {
+    let number = match number {
         Value::Int(number) => ObjectNumber::try_from(*number).ok(),
         _ => None,
     };

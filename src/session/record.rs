@@ -9,13 +9,13 @@ use lz4_flex::block::{compress_prepend_size, decompress_size_prepended};
 use super::dialogue::prompt_line::prompt_line;
 use super::dialogue::repeat::with_interrupt;
 use super::dialogue::{Event, Outcome, Screen};
-use lisp::builtin::{Builtin, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::image::extension::Extension;
-use lisp::value::Value;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::copy::Copier;
-use lisp::value::known;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 
 /// Bytes of text from which on it is packed together: inputs of a session are much like earlier ones, but only what
 /// is in the same block is found by the packer.
@@ -174,21 +174,16 @@ const ANYTHING: &str = "[..]";
 const LOCAL_ADDRESS: &str = "http://127.0.0.1:";
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[pure(
-    "SAVE-TRANSCRIPT",
-    "file",
-    "Writes the inputs at the prompt and their output as a transcript, which planwright replay can compare. Returns the number of inputs.",
-    &[],
-    save_transcript,
-)];
+pub(super) static TABLE: &[Builtin] = builtins![save_transcript];
 
-fn save_transcript(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some(path) = args[0].as_text() else {
-        return Err(Raise::type_error(&args[0], known::STRING));
-    };
+/// Writes the inputs at the prompt and their output as a transcript, which planwright replay can compare.
+/// Returns the number of inputs.
+#[builtin]
+fn save_transcript(image: &Image, file: &Rc<LispString>) -> Result<usize, Box<Raise>> {
+    let path = file.text();
     let record = image.extension::<Record>();
     let (text, count) = record.map_or_else(Default::default, |record| record.transcript());
     let written = image.files.write(&path, text.as_bytes());
     written.map_err(|error| Raise::simple(format!("{path} cannot be written: {error}.")))?;
-    Ok(Value::from(count))
+    Ok(count)
 }

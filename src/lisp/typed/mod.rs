@@ -2,6 +2,7 @@
 //! and results are converted.
 
 mod from_value;
+mod host;
 pub mod keywords;
 mod returned;
 
@@ -16,4 +17,5 @@ pub use crate::vm::calls::run;
 pub use crate::vm::machine::Machine;
 pub use crate::vm::step::Step;
 pub use from_value::{FromValue, all, designated, keys, keyword, optional, required, wrong_count};
+pub use host::{Host, HostCall, HostFn, HostOf, Owner, ReplyTo};
 pub use returned::Returned;

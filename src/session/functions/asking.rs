@@ -1,19 +1,20 @@
 //! What questions about the world are made of.
 
-use super::reached::{hindrances, reached};
-use crate::host::call::{done, edit, host};
+use std::rc::Rc;
+
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::motions::side;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text};
-use cram::Reply;
 use cram::pose::value::pose_stamped;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 use nalgebra::Point3;
 use robotics::motion::{CollisionMode, can_reach, neck_positions};
 use robotics::perception::{Camera, Sight};
@@ -27,159 +28,27 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const LONGEST: f64 = 3600.0;
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%TOUCHING",
-        "name",
-        "What an object touches, by shapes that are at most 1 mm apart: a list of (body . link). A body is the name of an object, or :KITCHEN, :ROBOT or :FLOOR.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%touching 'bottle-1)) => ((:KITCHEN . \"table_area_main\"))",
-        ],
-        host!(touching),
-    ),
-    control(
-        "%CARRIED-BY",
-        "name",
-        "What pushes a spawned object up, as %TOUCHING gives it; of the robot, only what does not hold it.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%carried-by 'bottle-1)) => ((:KITCHEN . \"table_area_main\"))",
-        ],
-        host!(carried_by),
-    ),
-    control(
-        "%LINKS",
-        "body &optional solid",
-        "The names of the links of :ROBOT or :KITCHEN; if SOLID, of those that have a shape.",
-        &["(first (btr::%links :robot)) => \"base_footprint\""],
-        host!(links),
-    ),
-    control(
-        "%LINK-POSE",
-        "body link",
-        "The pose in the map of a link of :ROBOT or :KITCHEN; NIL if there is no such link.",
-        &["(btr::%link-pose :robot \"no_such_link\") => NIL"],
-        host!(link_pose),
-    ),
-    control(
-        "%JOINTS",
-        "body",
-        "The joints of :ROBOT or :KITCHEN that can be moved: a list of (name . position), in rad or m.",
-        &[
-            "(progn (pp-tut:init-projection) (cdr (assoc \"iai_fridge_door_joint\" (btr::%joints :kitchen) :test #'string=))) => 0.0d0",
-        ],
-        host!(joints),
-    ),
-    control(
-        "%SET-JOINT",
-        "body joint position",
-        "Puts a joint of :ROBOT or :KITCHEN somewhere at once, within its limits. Returns where it is then.",
-        &[],
-        edit!(set_joint),
-    ),
-    control(
-        "%SETTLED",
-        "seconds",
-        "Where the objects would be after so much time, or once all are at rest: a list of (name pose). The world stays as it is.",
-        &["(progn (pp-tut:init-projection) (btr::%settled 5)) => NIL"],
-        host!(settled),
-    ),
-    control(
-        "%SIGHTS",
-        "names camera-pose",
-        "What the robot's camera sees of objects, or one at the pose of an optical frame: a list of (name share outside occluders): the share of the object that is in sight (0 to 1), whether it is out of the picture at least in part, and the bodies in front of it.",
-        &["(progn (pp-tut:init-projection) (btr::%sights nil nil)) => NIL"],
-        host!(sights),
-    ),
-    control(
-        "%SHARES-IN-SIGHT",
-        "names camera-pose",
-        "As %SIGHTS, but only the shares: a list of (name share).",
-        &["(progn (pp-tut:init-projection) (btr::%shares-in-sight nil nil)) => NIL"],
-        host!(shares_in_sight),
-    ),
-    control(
-        "%HAND-REACHES",
-        "pose arm &optional object",
-        "Can the hand be at a pose from where the robot stands, at any height of the torso, while the robot touches nothing, or nothing but the object?",
-        &[
-            "(progn (pp-tut:init-projection) (btr::%hand-reaches '((5 0 1) (0 0 0 1)) :left)) => NIL",
-        ],
-        host!(hand_reaches),
-    ),
-    control(
-        "%REACHED-GRASPS",
-        "names sides each &optional absent among",
-        "By which grasps hands reach objects from where the robot stands, as lists (object side grasp): all grasps if EACH is :GRASP, the first of each hand if :SIDE, the first of all if :OBJECT; as if the objects ABSENT were not there. With AMONG, lists such as these, of no others.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%reached-grasps '(bottle-1) '(:left :right) :grasp)) => NIL",
-        ],
-        host!(reached),
-    ),
-    control(
-        "%HINDRANCES",
-        "name sides",
-        "The objects without any of which a hand could grasp an object from where the robot stands that no hand can grasp now; or :UNCLEAR where objects are above that one or in hands, so that each has to be tried.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%hindrances 'bottle-1 '(:left :right))) => NIL",
-        ],
-        host!(hindrances),
-    ),
-    control(
-        "%POINT-HEAD",
-        "pose",
-        "Turns the head towards a pose at once, as far as it can be turned.",
-        &[],
-        edit!(point_head),
-    ),
-    control(
-        "%PUT-IN-HAND",
-        "name arm grasp",
-        "Lets a hand hold an object where it is.",
-        &[],
-        edit!(put_in_hand),
-    ),
-    control(
-        "%TAKE-FROM-HAND",
-        "name",
-        "Lets go of an object, which stays where it is until time passes.",
-        &[],
-        edit!(take_from_hand),
-    ),
-    control(
-        "%OBJECT-TYPES",
-        "",
-        "The types of objects, as keywords.",
-        &["(listp (btr::%object-types)) => T"],
-        host!(object_types),
-    ),
-    control(
-        "%GRASPS-OF",
-        "type arm",
-        "The grasps of a type of objects with an arm, as keywords, those that are tried first at the front.",
-        &["(listp (btr::%grasps-of :bottle :left)) => T"],
-        host!(grasps_of),
-    ),
-    control(
-        "%TYPE-GRIP",
-        "type",
-        "How hard (N) objects of a type are gripped, and how wide (m) a hand opens for them, as a list.",
-        &["(length (btr::%type-grip :bottle)) => 2"],
-        host!(type_grip),
-    ),
-    control(
-        "%SPAWN-SHAPE",
-        "name shape size pose mass color",
-        "Puts a :BOX with edges (x y z), a :SPHERE with a radius (r), or a :CYLINDER with radius and length (r l), in m, into the world; its frame is in its middle.",
-        &[],
-        edit!(spawn_shape),
-    ),
-    control(
-        "%MOVING-P",
-        "",
-        "Does the robot move?",
-        &["(btr::%moving-p) => NIL"],
-        host!(is_moving),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    touching,
+    carried_by,
+    links,
+    link_pose,
+    joints,
+    set_joint,
+    settled,
+    sights,
+    shares_in_sight,
+    hand_reaches,
+    super::reached::reached,
+    super::reached::hindrances,
+    point_head,
+    put_in_hand,
+    take_from_hand,
+    object_types,
+    grasps_of,
+    type_grip,
+    spawn_shape,
+    is_moving
 ];
 
 fn raise(error: WorldError) -> Box<Raise> {
@@ -197,25 +66,31 @@ fn shown(simulation: &Simulation, image: &mut Image, body: &BodyName) -> Value {
     Value::cons(body, link)
 }
 
-fn touching(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// What an object touches, by shapes that are at most 1 mm apart: a list of (body . link). A body is the name
+/// of an object, or :KITCHEN, :ROBOT or :FLOOR.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%touching 'bottle-1))` => `((:KITCHEN . "table_area_main"))`
+#[builtin("%TOUCHING")]
+fn touching(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Vec<Value>> {
+    let name = simulation.object_named(image, name)?;
     let bodies = simulation.world.touching(&name).map_err(raise)?;
-    done(all_shown(simulation, image, &bodies))
+    Ok(all_shown(simulation, image, &bodies))
 }
 
-fn carried_by(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// What pushes a spawned object up, as %TOUCHING gives it; of the robot, only what does not hold it.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%carried-by 'bottle-1))` => `((:KITCHEN . "table_area_main"))`
+#[builtin("%CARRIED-BY")]
+fn carried_by(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Vec<Value>> {
+    let name = simulation.object_named(image, name)?;
     let bodies = simulation.world.carried_by(&name).map_err(raise)?;
-    done(all_shown(simulation, image, &bodies))
+    Ok(all_shown(simulation, image, &bodies))
 }
 
 /// Bodies with their links.
-fn all_shown(simulation: &Simulation, image: &mut Image, bodies: &[BodyName]) -> Value {
-    let bodies: Vec<Value> = bodies
-        .iter()
-        .map(|body| shown(simulation, image, body))
-        .collect();
-    Value::list(bodies)
+fn all_shown(simulation: &Simulation, image: &mut Image, bodies: &[BodyName]) -> Vec<Value> {
+    let bodies = bodies.iter();
+    bodies.map(|body| shown(simulation, image, body)).collect()
 }
 
 /// Which of the two trees is meant, if it is one of them.
@@ -236,54 +111,68 @@ fn tree<'s>(simulation: &'s Simulation, image: &Image, body: &Value) -> Result<&
     }
 }
 
-pub(super) fn text(value: &Value) -> Result<String> {
-    let text = value.as_text();
-    text.ok_or_else(|| Raise::type_error(value, known::STRING))
-}
-
-fn links(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// The names of the links of :ROBOT or :KITCHEN; if SOLID, of those that have a shape.
+///
+/// `(first (btr::%links :robot))` => `"base_footprint"`
+#[builtin("%LINKS")]
+fn links(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    body: &Value,
+    #[default(false)] solid: bool,
+) -> Result<Vec<Value>> {
     let world = &simulation.world;
-    let is_kitchen = is_kitchen(image, &args[0]);
-    let names: Vec<Value> = match (args.get(1).is_some_and(Value::is_true), is_kitchen) {
+    let is_kitchen = is_kitchen(image, body);
+    Ok(match (solid, is_kitchen) {
         (true, Some(true)) => world.solid_kitchen_links().map(name_of).collect(),
         (true, Some(false)) => world.solid_robot_links().map(name_of).collect(),
         _ => {
-            let tree = tree(simulation, image, &args[0])?;
+            let tree = tree(simulation, image, body)?;
             tree.links()
                 .map(|(_, link)| Value::from(link.name.as_str()))
                 .collect()
         }
-    };
-    done(Value::list(names))
+    })
 }
 
 pub(super) fn name_of(body: BodyName) -> Value {
     Value::from(body.to_string().as_str())
 }
 
-fn link_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let link = tree(simulation, image, &args[0])?.link_named(&text(&args[1])?);
-    done(match (link, is_kitchen(image, &args[0])) {
+/// The pose in the map of a link of :ROBOT or :KITCHEN; NIL if there is no such link.
+///
+/// `(btr::%link-pose :robot "no_such_link")` => `NIL`
+#[builtin("%LINK-POSE")]
+fn link_pose(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    body: &Value,
+    link: &Rc<LispString>,
+) -> Result<Value> {
+    let link = tree(simulation, image, body)?.link_named(&link.text());
+    Ok(match (link, is_kitchen(image, body)) {
         (None, _) => Value::NIL,
         (Some(link), Some(true)) => pose_stamped("map", &simulation.world.furniture_pose(link)),
         (Some(link), _) => pose_stamped("map", &simulation.world.link_pose(link)),
     })
 }
 
-fn joints(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let tree = tree(simulation, image, &args[0])?;
-    let positions = match is_kitchen(image, &args[0]) {
+/// The joints of :ROBOT or :KITCHEN that can be moved: a list of (name . position), in rad or m.
+///
+/// `(progn (pp-tut:init-projection) (cdr (assoc "iai_fridge_door_joint" (btr::%joints :kitchen) :test #'string=)))` => `0.0d0`
+#[builtin("%JOINTS")]
+fn joints(simulation: &mut Simulation, image: &mut Image, body: &Value) -> Result<Vec<Value>> {
+    let tree = tree(simulation, image, body)?;
+    let positions = match is_kitchen(image, body) {
         Some(true) => simulation.world.kitchen_positions(),
         _ => &simulation.world.robot_configuration().joints,
     };
     let moving = tree.joints().filter(|(_, joint)| joint.is_actuated());
-    let pairs: Vec<Value> = moving
-        .map(|(id, joint)| {
-            let position = Value::Double(tree.position(positions, id));
-            Value::cons(Value::from(joint.name.as_str()), position)
-        })
-        .collect();
-    done(Value::list(pairs))
+    let pairs = moving.map(|(id, joint)| {
+        let position = Value::Double(tree.position(positions, id));
+        Value::cons(Value::from(joint.name.as_str()), position)
+    });
+    Ok(pairs.collect())
 }
 
 /// A joint of the robot that can be moved.
@@ -300,14 +189,22 @@ fn robot_joint(simulation: &Simulation, name: &str) -> Result<JointId> {
         })
 }
 
-fn set_joint(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = text(&args[1])?;
-    let Some(position) = number::to_f64(&args[2]).filter(|q| q.is_finite()) else {
-        return Err(Raise::type_error(&args[2], known::REAL));
-    };
-    if is_kitchen(image, &args[0]) == Some(true) {
+/// Puts a joint of :ROBOT or :KITCHEN somewhere at once, within its limits. Returns where it is then.
+#[builtin("%SET-JOINT", edit)]
+fn set_joint(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    body: &Value,
+    joint: &Rc<LispString>,
+    position: f64,
+) -> Result<f64> {
+    let name = joint.text();
+    if !position.is_finite() {
+        return Err(Raise::type_error(&Value::Double(position), known::REAL));
+    }
+    if is_kitchen(image, body) == Some(true) {
         let now = simulation.world.teleport_kitchen_joint(&name, position);
-        return done(Value::Double(now.map_err(raise)?));
+        return now.map_err(raise);
     }
     let joint = robot_joint(simulation, &name)?;
     let limits = simulation.models.robot.joint(joint).limits;
@@ -315,11 +212,16 @@ fn set_joint(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
     let mut robot = simulation.world.robot_configuration().clone();
     robot.joints.set(joint, position);
     simulation.world.teleport_robot(&robot);
-    done(Value::Double(position))
+    Ok(position)
 }
 
-fn settled(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply> {
-    let seconds = seconds(&args[0])?;
+/// Where the objects would be after so much time, or once all are at rest: a list of (name pose). The world
+/// stays as it is.
+///
+/// `(progn (pp-tut:init-projection) (btr::%settled 5))` => `NIL`
+#[builtin("%SETTLED")]
+fn settled(simulation: &mut Simulation, seconds: &Value) -> Result<Vec<Value>> {
+    let seconds = time_to_pass(seconds)?;
     // A copy takes longer than the answer.
     let copy = (!simulation.world.sleeps()).then(|| {
         let mut world = simulation.world.clone();
@@ -333,11 +235,11 @@ fn settled(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result
         let name = simulation.symbol_of(object.name());
         poses.push(Value::list([name, pose_stamped("map", &pose)]));
     }
-    done(Value::list(poses))
+    Ok(poses)
 }
 
 /// A time that may be let pass (s).
-pub(super) fn seconds(value: &Value) -> Result<f64> {
+pub(super) fn time_to_pass(value: &Value) -> Result<f64> {
     let seconds = number::to_f64(value).filter(|s| (0.0..=LONGEST).contains(s));
     seconds.ok_or_else(|| {
         Raise::simple("A time from 0 to 3600 s was expected: how long the world is let alone.")
@@ -376,12 +278,23 @@ pub(super) fn names_in(
         .collect()
 }
 
-fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let names = names_in(simulation, image, &args[0])?;
+/// What the robot's camera sees of objects, or one at the pose of an optical frame: a list of (name share
+/// outside occluders): the share of the object that is in sight (0 to 1), whether it is out of the picture at
+/// least in part, and the bodies in front of it.
+///
+/// `(progn (pp-tut:init-projection) (btr::%sights nil nil))` => `NIL`
+#[builtin("%SIGHTS")]
+fn sights(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    names: &Value,
+    camera_pose: &Value,
+) -> Result<Vec<Value>> {
+    let names = names_in(simulation, image, names)?;
     if names.is_empty() {
-        return done(Value::NIL);
+        return Ok(Vec::new());
     }
-    let sight = look(simulation, image, &names, &args[1])?;
+    let sight = look(simulation, image, &names, camera_pose)?;
     let mut found = Vec::new();
     for name in &names {
         let visibility = sight.visibility(name).map_err(raise)?;
@@ -396,19 +309,24 @@ fn sights(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Res
             Value::list(bodies),
         ]));
     }
-    done(Value::list(found))
+    Ok(found)
 }
 
+/// As %SIGHTS, but only the shares: a list of (name share).
+///
+/// `(progn (pp-tut:init-projection) (btr::%shares-in-sight nil nil))` => `NIL`
+#[builtin("%SHARES-IN-SIGHT")]
 fn shares_in_sight(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let names = names_in(simulation, image, &args[0])?;
+    names: &Value,
+    camera_pose: &Value,
+) -> Result<Vec<Value>> {
+    let names = names_in(simulation, image, names)?;
     if names.is_empty() {
-        return done(Value::NIL);
+        return Ok(Vec::new());
     }
-    let sight = look(simulation, image, &names, &args[1])?;
+    let sight = look(simulation, image, &names, camera_pose)?;
     let row = |name: &String| {
         let share = sight.share(name).map_err(raise)?;
         Ok(Value::list([
@@ -416,26 +334,43 @@ fn shares_in_sight(
             Value::Double(share),
         ]))
     };
-    let rows: Result<Vec<Value>> = names.iter().map(row).collect();
-    done(Value::list(rows?))
+    names.iter().map(row).collect()
 }
 
-fn hand_reaches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let tool = simulation.believed_base().inverse() * simulation.pose_in_map(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    let object = args.get(2).filter(|object| object.is_true());
+/// Can the hand be at a pose from where the robot stands, at any height of the torso, while the robot touches
+/// nothing, or nothing but the object?
+///
+/// `(progn (pp-tut:init-projection) (btr::%hand-reaches '((5 0 1) (0 0 0 1)) :left))` => `NIL`
+#[builtin("%HAND-REACHES")]
+fn hand_reaches(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    pose: &Value,
+    arm: &Value,
+    object: Option<&Value>,
+) -> Result<bool> {
+    let tool = simulation.believed_base().inverse() * simulation.pose_in_map(image, pose)?;
+    let side = side(image, arm)?;
+    let object = object.filter(|object| object.is_true());
     let object = object.map(|name| simulation.object_named(image, name));
     let object = object.transpose()?;
     let mode = match object {
         Some(_) => CollisionMode::AllowHand,
         None => CollisionMode::AvoidAll,
     };
-    let reaches = can_reach(&simulation.world, side, &tool, mode, object.as_deref());
-    done(Value::bool(reaches))
+    Ok(can_reach(
+        &simulation.world,
+        side,
+        &tool,
+        mode,
+        object.as_deref(),
+    ))
 }
 
-fn point_head(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let pose = simulation.pose_in_map(image, &args[0])?;
+/// Turns the head towards a pose at once, as far as it can be turned.
+#[builtin("%POINT-HEAD", edit)]
+fn point_head(simulation: &mut Simulation, image: &mut Image, pose: &Value) -> Result<bool> {
+    let pose = simulation.pose_in_map(image, pose)?;
     let positions = neck_positions(&simulation.world, &Point3::from(pose.translation.vector));
     let neck = &simulation.models.description.neck;
     let tree = &simulation.models.robot;
@@ -446,67 +381,99 @@ fn point_head(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
         robot.joints.set(joint, position);
     }
     simulation.world.teleport_robot(&robot);
-    done(Value::T)
+    Ok(true)
 }
 
-fn put_in_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let side = side(image, &args[1])?;
+/// Lets a hand hold an object where it is.
+#[builtin("%PUT-IN-HAND", edit)]
+fn put_in_hand(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    arm: &Value,
+    grasp: &Value,
+) -> Result<()> {
+    let name = simulation.object_named(image, name)?;
+    let side = side(image, arm)?;
     let link = simulation.models.description.arm(side).gripper.palm;
     let taken_from = simulation.world.object_pose(&name).map_err(raise)?;
     simulation.world.attach(&name, link).map_err(raise)?;
     let held = Held {
         side,
-        grasp: type_text(image, &args[2]),
+        grasp: type_text(image, grasp),
         turn: 0.0,
         taken_from,
         tool_in_object: None,
     };
     simulation.held.insert(name, held);
-    done(Value::NIL)
+    Ok(())
 }
 
-fn take_from_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Lets go of an object, which stays where it is until time passes.
+#[builtin("%TAKE-FROM-HAND", edit)]
+fn take_from_hand(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<bool> {
+    let name = simulation.object_named(image, name)?;
     let was_held = simulation.world.detach(&name).map_err(raise)?.is_some();
     simulation.held.shift_remove(&name);
-    done(Value::bool(was_held))
+    Ok(was_held)
 }
 
-fn object_types(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let types: Vec<String> = simulation
-        .models
-        .objects
-        .names()
-        .map(str::to_owned)
-        .collect();
-    let types: Vec<Value> = types.iter().map(|name| type_keyword(image, name)).collect();
-    done(Value::list(types))
+/// The types of objects, as keywords.
+///
+/// `(listp (btr::%object-types))` => `T`
+#[builtin("%OBJECT-TYPES")]
+fn object_types(simulation: &mut Simulation, image: &mut Image) -> Vec<Value> {
+    let types = simulation.models.objects.names();
+    types.map(|name| type_keyword(image, name)).collect()
 }
 
-fn grasps_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let kind = type_text(image, &args[0]).unwrap_or_default();
-    let side = side(image, &args[1])?;
+/// The grasps of a type of objects with an arm, as keywords, those that are tried first at the front.
+///
+/// `(listp (btr::%grasps-of :bottle :left))` => `T`
+#[builtin("%GRASPS-OF", "type arm")]
+fn grasps_of(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    kind: &Value,
+    arm: &Value,
+) -> Result<Vec<Value>> {
+    let kind = type_text(image, kind).unwrap_or_default();
+    let side = side(image, arm)?;
     let grasps = simulation.defined_grasps(&kind, side);
-    let grasps: Vec<Value> = grasps
+    Ok(grasps
         .iter()
         .map(|name| type_keyword(image, name))
-        .collect();
-    done(Value::list(grasps))
+        .collect())
 }
 
-fn type_grip(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let kind = type_text(image, &args[0]).unwrap_or_default();
+/// How hard (N) objects of a type are gripped, and how wide (m) a hand opens for them, as a list.
+///
+/// `(length (btr::%type-grip :bottle))` => `2`
+#[builtin("%TYPE-GRIP", "type")]
+fn type_grip(simulation: &mut Simulation, image: &mut Image, kind: &Value) -> Value {
+    let kind = type_text(image, kind).unwrap_or_default();
     let grip = simulation.grip(&kind);
-    done(Value::list([grip.effort, grip.opening].map(Value::Double)))
+    Value::list([grip.effort, grip.opening].map(Value::Double))
 }
 
-fn spawn_shape(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let size: Vec<f64> = args[2]
+/// Puts a :BOX with edges (x y z), a :SPHERE with a radius (r), or a :CYLINDER with radius and length (r l),
+/// in m, into the world; its frame is in its middle.
+#[builtin("%SPAWN-SHAPE", edit)]
+fn spawn_shape(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    shape: &Value,
+    size: &Value,
+    pose: &Value,
+    mass: &Value,
+    color: &Value,
+) -> Result<Value> {
+    let size: Vec<f64> = size
         .iter_list()
         .filter_map(|x| number::to_f64(&x))
         .collect();
-    let kind = name_text(image, &args[1]).unwrap_or_default();
+    let kind = name_text(image, shape).unwrap_or_default();
     let shape = match (kind.as_str(), size.as_slice()) {
         ("BOX", [x, y, z]) => Shape::Box { size: [*x, *y, *z] },
         ("SPHERE", [radius]) => Shape::Sphere { radius: *radius },
@@ -520,19 +487,15 @@ fn spawn_shape(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
             ));
         }
     };
-    let pose = simulation.pose_in_map(image, &args[3])?;
-    simulation.spawn_shape(
-        image,
-        &args[0],
-        &kind.to_lowercase(),
-        shape,
-        &pose,
-        &args[4],
-        &args[5],
-    )?;
-    done(args[0].clone())
+    let pose = simulation.pose_in_map(image, pose)?;
+    simulation.spawn_shape(image, name, &kind.to_lowercase(), shape, &pose, mass, color)?;
+    Ok(name.clone())
 }
 
-fn is_moving(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    done(Value::bool(!simulation.jobs.is_idle()))
+/// Does the robot move?
+///
+/// `(btr::%moving-p)` => `NIL`
+#[builtin("%MOVING-P")]
+fn is_moving(simulation: &mut Simulation) -> bool {
+    !simulation.jobs.is_idle()
 }

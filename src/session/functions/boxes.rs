@@ -1,15 +1,17 @@
 //! The boxes around bodies, and which of them are above others.
 
-use super::asking::{is_kitchen, name_of, text};
-use crate::host::call::{done, host};
+use std::rc::Rc;
+
+use super::asking::{is_kitchen, name_of};
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
-use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 use robotics::world::{BodyName, World};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -21,42 +23,28 @@ type Corners = [[f64; 3]; 2];
 const DIP: f64 = 0.005;
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%BOX",
-        "body &optional link",
-        "The box around a body in the map: the least and the greatest x, y and z (m), as two lists; NIL if it has no shape. :KITCHEN and :ROBOT are given with a link, and without one stand for all of them.",
-        &["(btr::%box :kitchen \"no_such_link\") => NIL"],
-        host!(bounding_box),
-    ),
-    control(
-        "%BOXES",
-        "body",
-        "The boxes around all links of :ROBOT or :KITCHEN that have a shape, or, for any other body, around all objects: a list of (name least most).",
-        &["(progn (pp-tut:init-projection) (btr::%boxes :objects)) => NIL"],
-        host!(all_boxes),
-    ),
-    control(
-        "%ABOVE",
-        "uppers lowers middles",
-        "Which bodies are above which: a list of (upper lower . links), with the links that the upper one is above if the lower one is :KITCHEN or :ROBOT. A body is an object, :KITCHEN, :ROBOT or, as a lower one, :FLOOR. Their boxes overlap from above, and the lower side of the one is not below the upper side of the other; or, if MIDDLES is a number, the middle of the one is at most so much (m) below that of the other, wherever they are.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%above '(bottle-1) '(:floor :robot bottle-1) nil)) => ((BOTTLE-1 :FLOOR))",
-        ],
-        host!(above),
-    ),
-];
+pub(super) static TABLE: &[Builtin] = builtins![bounding_box, all_boxes, above];
 
-fn bounding_box(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// The box around a body in the map: the least and the greatest x, y and z (m), as two lists; NIL if it has
+/// no shape. :KITCHEN and :ROBOT are given with a link, and without one stand for all of them.
+///
+/// `(btr::%box :kitchen "no_such_link")` => `NIL`
+#[builtin("%BOX")]
+fn bounding_box(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    body: &Value,
+    link: Option<&Value>,
+) -> Result<Option<Value>> {
     let world = &simulation.world;
-    let found = match is_kitchen(image, &args[0]) {
+    let found = match is_kitchen(image, body) {
         None => {
-            let name = simulation.object_named(image, &args[0])?;
+            let name = simulation.object_named(image, body)?;
             world.box_of(&BodyName::Object(name))
         }
         Some(kitchen) => {
-            let wanted = args.get(1).filter(|link| link.is_true());
-            let wanted = wanted.map(text).transpose()?;
+            let wanted: Option<&Rc<LispString>> = typed::optional(image, link)?;
+            let wanted = wanted.map(|link| link.text());
             let boxes = link_boxes(world, kitchen);
             around(boxes.into_iter().filter_map(|(body, corners)| {
                 let is_meant = wanted.as_ref().is_none_or(|name| body.to_string() == *name);
@@ -64,15 +52,17 @@ fn bounding_box(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
             }))
         }
     };
-    done(match found {
-        None => Value::NIL,
-        Some(corners) => Value::list(lists(corners)),
-    })
+    Ok(found.map(|corners| Value::list(lists(corners))))
 }
 
-fn all_boxes(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// The boxes around all links of :ROBOT or :KITCHEN that have a shape, or, for any other body, around all
+/// objects: a list of (name least most).
+///
+/// `(progn (pp-tut:init-projection) (btr::%boxes :objects))` => `NIL`
+#[builtin("%BOXES")]
+fn all_boxes(simulation: &mut Simulation, image: &mut Image, body: &Value) -> Result<Value> {
     let world = &simulation.world;
-    let boxes: Vec<(Value, Corners)> = match is_kitchen(image, &args[0]) {
+    let boxes: Vec<(Value, Corners)> = match is_kitchen(image, body) {
         Some(kitchen) => link_boxes(world, kitchen)
             .into_iter()
             .map(|(body, corners)| (name_of(body), corners))
@@ -91,7 +81,7 @@ fn all_boxes(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
         let [least, most] = lists(corners);
         Value::list([name, least, most])
     });
-    done(Value::list(rows))
+    Ok(Value::list(rows))
 }
 
 /// What is asked about.
@@ -137,10 +127,24 @@ impl Meant {
     }
 }
 
-fn above(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let middles = number::to_f64(&args[2]);
-    let uppers = Meant::all(simulation, image, &args[0])?;
-    let lowers = Meant::all(simulation, image, &args[1])?;
+/// Which bodies are above which: a list of (upper lower . links), with the links that the upper one is above
+/// if the lower one is :KITCHEN or :ROBOT. A body is an object, :KITCHEN, :ROBOT or, as a lower one, :FLOOR.
+/// Their boxes overlap from above, and the lower side of the one is not below the upper side of the other;
+/// or, if MIDDLES is a number, the middle of the one is at most so much (m) below that of the other, wherever
+/// they are.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%above '(bottle-1) '(:floor :robot bottle-1) nil))` => `((BOTTLE-1 :FLOOR))`
+#[builtin("%ABOVE")]
+fn above(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    uppers: &Value,
+    lowers: &Value,
+    middles: &Value,
+) -> Result<Vec<Value>> {
+    let middles = number::to_f64(middles);
+    let uppers = Meant::all(simulation, image, uppers)?;
+    let lowers = Meant::all(simulation, image, lowers)?;
     let mut rows = Vec::new();
     for (upper, meant) in &uppers {
         let Some(corners) = meant.corners() else {
@@ -164,7 +168,7 @@ fn above(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
             rows.push(Value::list(pair.into_iter().chain(links)));
         }
     }
-    done(Value::list(rows))
+    Ok(rows)
 }
 
 /// Whether a box is above another one: their middles decide if a number says how much (m) that of the one

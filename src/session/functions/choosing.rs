@@ -1,17 +1,15 @@
 //! `choose-grasp`: an arm and a grasp that work; `grasps-for-target`: those that suit a place to put it down.
 
-use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{self, side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
 use crate::simulation::target_checks::{PlacingTarget, TargetGrasps};
-use cram::Reply;
 use indexmap::IndexMap;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -23,58 +21,48 @@ use spatial::Pose;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "CHOOSE-GRASP",
-        "object &key arms grasps base-pose target target-base-pose failed",
-        "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",
-        &[],
-        host!(choose_grasp),
-    ),
-    control(
-        "GRASPS-FOR-TARGET",
-        "object target &key arms grasps",
-        "The arms and grasps by which a perceived object can be put down at a pose, wherever the robot stands, of those for which the hand has room where the object is now: a list of lists of an arm and its grasps. If there are none, the second value tells why, and the third one is true if the hand has no room at the target for any of them. The fourth one is true if the object is round and no grasps are given, so that the grasps are also turned about its axis; the fifth one if all will do for which there is room.",
-        &[],
-        host!(grasps_for_target),
-    ),
-    control(
-        "ROOM-TO-PUT-DOWN-P",
-        "arm name target",
-        "Has the hand that holds an object of the world room to put it down at a pose, wherever the robot stands?",
-        &[],
-        host!(room_to_put_down),
-    ),
-];
+pub(super) static TABLE: &[Builtin] =
+    builtins![choose_grasp, grasps_for_target, room_to_put_down_p];
 
 /// One thing or a list of things.
-fn listed(value: Option<Value>) -> Vec<Value> {
+fn listed(value: Option<&Value>) -> Vec<Value> {
     match value {
         None => Vec::new(),
         Some(value) if value.is_nil() => Vec::new(),
-        Some(value) if matches!(value, Value::Cons(_)) => value.iter_list().collect(),
-        Some(value) => vec![value],
+        Some(value @ Value::Cons(_)) => value.iter_list().collect(),
+        Some(value) => vec![value.clone()],
     }
 }
 
-fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let keys = [
-        "ARMS",
-        "GRASPS",
-        "BASE-POSE",
-        "TARGET",
-        "TARGET-BASE-POSE",
-        "FAILED",
-    ]
-    .map(|name| image.keyword(name));
-    let [arms, grasps, base, target, target_base, failed] =
-        keywords::parse(image, &args[1..], keys)?;
-    let mut question = question(simulation, image, &args[0], arms, grasps)?;
-    let mut pose_of = |pose: Option<Value>| match pose.filter(Value::is_true) {
+/// The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or
+/// from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift,
+/// second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of
+/// the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the
+/// torso. Only the given arms and grasps are used, and only those with which the object can be put down at
+/// the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such
+/// grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.
+#[builtin]
+fn choose_grasp(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    object: &Value,
+    #[key] arms: Option<&Value>,
+    #[key] grasps: Option<&Value>,
+    #[key] base_pose: Option<&Value>,
+    #[key] target: Option<&Value>,
+    #[key] target_base_pose: Option<&Value>,
+    #[key] failed: Option<&Value>,
+) -> Result<Value> {
+    let mut question = question(simulation, image, object, arms, grasps)?;
+    let mut pose_of = |pose: Option<&Value>| match pose.filter(|pose| pose.is_true()) {
         None => Ok(None),
-        Some(pose) => pose_in_map(simulation, image, &pose).map(Some),
+        Some(pose) => pose_in_map(simulation, image, pose).map(Some),
     };
-    let (base, target, target_base) = (pose_of(base)?, pose_of(target)?, pose_of(target_base)?);
+    let (base, target, target_base) = (
+        pose_of(base_pose)?,
+        pose_of(target)?,
+        pose_of(target_base_pose)?,
+    );
     question.failed = listed(failed)
         .iter()
         .map(|one| failed_grasp(image, one))
@@ -88,9 +76,9 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     });
     let Some(chosen) = chosen else {
         // Ctrl-C stops the plan at its next step.
-        return done(Value::values(Vec::new()));
+        return Ok(Value::values(Vec::new()));
     };
-    let choice = chosen.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    let choice = chosen.map_err(|failure| simulation.failure(image, &failure, object))?;
     let poses = [
         choice.poses.pregrasp,
         choice.poses.second_pregrasp,
@@ -99,7 +87,7 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         choice.poses.second_lift,
     ];
     let poses = poses.map(|pose| simulation.in_base(&pose));
-    done(Value::values(vec![
+    Ok(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, &choice.grasp),
         Value::list(poses),
@@ -109,22 +97,29 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     ]))
 }
 
+/// The arms and grasps by which a perceived object can be put down at a pose, wherever the robot stands, of
+/// those for which the hand has room where the object is now: a list of lists of an arm and its grasps. If
+/// there are none, the second value tells why, and the third one is true if the hand has no room at the
+/// target for any of them. The fourth one is true if the object is round and no grasps are given, so that the
+/// grasps are also turned about its axis; the fifth one if all will do for which there is room.
+#[builtin]
 fn grasps_for_target(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let keys = ["ARMS", "GRASPS"].map(|name| image.keyword(name));
-    let [arms, grasps] = keywords::parse(image, &args[2..], keys)?;
-    let question = question(simulation, image, &args[0], arms, grasps)?;
-    let pose = pose_in_map(simulation, image, &args[1])?;
+    object: &Value,
+    target: &Value,
+    #[key] arms: Option<&Value>,
+    #[key] grasps: Option<&Value>,
+) -> Result<Value> {
+    let question = question(simulation, image, object, arms, grasps)?;
+    let pose = pose_in_map(simulation, image, target)?;
     let target = PlacingTarget { pose, base: None };
     let found = interruptible(interruption(image), || {
         simulation.grasps_for_target(&question, &target)
     });
     let Some(found) = found else {
         // Ctrl-C stops the plan at its next step.
-        return done(Value::values(Vec::new()));
+        return Ok(Value::values(Vec::new()));
     };
     let mut by_arm = Vec::new();
     for side in &question.arms {
@@ -142,7 +137,7 @@ fn grasps_for_target(
         false => Value::NIL,
     };
     let is_certain = by_arm.is_empty() && found.is_certain;
-    done(Value::values(vec![
+    Ok(Value::values(vec![
         Value::list(by_arm),
         why,
         Value::bool(is_certain),
@@ -151,16 +146,20 @@ fn grasps_for_target(
     ]))
 }
 
-fn room_to_put_down(
+/// Has the hand that holds an object of the world room to put it down at a pose, wherever the robot stands?
+#[builtin]
+fn room_to_put_down_p(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let object = simulation.object_named(image, &args[1])?;
-    let pose = pose_in_map(simulation, image, &args[2])?;
+    arm: &Value,
+    name: &Value,
+    target: &Value,
+) -> Result<bool> {
+    let side = side(image, arm)?;
+    let object = simulation.object_named(image, name)?;
+    let pose = pose_in_map(simulation, image, target)?;
     let has_room = simulation.has_room_to_put(&object, side, pose);
-    done(Value::bool(has_room.map_err(Raise::reporting)?))
+    has_room.map_err(Raise::reporting)
 }
 
 /// The most frequent cause for which no grasp suits a target.
@@ -183,12 +182,12 @@ fn question(
     simulation: &Simulation,
     image: &mut Image,
     object: &Value,
-    arms: Option<Value>,
-    grasps: Option<Value>,
+    arms: Option<&Value>,
+    grasps: Option<&Value>,
 ) -> Result<GraspQuestion> {
     let object = simulation.perceived(image, object)?;
-    let arms = match arms.filter(Value::is_true) {
-        Some(arms) => sides(image, &arms)?,
+    let arms = match arms.filter(|arms| arms.is_true()) {
+        Some(arms) => sides(image, arms)?,
         None => motions::arms(image).into_iter().rev().collect(),
     };
     let mut names = Vec::new();

@@ -1,15 +1,13 @@
 //! Builtins for drawers, doors and knobs: what there is, how it is open or turned, and how a hand can move it.
 
-use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{self, side, side_keyword, sides};
 use crate::simulation::names::{type_keyword, type_text};
-use cram::Reply;
 use cram::pose::value::pose_stamped;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
-use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -26,97 +24,17 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const CLOSED: f64 = 0.1;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "LIST-CONTAINERS",
-        "",
-        "What can be opened by a handle: lists of the name that (urdf-name …) takes, the joint, its position and its limits (m or rad), :PRISMATIC for a drawer or :REVOLUTE for a door, and the pose of the handle in the map.",
-        &["(first (assoc :iai-fridge-door (list-containers))) => :IAI-FRIDGE-DOOR"],
-        host!(list_containers),
-    ),
-    control(
-        "OPEN-P",
-        "container",
-        "Is a drawer or door open, by more than 0.1 m or rad? It is given by its name or by an object that describes it.",
-        &["(progn (pp-tut:init-projection) (open-p :iai-fridge-door)) => NIL"],
-        host!(open_p),
-    ),
-    control(
-        "LIST-KNOBS",
-        "",
-        "The knobs of the kitchen: lists of the name that (urdf-name …) takes, :ON or :OFF, the angle and its limits (rad), and the pose of the knob in the map.",
-        &["(length (list-knobs)) => 5"],
-        host!(list_knobs),
-    ),
-    control(
-        "KNOB-STATE",
-        "knob",
-        "Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle and the limits of that (rad), the name of its joint, its own, and by how much (rad) it has to be turned to be on.",
-        &[
-            "(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven))) => :OFF",
-        ],
-        host!(knob_state),
-    ),
-];
+pub(super) static TABLE: &[Builtin] = builtins![list_containers, open_p, list_knobs, knob_state];
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(crate) static PLANS_TABLE: &[Builtin] = &[
-    control(
-        "CONTAINER-STATE",
-        "container",
-        "Of a drawer or door, given by its name or described: its name, the name of its joint, the joint's position and limits (m or rad), and :PRISMATIC or :REVOLUTE.",
-        &[
-            "(second (multiple-value-list (pp-plans::container-state :iai-fridge-main))) => \"iai_fridge_door_joint\"",
-        ],
-        host!(container_state),
-    ),
-    control(
-        "CONTAINER-P",
-        "thing",
-        "Is furniture, given by its name or described, a drawer or door, or in one?",
-        &[
-            "(pp-plans::container-p :iai-fridge-main) => T",
-            "(pp-plans::container-p :kitchen-island-surface) => NIL",
-        ],
-        host!(container_p),
-    ),
-    control(
-        "CONTAINER-BEFORE",
-        "container",
-        "The name of the drawer or door that has to be open before one, given by its name or described, can move, as the flap of a dishwasher before its rack; NIL if there is none. What is in its way while everything is shut, and is not once it is open, has to be open.",
-        &["(pp-plans::container-before :iai-fridge-door) => NIL"],
-        host!(container_before_that),
-    ),
-    control(
-        "ASSERT-WAY-IS-FREE",
-        "container distance",
-        "Fails with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if other things are in the way of a drawer or door, or of what is in it, to a position (m or rad).",
-        &[
-            "(progn (pp-tut:init-projection) (pp-plans::assert-way-is-free :iai-fridge-door 1.5)) => NIL",
-        ],
-        host!(assert_way_is_free),
-    ),
-    control(
-        "CHOOSE-HANDLE-GRASP",
-        "container distance &key arms grasps",
-        "The first arm and grasp by which a drawer or door can be brought to a position (m or rad) from where the robot stands: the arm, the grasp, the height (m) of the torso, the joint angles (rad) of the arm before the approach, and the poses of the hand there and at the handle. Fails with MANIPULATION-POSE-UNREACHABLE if there is none, and with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if something is in the way of the drawer or door itself.",
-        &[],
-        host!(choose_handle_grasp),
-    ),
-    control(
-        "HANDLE-IN-HAND",
-        "arm",
-        "The name of the joint that is moved by the handle that a hand holds, or NIL.",
-        &["(progn (pp-tut:init-projection) (pp-plans::handle-in-hand :left)) => NIL"],
-        host!(handle_in_hand),
-    ),
-    control(
-        "WITHDRAWN-POSE",
-        "arm distance",
-        "The pose of a hand that has withdrawn straight by a distance (m) from where it is.",
-        &[],
-        host!(withdrawn_pose),
-    ),
+pub(crate) static PLANS_TABLE: &[Builtin] = builtins![
+    container_state,
+    container_p,
+    container_before_that,
+    assert_way_is_free,
+    choose_handle_grasp,
+    handle_in_hand,
+    withdrawn_pose
 ];
 
 /// The keyword of a link of the kitchen.
@@ -132,7 +50,13 @@ fn kind_keyword(image: &mut Image, kind: JointKind) -> Value {
     image.keyword(name).into()
 }
 
-fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// What can be opened by a handle: lists of the name that (urdf-name …) takes, the joint, its position and
+/// its limits (m or rad), :PRISMATIC for a drawer or :REVOLUTE for a door, and the pose of the handle in the
+/// map.
+///
+/// `(first (assoc :iai-fridge-door (list-containers)))` => `:IAI-FRIDGE-DOOR`
+#[builtin]
+fn list_containers(simulation: &mut Simulation, image: &mut Image) -> Vec<Value> {
     let containers = containers(&simulation.models);
     let moving = containers.into_iter().filter(|c| simulation.moves(c));
     let rows = moving.map(|container| {
@@ -143,7 +67,7 @@ fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) 
         ));
         Value::list(row)
     });
-    done(Value::list(rows.collect::<Vec<_>>()))
+    rows.collect()
 }
 
 /// The name of a container, that of its joint, where this is and its limits (m or rad), and its
@@ -162,10 +86,15 @@ fn state(simulation: &Simulation, image: &mut Image, container: &Container) -> [
     ]
 }
 
-fn open_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let container = simulation.container(image, &args[0])?;
+/// Is a drawer or door open, by more than 0.1 m or rad? It is given by its name or by an object that
+/// describes it.
+///
+/// `(progn (pp-tut:init-projection) (open-p :iai-fridge-door))` => `NIL`
+#[builtin]
+fn open_p(simulation: &mut Simulation, image: &mut Image, container: &Value) -> Result<bool> {
+    let container = simulation.container(image, container)?;
     let limits = simulation.travel(&container);
-    done(simulation.opening_of(&container) - limits.lower > CLOSED)
+    Ok(simulation.opening_of(&container) - limits.lower > CLOSED)
 }
 
 /// Whether a knob is on, its angle and the limits of that (rad).
@@ -181,7 +110,12 @@ fn turned(simulation: &Simulation, image: &mut Image, knob: &Knob) -> [Value; 4]
     ]
 }
 
-fn list_knobs(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The knobs of the kitchen: lists of the name that (urdf-name …) takes, :ON or :OFF, the angle and its
+/// limits (rad), and the pose of the knob in the map.
+///
+/// `(length (list-knobs))` => `5`
+#[builtin]
+fn list_knobs(simulation: &mut Simulation, image: &mut Image) -> Vec<Value> {
     let rows = simulation.models.knobs().into_iter().map(|knob| {
         let name = simulation.models.kitchen.link(knob.link).name.clone();
         let mut row = vec![furniture_keyword(image, &name)];
@@ -190,57 +124,73 @@ fn list_knobs(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Re
         row.push(pose_stamped("map", &pose));
         Value::list(row)
     });
-    done(Value::list(rows.collect::<Vec<_>>()))
+    rows.collect()
 }
 
-fn knob_state(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let knob = simulation.knob(image, &args[0])?;
+/// Of a knob, given by its name or described: :ON, if it is turned by 0.35 rad or more, or :OFF; its angle
+/// and the limits of that (rad), the name of its joint, its own, and by how much (rad) it has to be turned to
+/// be on.
+///
+/// `(progn (pp-tut:init-projection) (values (knob-state :oven-area-oven-knob-oven)))` => `:OFF`
+#[builtin]
+fn knob_state(simulation: &mut Simulation, image: &mut Image, knob: &Value) -> Result<Value> {
+    let knob = simulation.knob(image, knob)?;
     let mut values = turned(simulation, image, &knob).to_vec();
     let kitchen = &simulation.models.kitchen;
     values.push(Value::from(kitchen.joint(knob.joint).name.as_str()));
     let name = kitchen.link(knob.link).name.clone();
     values.push(furniture_keyword(image, &name));
     values.push(Value::Double(KNOB_ON));
-    done(Value::values(values))
+    Ok(Value::values(values))
 }
 
+/// Of a drawer or door, given by its name or described: its name, the name of its joint, the joint's position
+/// and limits (m or rad), and :PRISMATIC or :REVOLUTE.
+///
+/// `(second (multiple-value-list (pp-plans::container-state :iai-fridge-main)))` => `"iai_fridge_door_joint"`
+#[builtin]
 fn container_state(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let container = simulation.container(image, &args[0])?;
-    done(Value::values(state(simulation, image, &container).to_vec()))
+    container: &Value,
+) -> Result<Value> {
+    let container = simulation.container(image, container)?;
+    Ok(Value::values(state(simulation, image, &container).to_vec()))
 }
 
+/// The name of the drawer or door that has to be open before one, given by its name or described, can move,
+/// as the flap of a dishwasher before its rack; NIL if there is none. What is in its way while everything is
+/// shut, and is not once it is open, has to be open.
+///
+/// `(pp-plans::container-before :iai-fridge-door)` => `NIL`
+#[builtin("CONTAINER-BEFORE")]
 fn container_before_that(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let container = simulation.container(image, &args[0])?;
+    container: &Value,
+) -> Result<Option<Value>> {
+    let container = simulation.container(image, container)?;
     let models = &simulation.models;
     let before = container_before(models, &container);
-    done(before.map_or(Value::NIL, |before| {
-        furniture_keyword(image, &models.kitchen.link(before.link).name)
-    }))
+    Ok(before.map(|before| furniture_keyword(image, &models.kitchen.link(before.link).name)))
 }
 
 /// What is asked of a hand that is to bring a container to a position.
 fn question(
     simulation: &Simulation,
     image: &mut Image,
-    args: &[Value],
+    container: &Value,
+    position: &Value,
+    arms: Option<&Value>,
+    grasps: Option<&Value>,
 ) -> Result<(Container, HandleQuestion)> {
-    let container = simulation.handled(image, &args[0])?;
-    let keys = ["ARMS", "GRASPS"].map(|name| image.keyword(name));
-    let [arms, grasps] = keywords::parse(image, &args[2..], keys)?;
-    let arms = match arms.filter(Value::is_true) {
-        Some(arms) => sides(image, &arms)?,
+    let container = simulation.handled(image, container)?;
+    let arms = match arms.filter(|arms| arms.is_true()) {
+        Some(arms) => sides(image, arms)?,
         None => motions::arms(image).into_iter().rev().collect(),
     };
     let grasps = grasps.map_or_else(Vec::new, |grasps| grasps.iter_list().collect());
-    let position = simulation.wanted_opening(&container, Some(&args[1]))?;
+    let position = simulation.wanted_opening(&container, Some(position))?;
     let question = HandleQuestion {
         part: simulation.world.part(container.joint),
         handle: container.handle,
@@ -269,41 +219,55 @@ fn way_blocked(
     })))
 }
 
+/// Fails with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if other things are in the way of a drawer or door,
+/// or of what is in it, to a position (m or rad).
+///
+/// `(progn (pp-tut:init-projection) (pp-plans::assert-way-is-free :iai-fridge-door 1.5))` => `NIL`
+#[builtin]
 fn assert_way_is_free(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let (container, question) = question(simulation, image, args)?;
+    container: &Value,
+    distance: &Value,
+) -> Result<()> {
+    let (handled, question) = question(simulation, image, container, distance, None, None)?;
     let chooser = HandleChooser::new(&simulation.world, &question, Effort::QUICK);
-    let free = way_blocked(simulation, &container, &chooser);
-    free.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
-    done(Value::NIL)
+    let free = way_blocked(simulation, &handled, &chooser);
+    free.map_err(|failure| simulation.failure(image, &failure, container))
 }
 
+/// The first arm and grasp by which a drawer or door can be brought to a position (m or rad) from where the
+/// robot stands: the arm, the grasp, the height (m) of the torso, the joint angles (rad) of the arm before
+/// the approach, and the poses of the hand there and at the handle. Fails with MANIPULATION-POSE-UNREACHABLE
+/// if there is none, and with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if something is in the way of the
+/// drawer or door itself.
+#[builtin]
 fn choose_handle_grasp(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let (container, question) = question(simulation, image, args)?;
+    container: &Value,
+    distance: &Value,
+    #[key] arms: Option<&Value>,
+    #[key] grasps: Option<&Value>,
+) -> Result<Value> {
+    let (handled, question) = question(simulation, image, container, distance, arms, grasps)?;
     let found = interruptible(interruption(image), || {
         let chooser = HandleChooser::new(&simulation.world, &question, Effort::THOROUGH);
-        way_blocked(simulation, &container, &chooser)?;
+        way_blocked(simulation, &handled, &chooser)?;
         let nothing = |nothing| MotionFailure::NoHandleGrasp(Box::new(nothing));
         chooser.with_base_at(&simulation.base()).map_err(nothing)
     });
     let Some(found) = found else {
         // Ctrl-C stops the plan at its next step.
-        return done(Value::values(Vec::new()));
+        return Ok(Value::values(Vec::new()));
     };
-    let choice = found.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    let choice = found.map_err(|failure| simulation.failure(image, &failure, container))?;
     let posture = choice
         .posture
         .into_iter()
         .map(Value::Double)
         .collect::<Vec<_>>();
-    done(Value::values(vec![
+    Ok(Value::values(vec![
         side_keyword(image, choice.side),
         type_keyword(image, choice.grasp),
         Value::Double(choice.torso),
@@ -313,23 +277,40 @@ fn choose_handle_grasp(
     ]))
 }
 
-fn container_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    done(simulation.is_container(image, &args[0])?)
+/// Is furniture, given by its name or described, a drawer or door, or in one?
+///
+/// `(pp-plans::container-p :iai-fridge-main)` => `T`
+/// `(pp-plans::container-p :kitchen-island-surface)` => `NIL`
+#[builtin]
+fn container_p(simulation: &mut Simulation, image: &mut Image, thing: &Value) -> Result<bool> {
+    simulation.is_container(image, thing)
 }
 
-fn handle_in_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let Some(hold) = simulation.world.handle_hold(side) else {
-        return done(Value::NIL);
-    };
-    let name = &simulation.models.kitchen.joint(hold.joint).name;
-    done(Value::from(name.as_str()))
+/// The name of the joint that is moved by the handle that a hand holds, or NIL.
+///
+/// `(progn (pp-tut:init-projection) (pp-plans::handle-in-hand :left))` => `NIL`
+#[builtin]
+fn handle_in_hand(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    arm: &Value,
+) -> Result<Option<String>> {
+    let side = side(image, arm)?;
+    let hold = simulation.world.handle_hold(side);
+    Ok(hold.map(|hold| simulation.models.kitchen.joint(hold.joint).name.clone()))
 }
 
-fn withdrawn_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let arm = simulation.models.description.arm(side(image, &args[0])?);
-    let distance = number::to_f64(&args[1]).unwrap_or(0.0);
+/// The pose of a hand that has withdrawn straight by a distance (m) from where it is.
+#[builtin]
+fn withdrawn_pose(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    arm: &Value,
+    distance: &Value,
+) -> Result<Value> {
+    let arm = simulation.models.description.arm(side(image, arm)?);
+    let distance = number::to_f64(distance).unwrap_or(0.0);
     let tool = arm.tool_for_wrist(&simulation.world.link_pose(arm.wrist));
     let back = tool * Translation3::new(-distance, 0.0, 0.0);
-    done(pose_stamped("map", &back))
+    Ok(pose_stamped("map", &back))
 }

@@ -8,12 +8,11 @@ use super::kitchens::{models_of, seed_of};
 use super::picture_request::PictureRequest;
 use super::pictures::publish_as;
 use crate::host::SimulationHost;
-use crate::host::call::host;
 use crate::simulation::starting_world;
-use cram::Reply;
 use kitchens::{Facts, Kitchen, Settings};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -46,16 +45,18 @@ const GAP: usize = 4;
 const COLORS: usize = 48;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[control(
-    "KITCHENS-PICTURE",
-    "&rest arguments",
-    "Draws the generated kitchens of some seeds side by side into a PNG file and returns the file's name: `(kitchens-picture [\"file.png\"] :seeds '(0 1 2) :columns n :width n :height n)`, with the size of each in pixels. The robot stands where it starts.",
-    &[],
-    host!(kitchens_picture),
-)];
+pub(super) static TABLE: &[Builtin] = builtins![kitchens_picture];
 
-fn kitchens_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let request = PictureRequest::of(image, args, &["SEEDS", "COLUMNS", "WIDTH", "HEIGHT"])?;
+/// Draws the generated kitchens of some seeds side by side into a PNG file and returns the file's name:
+/// `(kitchens-picture ["file.png"] :seeds '(0 1 2) :columns n :width n :height n)`, with the size of each in
+/// pixels. The robot stands where it starts.
+#[builtin]
+fn kitchens_picture(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    arguments: &[Value],
+) -> Result<Value> {
+    let request = PictureRequest::of(image, arguments, &["SEEDS", "COLUMNS", "WIDTH", "HEIGHT"])?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
     let columns = match request.get("COLUMNS") {

@@ -1,14 +1,13 @@
 //! Other kitchens than the one in which a session began: generated ones.
 
 use crate::host::SimulationHost;
-use crate::host::call::{done, edit};
 use crate::simulation::Simulation;
 use crate::simulation::names::name_text;
-use cram::Reply;
 use kitchens::{Facts, Kitchen, Setting, Settings, is_parameter};
-use lisp::builtin::{Builtin, control, pure};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -18,49 +17,17 @@ use robotics::world::{KitchenDescription, Models};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[control(
-    "NEW-KITCHEN",
-    "&optional seed &rest parameters",
-    "Puts the robot into the generated kitchen of a seed, without objects; without a seed, into the kitchen in which the session began. Parameters are keys with values, such as :arrangement :galley, :table nil, :counter-height 0.9, or :back-3 nil for a module that is to be closed; all others stay as the seed draws them. Returns what is remarkable about it: how its furniture is arranged, the size of the room, the narrowest way between rows that face each other and the height of the counter (m), the number of drawers; and :redrawn if the seed's own draws do not go with the parameters, so that all others were drawn anew.",
-    &[
-        "(getf (new-kitchen 7) :arrangement) => :L",
-        "(getf (new-kitchen 7 :counter-height 0.9) :counter-height) => 0.9",
-        "(new-kitchen) => NIL",
-    ],
-    edit!(new_kitchen),
-)];
+pub(super) static TABLE: &[Builtin] = builtins![new_kitchen];
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub(super) static DRAWN: &[Builtin] = &[
-    control(
-        "%NEW-KITCHEN",
-        "seed parameters",
-        "As NEW-KITCHEN; returns a list of what that returns, of the parameters with their simplest values where they have others, as lists (NAME VALUE), of those that are set, as lists (NAME TEXT), and of the extent of the room (least x, least y, greatest x, greatest y; m, map). If there is no such kitchen, a string that says why.",
-        &[],
-        edit!(drawn_kitchen),
-    ),
-    control(
-        "%OPEN-IF-FREE",
-        "joint position",
-        "Puts a joint of the kitchen at a position (m or rad) at once, unless what it moves would hit anything there. Has it?",
-        &[],
-        edit!(open_if_free),
-    ),
-    pure(
-        "%KITCHEN-PARAMETER-P",
-        "name",
-        "Has a generated kitchen a parameter of that name, a string?",
-        &[
-            "(pw::%kitchen-parameter-p \"table\") => T",
-            "(pw::%kitchen-parameter-p \"drawers\") => NIL",
-        ],
-        has_parameter,
-    ),
-];
+pub(super) static DRAWN: &[Builtin] = builtins![drawn_kitchen, open_if_free, has_parameter];
 
-fn open_if_free(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = args[0].as_text().unwrap_or_default();
-    let position = number::to_f64(&args[1]).unwrap_or(f64::NAN);
+/// Puts a joint of the kitchen at a position (m or rad) at once, unless what it moves would hit anything
+/// there. Has it?
+#[builtin("%OPEN-IF-FREE", edit)]
+fn open_if_free(host: &mut SimulationHost, joint: &Value, position: &Value) -> Result<bool> {
+    let name = joint.as_text().unwrap_or_default();
+    let position = number::to_f64(position).unwrap_or(f64::NAN);
     let world = &mut host.simulation.world;
     let joint = world.models().kitchen.joint_named(&name);
     let is_free = joint.is_some_and(|joint| {
@@ -71,20 +38,40 @@ fn open_if_free(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Res
         let put = world.teleport_kitchen_joint(&name, position);
         put.map_err(Raise::reporting)?;
     }
-    done(is_free)
+    Ok(is_free)
 }
 
-fn has_parameter(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let name = args.first().and_then(Value::as_text).unwrap_or_default();
-    Ok(is_parameter(&name).into())
+/// Has a generated kitchen a parameter of that name, a string?
+///
+/// `(pw::%kitchen-parameter-p "table")` => `T`
+/// `(pw::%kitchen-parameter-p "drawers")` => `NIL`
+#[builtin("%KITCHEN-PARAMETER-P")]
+fn has_parameter(name: &Value) -> bool {
+    is_parameter(&name.as_text().unwrap_or_default())
 }
 
-fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let seed = match args.first().filter(|seed| seed.is_true()) {
+/// Puts the robot into the generated kitchen of a seed, without objects; without a seed, into the kitchen in
+/// which the session began. Parameters are keys with values, such as :arrangement :galley, :table nil,
+/// :counter-height 0.9, or :back-3 nil for a module that is to be closed; all others stay as the seed draws
+/// them. Returns what is remarkable about it: how its furniture is arranged, the size of the room, the
+/// narrowest way between rows that face each other and the height of the counter (m), the number of drawers;
+/// and :redrawn if the seed's own draws do not go with the parameters, so that all others were drawn anew.
+///
+/// `(getf (new-kitchen 7) :arrangement)` => `:L`
+/// `(getf (new-kitchen 7 :counter-height 0.9) :counter-height)` => `0.9`
+/// `(new-kitchen)` => `NIL`
+#[builtin(edit)]
+fn new_kitchen(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    seed: Option<&Value>,
+    parameters: &[Value],
+) -> Result<Value> {
+    let seed = match seed.filter(|seed| seed.is_true()) {
         None => None,
         Some(given) => Some(seed_of(given)?),
     };
-    let settings = settings_of(image, args.get(1..).unwrap_or_default())?;
+    let settings = settings_of(image, parameters)?;
     check_change(host)?;
     let Some(seed) = seed else {
         if !settings.is_empty() {
@@ -95,16 +82,26 @@ fn new_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
         let simulation = &mut host.simulation;
         simulation.go_home();
         simulation.restart();
-        return done(Value::NIL);
+        return Ok(Value::NIL);
     };
     let kitchen = Kitchen::with(seed, &settings).map_err(Raise::reporting)?;
     enter(host, seed, &kitchen)?;
-    done(facts_of(image, &kitchen.facts))
+    Ok(facts_of(image, &kitchen.facts))
 }
 
-fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let seed = seed_of(&args[0])?;
-    let parameters: Vec<Value> = args[1].iter_list().collect();
+/// As NEW-KITCHEN; returns a list of what that returns, of the parameters with their simplest values where
+/// they have others, as lists (NAME VALUE), of those that are set, as lists (NAME TEXT), and of the extent of
+/// the room (least x, least y, greatest x, greatest y; m, map). If there is no such kitchen, a string that
+/// says why.
+#[builtin("%NEW-KITCHEN", edit)]
+fn drawn_kitchen(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    seed: &Value,
+    parameters: &Value,
+) -> Result<Value> {
+    let seed = seed_of(seed)?;
+    let parameters: Vec<Value> = parameters.iter_list().collect();
     let settings = settings_of(image, &parameters)?;
     check_change(host)?;
     let kitchen = match Kitchen::with(seed, &settings) {
@@ -112,7 +109,7 @@ fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
         // The seed would make each such world one of a kind.
         Err(impossible) => {
             let why = format!("no kitchen is like that: {}", impossible.rejection.words());
-            return done(Value::string(&why));
+            return Ok(Value::string(&why));
         }
     };
     enter(host, seed, &kitchen)?;
@@ -133,7 +130,7 @@ fn drawn_kitchen(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
     let Facts { room, start, .. } = kitchen.facts;
     let extent = [-start[0], -start[1], room[0] - start[0], room[1] - start[1]];
     let extent = Value::list(extent.map(Value::Double));
-    done(Value::list([
+    Ok(Value::list([
         facts_of(image, &kitchen.facts),
         simpler,
         settings,

@@ -4,16 +4,15 @@ use std::sync::Arc;
 
 use super::object_record::record;
 use super::prompt::install_topics;
-use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::mesh_files::SessionMeshes;
 use crate::simulation::Simulation;
 use crate::simulation::names::{type_keyword, type_text, type_text_of};
-use cram::Reply;
 use cram::designator::vocabulary::{Domain, Vocabulary};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use robotics::mesh::MeshLibrary;
@@ -27,50 +26,30 @@ const TAGS: &str = "(PLANWRIGHT DEF-OBJECT-TYPE)";
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%DEFINE-OBJECT-TYPE",
-        "name properties file",
-        "Defines a type of objects; FILE is a file beside which meshes are, or NIL.",
-        &[],
-        edit!(define_object_type),
-    ),
-    control(
-        "LOAD-OBJECT-TYPES",
-        "file",
-        "Defines the types of objects in a file in the form of world/objects.sexp, in which shapes may be meshes, too: (mesh \"FILE\" :scale 1). Returns the types.",
-        &[],
-        edit!(load_object_types),
-    ),
-    control(
-        "%UNGRASPABLE",
-        "type",
-        "Why no hand can grasp objects of a type, or NIL if that is not known.",
-        &[],
-        host!(ungraspable),
-    ),
-    control(
-        "%MESH-FILES",
-        "package folder extension",
-        "The files of meshes in a folder of a package: types and paths.",
-        &[],
-        host!(mesh_files),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    define_object_type,
+    load_object_types,
+    ungraspable,
+    mesh_files
 ];
 
+/// Defines a type of objects; FILE is a file beside which meshes are, or NIL.
+#[builtin("%DEFINE-OBJECT-TYPE", edit)]
 fn define_object_type(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let name = type_text_of(image, &args[0])?;
-    let text = record(image, &name, &args[1])?;
-    let path = match &args[2] {
+    name: &Value,
+    properties: &Value,
+    file: &Value,
+) -> Result<Value> {
+    let name = type_text_of(image, name)?;
+    let text = record(image, &name, properties)?;
+    let path = match file {
         Value::Str(path) => path.text(),
         _ => simulation.meshes.source.clone(),
     };
     simulation.define_object(image, &name, &text, &path)?;
-    done(type_keyword(image, &name))
+    Ok(type_keyword(image, &name))
 }
 
 impl Simulation {
@@ -91,14 +70,21 @@ impl Simulation {
     }
 }
 
-/// The files of a package that look like meshes, as lists of a name of a type and a path.
-fn mesh_files(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// The files of meshes in a folder of a package: types and paths.
+#[builtin("%MESH-FILES")]
+fn mesh_files(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    package: &Value,
+    folder: &Value,
+    extension: &Value,
+) -> Vec<Value> {
     let text = |value: &Value| match value {
         Value::Str(text) => text.text(),
         other if other.is_true() => print::to_string(image, other, false).to_lowercase(),
         _ => String::new(),
     };
-    let [package, folder, extension] = [&args[0], &args[1], &args[2]].map(text);
+    let [package, folder, extension] = [package, folder, extension].map(text);
     let mut found = Vec::new();
     let folders = simulation.meshes.package_paths.iter().map(String::as_str);
     for place in folders.chain(["."]) {
@@ -128,21 +114,25 @@ fn mesh_files(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     let found = found.into_iter();
     let found =
         found.map(|[name, path]| Value::list([type_keyword(image, &name), Value::string(path)]));
-    done(Value::list(found.collect::<Vec<_>>()))
+    found.collect()
 }
 
-fn ungraspable(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let kind = type_text(image, &args[0]).unwrap_or_default();
-    let why = simulation.grasp_library().refusal(&kind);
-    done(why.map_or(Value::NIL, Value::string))
+/// Why no hand can grasp objects of a type, or NIL if that is not known.
+#[builtin("%UNGRASPABLE", "type")]
+fn ungraspable(simulation: &mut Simulation, image: &mut Image, kind: &Value) -> Option<Value> {
+    let kind = type_text(image, kind).unwrap_or_default();
+    simulation.grasp_library().refusal(&kind).map(Value::string)
 }
 
+/// Defines the types of objects in a file in the form of world/objects.sexp, in which shapes may be meshes,
+/// too: (mesh "FILE" :scale 1). Returns the types.
+#[builtin(edit)]
 fn load_object_types(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let file = match &args[0] {
+    file: &Value,
+) -> Result<Vec<Value>> {
+    let file = match file {
         Value::Str(text) => text.text(),
         other => print::to_string(image, other, false),
     };
@@ -153,8 +143,7 @@ fn load_object_types(
     let text = text.map_err(|why| Raise::simple(format!("{file} cannot be read: {why}.")))?;
     let defined = simulation.define_objects(image, &text, &file, &file);
     let names = defined.map_err(|error| Raise::simple(format!("{error}.")))?;
-    let names: Vec<Value> = names.iter().map(|name| type_keyword(image, name)).collect();
-    done(Value::list(names))
+    Ok(names.iter().map(|name| type_keyword(image, name)).collect())
 }
 
 impl Simulation {

@@ -1,16 +1,14 @@
 //! Builtins for objects: spawning, moving, removing.
 
 use super::object_record::quoted;
-use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_text_of};
-use cram::Reply;
 use cram::pose::value::pose_stamped;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
@@ -31,58 +29,14 @@ const LOWER: f64 = 0.05;
 const FALL: f64 = 0.3;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "SPAWN-OBJECT",
-        "name type &key pose color mass mesh",
-        "Puts an object of a type into the world. A type that is not known yet is defined if MESH says what file it looks like; see DEF-OBJECT-TYPE.",
-        &[
-            "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr-utils:object-exists 'cup-1)) => T",
-        ],
-        edit!(spawn_keyword),
-    ),
-    control(
-        "KILL-OBJECT",
-        "name",
-        "Removes an object.",
-        &[],
-        edit!(kill_object),
-    ),
-    control(
-        "KILL-ALL-OBJECTS",
-        "",
-        "Removes all objects.",
-        &["(btr-utils:kill-all-objects) => NIL"],
-        edit!(kill_all_objects),
-    ),
-    control(
-        "MOVE-OBJECT",
-        "name &optional pose",
-        "Puts an object somewhere else.",
-        &[],
-        edit!(move_object),
-    ),
-    control(
-        "OBJECT-POSE",
-        "name",
-        "The pose of an object in the map frame.",
-        &[],
-        host!(object_pose),
-    ),
-    control(
-        "OBJECT-EXISTS",
-        "name",
-        "Is there an object of that name?",
-        &["(progn (btr-utils:kill-all-objects) (btr-utils:object-exists 'cup-1)) => NIL"],
-        host!(object_exists),
-    ),
-    control(
-        "MOVE-ROBOT",
-        "&optional pose",
-        "Puts the robot somewhere else at once.",
-        &[],
-        edit!(move_robot),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    spawn_object,
+    kill_object,
+    kill_all_objects,
+    move_object,
+    object_pose,
+    object_exists,
+    move_robot
 ];
 
 /// The arguments for spawning an object.
@@ -241,76 +195,107 @@ fn color(value: &Value) -> Result<[f32; 4]> {
     }
 }
 
-fn spawn_keyword(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let keys = [
-        image.keyword("POSE"),
-        image.keyword("COLOR"),
-        image.keyword("MASS"),
-        image.keyword("MESH"),
-    ];
-    let [pose, color, mass, mesh] = keywords::parse(image, &args[2..], keys)?;
+/// Puts an object of a type into the world. A type that is not known yet is defined if MESH says what file it
+/// looks like; see DEF-OBJECT-TYPE.
+///
+/// `(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr-utils:object-exists 'cup-1))` => `T`
+#[builtin(_, "name type &key pose color mass mesh", edit)]
+fn spawn_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    kind: &Value,
+    #[key] pose: Option<&Value>,
+    #[key] color: Option<&Value>,
+    #[key] mass: Option<&Value>,
+    #[key] mesh: Option<&Value>,
+) -> Result<Value> {
     if let Some(mesh) = mesh {
-        simulation.define_by_mesh(image, &args[1], &mesh)?;
+        simulation.define_by_mesh(image, kind, mesh)?;
     }
     let pose = match pose {
-        Some(pose) => simulation.pose_in_map(image, &pose)?,
+        Some(pose) => simulation.pose_in_map(image, pose)?,
         None => Pose::translation(2.0, 0.0, 0.0),
     };
     simulation.spawn(
         image,
         &Spawning {
-            name: &args[0],
-            kind: &args[1],
+            name,
+            kind,
             pose,
-            color: color.as_ref(),
-            mass: mass.as_ref().and_then(number::to_f64),
+            color,
+            mass: mass.and_then(number::to_f64),
         },
     )?;
-    done(args[0].clone())
+    Ok(name.clone())
 }
 
-fn kill_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Removes an object.
+#[builtin(edit)]
+fn kill_object(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<()> {
+    let name = simulation.object_named(image, name)?;
     simulation.world.remove(&name).map_err(world_error)?;
     simulation.names.shift_remove(&name);
     simulation.held.shift_remove(&name);
-    done(Value::NIL)
+    Ok(())
 }
 
-fn kill_all_objects(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Removes all objects.
+///
+/// `(btr-utils:kill-all-objects)` => `NIL`
+#[builtin(edit)]
+fn kill_all_objects(simulation: &mut Simulation) {
     simulation.world.remove_all();
     simulation.names.clear();
     simulation.held.clear();
-    done(Value::NIL)
 }
 
-fn move_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let pose = match args.get(1) {
+/// Puts an object somewhere else.
+#[builtin(edit)]
+fn move_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    pose: Option<&Value>,
+) -> Result<Value> {
+    let moved = simulation.object_named(image, name)?;
+    let pose = match pose {
         Some(pose) => simulation.pose_in_map(image, pose)?,
         None => Pose::translation(2.0, 0.0, 0.0),
     };
     let report = simulation
         .world
-        .move_object(&name, &pose)
+        .move_object(&moved, &pose)
         .map_err(world_error)?;
-    simulation.let_settle(image, &name, &pose, &report)?;
-    done(args[0].clone())
+    simulation.let_settle(image, &moved, &pose, &report)?;
+    Ok(name.clone())
 }
 
-fn object_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The pose of an object in the map frame.
+#[builtin]
+fn object_pose(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Value> {
+    let name = simulation.object_named(image, name)?;
     let pose = simulation.world.object_pose(&name).map_err(world_error)?;
-    done(pose_stamped("map", &pose))
+    Ok(pose_stamped("map", &pose))
 }
 
-fn object_exists(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = name_text(image, &args[0]).unwrap_or_default();
-    done(simulation.world.object(&name).is_ok())
+/// Is there an object of that name?
+///
+/// `(progn (btr-utils:kill-all-objects) (btr-utils:object-exists 'cup-1))` => `NIL`
+#[builtin]
+fn object_exists(simulation: &mut Simulation, image: &mut Image, name: &Value) -> bool {
+    let name = name_text(image, name).unwrap_or_default();
+    simulation.world.object(&name).is_ok()
 }
 
-fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let pose = match args.first() {
+/// Puts the robot somewhere else at once.
+#[builtin(edit)]
+fn move_robot(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    pose: Option<&Value>,
+) -> Result<Value> {
+    let pose = match pose {
         Some(pose) => simulation.pose_as_given(image, pose)?,
         None => simulation.models.description.base.start,
     };
@@ -321,5 +306,5 @@ fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
     let mut robot = simulation.world.robot_configuration().clone();
     robot.base = pose;
     simulation.world.teleport_robot(&robot);
-    done(Value::T)
+    Ok(Value::T)
 }

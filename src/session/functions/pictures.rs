@@ -4,13 +4,12 @@
 use super::picture_request::PictureRequest;
 use crate::audience::Audience;
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
 use crate::simulation::properties::property;
-use cram::Reply;
 use cram::designator::value::current;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::files::Files;
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::raise::Raise;
@@ -30,29 +29,7 @@ const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "PICTURE",
-        "&rest arguments",
-        "Draws the world into a PNG file and returns the file's name: `(picture [\"file.png\"] [view] :from place :at place :fov degrees :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and :follow; a place is a point (x y z), a pose, or the name of an object or frame; :fov is how much is seen from top to bottom. Terminals that can show it show it.",
-        &[],
-        host!(picture),
-    ),
-    control(
-        "CAMERA-PICTURE",
-        "&rest arguments",
-        "Draws what the robot's camera sees into a PNG file: colours, distances and segments; the object that was looked for last is outlined even where it is hidden: `(camera-picture [\"file.png\"] :object name :width n)`. Tells how much of the object is in sight, and returns the file's name.",
-        &[],
-        host!(camera_picture),
-    ),
-    control(
-        "MAP-PICTURE",
-        "&rest arguments",
-        "Draws the kitchen from above into a PNG file: the floor is green where the base may stand as the robot is now, red where something is in the way: `(map-picture [\"file.png\"] :width n :height n)`. Returns the file's name.",
-        &[],
-        host!(map_picture),
-    ),
-];
+pub(super) static TABLE: &[Builtin] = builtins![picture, camera_picture, map_picture];
 
 /// Writes the picture and queues it for display; the reply is the file's name.
 fn publish(
@@ -61,7 +38,7 @@ fn publish(
     picture: picture::Image,
     file: Option<&str>,
     usual: &str,
-) -> Result<Reply> {
+) -> Result<Value> {
     let png = picture.to_png();
     publish_as(png, files, audience, picture, file.unwrap_or(usual))
 }
@@ -73,7 +50,7 @@ pub(super) fn publish_as(
     audience: &mut Audience,
     picture: picture::Image,
     file: &str,
-) -> Result<Reply> {
+) -> Result<Value> {
     let written = png.and_then(|png| files.write(file, &png));
     written.map_err(|error| {
         let reason = match error.kind() {
@@ -89,13 +66,18 @@ pub(super) fn publish_as(
         .with(known::K_PATHNAME, Value::string(file))
     })?;
     audience.add_picture(picture);
-    done(Value::string(file))
+    Ok(Value::string(file))
 }
 
-fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// Draws the world into a PNG file and returns the file's name: `(picture ["file.png"] [view] :from place :at
+/// place :fov degrees :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and
+/// :follow; a place is a point (x y z), a pose, or the name of an object or frame; :fov is how much is seen
+/// from top to bottom. Terminals that can show it show it.
+#[builtin]
+fn picture(host: &mut SimulationHost, image: &mut Image, arguments: &[Value]) -> Result<Value> {
     let keys = ["VIEW", "FROM", "AT", "FOV", "WIDTH", "HEIGHT"];
     let simulation = &host.simulation;
-    let request = PictureRequest::of(image, args, &keys)?;
+    let request = PictureRequest::of(image, arguments, &keys)?;
     let view = request.view(simulation, image)?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
@@ -117,9 +99,17 @@ fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
     )
 }
 
-fn camera_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// Draws what the robot's camera sees into a PNG file: colours, distances and segments; the object that was
+/// looked for last is outlined even where it is hidden: `(camera-picture ["file.png"] :object name :width
+/// n)`. Tells how much of the object is in sight, and returns the file's name.
+#[builtin]
+fn camera_picture(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    arguments: &[Value],
+) -> Result<Value> {
     let simulation = &host.simulation;
-    let request = PictureRequest::of(image, args, &["OBJECT", "WIDTH"])?;
+    let request = PictureRequest::of(image, arguments, &["OBJECT", "WIDTH"])?;
     let width = request.size(image, "WIDTH", camera_picture::WIDTH)?;
     let sought = match request.get("OBJECT") {
         Some(object) => {
@@ -142,9 +132,13 @@ fn camera_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
     )
 }
 
-fn map_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// Draws the kitchen from above into a PNG file: the floor is green where the base may stand as the robot is
+/// now, red where something is in the way: `(map-picture ["file.png"] :width n :height n)`. Returns the
+/// file's name.
+#[builtin]
+fn map_picture(host: &mut SimulationHost, image: &mut Image, arguments: &[Value]) -> Result<Value> {
     let simulation = &host.simulation;
-    let request = PictureRequest::of(image, args, &["WIDTH", "HEIGHT"])?;
+    let request = PictureRequest::of(image, arguments, &["WIDTH", "HEIGHT"])?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
     let [from, to] = View::map_area(width, height);

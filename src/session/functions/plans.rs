@@ -5,7 +5,6 @@ use cram::designator::value::current;
 use nalgebra::Translation3;
 
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
 use crate::simulation::Simulation;
 use crate::simulation::held::Held;
 use crate::simulation::imagined::Imagined;
@@ -14,12 +13,11 @@ use crate::simulation::names::{suggestion, type_keyword, type_text, type_text_of
 use cram::Reply;
 use cram::pose::value::pose_stamped;
 use cram::pose::value::{as_placement, frame_of};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
-use lisp::value::known;
-use lisp::value::number;
 use lisp::value::raise::Raise;
 use robotics::motion::{
     Effort, HeldGrip, LetGo, Overhead, PutReach, about_z, releasing_opening, take_hold,
@@ -31,128 +29,24 @@ use spatial::{Pose, pose};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "ARM-POSTURE",
-        "arm posture",
-        "The joint angles of an arm's posture: :CARRY, :TUCKED, ….",
-        &[],
-        host!(arm_posture),
-    ),
-    control(
-        "OBJECTS-IN-HAND",
-        "arm",
-        "Names of the objects that a hand holds.",
-        &[],
-        host!(objects_in_hand),
-    ),
-    control(
-        "GRASPS-OF-OBJECT",
-        "object arm",
-        "The grasps that are defined for an object and an arm.",
-        &[],
-        host!(grasps_of_object),
-    ),
-    control(
-        "GRASPS-FROM-ABOVE",
-        "type",
-        "The grasps of a type by which a hand comes from above, straight or at up to 45 degrees, also those that LIST-DEFINED-GRASPS does not list: they are tried only if they are asked for.",
-        &[
-            "(pp-plans::grasps-from-above :cup) => (:TOP :TOP-AROUND :TOP-AROUND-LEFT :TOP-AROUND-LOW :TOP-AROUND-LEFT-LOW)",
-        ],
-        host!(grasps_from_above),
-    ),
-    control(
-        "GRASPING-POSES",
-        "object arm grasp",
-        "Poses of the hand for a grasp: pregrasp, second pregrasp, grasp, lift, second lift.",
-        &[],
-        host!(grasping_poses),
-    ),
-    control(
-        "GRIPPER-OPENING",
-        "object arm grasp",
-        "How wide a hand opens (m) to grasp an object.",
-        &[],
-        host!(gripper_opening),
-    ),
-    control(
-        "RELEASING-OPENING",
-        "arm",
-        "How far (m) a hand opens to let go of what it holds: no farther than it needs to withdraw.",
-        &["(progn (pp-tut:init-projection) (< (pp-plans::releasing-opening :left) 0.04)) => T"],
-        host!(hand_releasing_opening),
-    ),
-    control(
-        "GRIPPING-EFFORT",
-        "object",
-        "How hard an object is gripped (N).",
-        &[],
-        host!(gripping_effort),
-    ),
-    control(
-        "ATTACH-OBJECT",
-        "object arm grasp",
-        "Notes that a hand holds an object.",
-        &[],
-        host!(attach_object),
-    ),
-    control(
-        "DETACH-OBJECT",
-        "name arm",
-        "Lets go of an object and waits until it rests.",
-        &[],
-        host!(detach_object),
-    ),
-    control(
-        "TAKEN-FROM",
-        "name",
-        "Where an object was when a hand took it, in the frame of the robot's base; NIL if no hand holds it.",
-        &[],
-        host!(taken_from),
-    ),
-    control(
-        "HELD-POSE",
-        "name arm",
-        "Where the robot takes an object to be, in the map, that a hand holds.",
-        &[],
-        host!(held_pose),
-    ),
-    control(
-        "PERCEIVED-POSE",
-        "object",
-        "Where an object was detected, in the frame of the robot's base.",
-        &[],
-        host!(perceived_pose),
-    ),
-    control(
-        "PUTTING-HEADINGS",
-        "name arm",
-        "The headings (rad, relative to the one of its target) at which a held object may be put down, the nearest first: several if it is round.",
-        &[],
-        host!(putting_headings),
-    ),
-    control(
-        "FREE-HEADING",
-        "name arm target",
-        "A heading (rad) at which a held object can be put down at a pose, and the hand can open and retract without touching anything else; NIL if there is none.",
-        &[],
-        host!(free_heading),
-    ),
-    control(
-        "PUTTING-POSES-AT",
-        "name arm target heading",
-        "Poses of the hand for placing at a heading (rad): lift, grasp, second pregrasp, pregrasp.",
-        &[],
-        host!(putting_poses_at),
-    ),
-    control(
-        "POSES-REACHABLE-P",
-        "arm poses",
-        "Can a hand be brought to all poses, which are in the frame of the robot's base, by some height of the torso?",
-        &[],
-        host!(poses_reachable),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    arm_posture,
+    objects_in_hand,
+    grasps_of_object,
+    grasps_from_above,
+    grasping_poses,
+    gripper_opening,
+    hand_releasing_opening,
+    gripping_effort,
+    attach_object,
+    detach_object,
+    taken_from,
+    held_pose,
+    perceived_pose,
+    putting_headings,
+    free_heading,
+    putting_poses_at,
+    poses_reachable_p
 ];
 
 /// An object as described by perception.
@@ -318,9 +212,16 @@ impl Simulation {
     }
 }
 
-fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let name = type_text(image, &args[1]).unwrap_or_default();
+/// The joint angles of an arm's posture: :CARRY, :TUCKED, ….
+#[builtin]
+fn arm_posture(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    arm: &Value,
+    posture: &Value,
+) -> Result<Value> {
+    let side = side(image, arm)?;
+    let name = type_text(image, posture).unwrap_or_default();
     let arm = simulation.models.description.arm(side);
     // A robot may be described with one posture that serves for all.
     let names: &[&str] = match name.as_str() {
@@ -329,53 +230,68 @@ fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
         other => &[other],
     };
     match names.iter().find_map(|name| arm.posture(name)) {
-        Some(angles) => done(Value::list(angles.iter().map(|a| Value::Double(*a)))),
+        Some(angles) => Ok(Value::list(angles.iter().map(|a| Value::Double(*a)))),
         None => Err(Raise::simple(format!(
             "The {side} arm has no posture {}: it has {}.",
-            print::to_string(image, &args[1], true),
+            print::to_string(image, posture, true),
             arm.posture_names().collect::<Vec<_>>().join(", ")
         ))),
     }
 }
 
+/// Names of the objects that a hand holds.
+#[builtin]
 fn objects_in_hand(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
+    arm: &Value,
+) -> Result<Vec<Value>> {
+    let side = side(image, arm)?;
     let names = simulation.held_by(side);
-    let symbols: Vec<Value> = names.iter().map(|n| simulation.symbol_of(n)).collect();
-    done(Value::list(symbols))
+    Ok(names.iter().map(|n| simulation.symbol_of(n)).collect())
 }
 
+/// The grasps that are defined for an object and an arm.
+#[builtin]
 fn grasps_of_object(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
-    let side = side(image, &args[1])?;
+    object: &Value,
+    arm: &Value,
+) -> Result<Vec<Value>> {
+    let object = simulation.perceived(image, object)?;
+    let side = side(image, arm)?;
     let names = simulation.defined_grasps(&object.kind, side);
-    let keywords: Vec<Value> = names.iter().map(|n| type_keyword(image, n)).collect();
-    done(Value::list(keywords))
+    Ok(names.iter().map(|n| type_keyword(image, n)).collect())
 }
 
+/// The grasps of a type by which a hand comes from above, straight or at up to 45 degrees, also those that
+/// LIST-DEFINED-GRASPS does not list: they are tried only if they are asked for.
+///
+/// `(pp-plans::grasps-from-above :cup)` => `(:TOP :TOP-AROUND :TOP-AROUND-LEFT :TOP-AROUND-LOW :TOP-AROUND-LEFT-LOW)`
+#[builtin(_, "type")]
 fn grasps_from_above(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let kind = type_text_of(image, &args[0])?;
+    kind: &Value,
+) -> Result<Vec<Value>> {
+    let kind = type_text_of(image, kind)?;
     let names = simulation.grasps.grasps_from_above(&kind).into_iter();
-    let keywords: Vec<Value> = names.map(|name| type_keyword(image, name)).collect();
-    done(Value::list(keywords))
+    Ok(names.map(|name| type_keyword(image, name)).collect())
 }
 
-fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    let definition = simulation.grasp(image, &object.kind, side, &args[2])?;
+/// Poses of the hand for a grasp: pregrasp, second pregrasp, grasp, lift, second lift.
+#[builtin]
+fn grasping_poses(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    object: &Value,
+    arm: &Value,
+    grasp: &Value,
+) -> Result<Value> {
+    let object = simulation.perceived(image, object)?;
+    let side = side(image, arm)?;
+    let definition = simulation.grasp(image, &object.kind, side, grasp)?;
     let axes = &simulation.models.description.arm(side).tool_axes;
     let poses = definition
         .tool_poses(&object.in_base, axes)
@@ -384,7 +300,7 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let overhead = Overhead::of(&simulation.world, &object.name, &(base * object.in_base))
         .map_err(Raise::reporting)?;
     let poses = overhead.picking(&base, poses);
-    done(Value::list(
+    Ok(Value::list(
         [
             poses.pregrasp,
             poses.second_pregrasp,
@@ -396,99 +312,133 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     ))
 }
 
+/// How wide a hand opens (m) to grasp an object.
+#[builtin]
 fn gripper_opening(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    let grasp = simulation.grasp(image, &object.kind, side, &args[2])?;
+    object: &Value,
+    arm: &Value,
+    grasp: &Value,
+) -> Result<f64> {
+    let object = simulation.perceived(image, object)?;
+    let side = side(image, arm)?;
+    let grasp = simulation.grasp(image, &object.kind, side, grasp)?;
     let gripper = &simulation.models.description.arm(side).gripper;
     let most = gripper.opening_at(gripper.limits.upper);
-    done(simulation.grasps.opening(&object.kind, &grasp).min(most))
+    Ok(simulation.grasps.opening(&object.kind, &grasp).min(most))
 }
 
+/// How far (m) a hand opens to let go of what it holds: no farther than it needs to withdraw.
+///
+/// `(progn (pp-tut:init-projection) (< (pp-plans::releasing-opening :left) 0.04))` => `T`
+#[builtin("RELEASING-OPENING")]
 fn hand_releasing_opening(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    done(releasing_opening(&simulation.world, side))
+    arm: &Value,
+) -> Result<f64> {
+    let side = side(image, arm)?;
+    Ok(releasing_opening(&simulation.world, side))
 }
 
-fn gripping_effort(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
+/// How hard an object is gripped (N).
+#[builtin]
+fn gripping_effort(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<f64> {
+    let object = simulation.perceived(image, object)?;
     let arms = simulation.models.description.arms.iter();
     let most = arms.map(|arm| arm.gripper.effort).fold(0.0, f64::max);
-    done(simulation.grip(&object.kind).effort.min(most))
+    Ok(simulation.grip(&object.kind).effort.min(most))
 }
 
-fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    take_hold(&mut simulation.world, side, &object.name)
-        .map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
-    let grasp = type_text(image, &args[2]);
+/// Notes that a hand holds an object.
+#[builtin]
+fn attach_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    object: &Value,
+    arm: &Value,
+    grasp: &Value,
+) -> Result<()> {
+    let perceived = simulation.perceived(image, object)?;
+    let side = side(image, arm)?;
+    take_hold(&mut simulation.world, side, &perceived.name)
+        .map_err(|failure| simulation.failure(image, &failure, object))?;
+    let grasp = type_text(image, grasp);
     let definition = grasp
         .as_ref()
-        .and_then(|grasp| simulation.definition(&object.kind, side, grasp));
+        .and_then(|grasp| simulation.definition(&perceived.kind, side, grasp));
     let held = Held {
         side,
-        turn: definition.map_or(0.0, |d| simulation.turn_of(&object, side, &d)),
+        turn: definition.map_or(0.0, |d| simulation.turn_of(&perceived, side, &d)),
         grasp,
-        taken_from: simulation.believed_base() * object.in_base,
-        tool_in_object: simulation.believed_grip(&object.in_base, side),
+        taken_from: simulation.believed_base() * perceived.in_base,
+        tool_in_object: simulation.believed_grip(&perceived.in_base, side),
     };
-    simulation.held.insert(object.name, held);
-    done(Value::NIL)
+    simulation.held.insert(perceived.name, held);
+    Ok(())
 }
 
-fn detach_object(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = host.simulation.object_named(image, &args[0])?;
-    let side = side(image, &args[1])?;
-    let motion = LetGo::new(side, Some(name));
-    let name = "letting-go".to_owned();
+/// Lets go of an object and waits until it rests.
+#[builtin]
+fn detach_object(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    name: &Value,
+    arm: &Value,
+) -> Result<Reply> {
+    let held = host.simulation.object_named(image, name)?;
+    let side = side(image, arm)?;
+    let motion = LetGo::new(side, Some(held));
     let told = host.told(image, None);
     Ok(Reply::Later(host.start(
         Box::new(motion),
-        args[0].clone(),
-        name,
+        name.clone(),
+        "letting-go".to_owned(),
         told,
     )))
 }
 
-fn taken_from(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Where an object was when a hand took it, in the frame of the robot's base; NIL if no hand holds it.
+#[builtin]
+fn taken_from(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+) -> Result<Option<Value>> {
+    let name = simulation.object_named(image, name)?;
     let held = simulation.held.get(&name);
-    done(held.map_or(Value::NIL, |held| {
-        simulation.in_base(&(simulation.believed_base().inverse() * held.taken_from))
-    }))
+    Ok(held
+        .map(|held| simulation.in_base(&(simulation.believed_base().inverse() * held.taken_from))))
 }
 
-fn held_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let side = side(image, &args[1])?;
+/// Where the robot takes an object to be, in the map, that a hand holds.
+#[builtin]
+fn held_pose(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    arm: &Value,
+) -> Result<Value> {
+    let name = simulation.object_named(image, name)?;
+    let side = side(image, arm)?;
     let pose = simulation
         .held_pose(&name, side)
         .map_err(Raise::reporting)?;
-    done(pose_stamped("map", &pose))
+    Ok(pose_stamped("map", &pose))
 }
 
-fn perceived_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let object = simulation.perceived(image, &args[0])?;
-    done(simulation.in_base(&object.in_base))
+/// Where an object was detected, in the frame of the robot's base.
+#[builtin]
+fn perceived_pose(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<Value> {
+    let object = simulation.perceived(image, object)?;
+    Ok(simulation.in_base(&object.in_base))
 }
 
-/// How the hand of the second argument holds the object of the first.
-fn grip(simulation: &Simulation, image: &Image, args: &[Value]) -> Result<HeldGrip> {
-    let name = simulation.object_named(image, &args[0])?;
-    let side = side(image, &args[1])?;
+/// How a hand holds an object.
+fn grip(simulation: &Simulation, image: &Image, name: &Value, arm: &Value) -> Result<HeldGrip> {
+    let name = simulation.object_named(image, name)?;
+    let side = side(image, arm)?;
     let grip = simulation.grip_on(&name, side);
     grip.map_err(Raise::reporting)
 }
@@ -501,46 +451,65 @@ fn pose_in_base(simulation: &Simulation, image: &Image, pose: &Value) -> Result<
     }
 }
 
+/// The headings (rad, relative to the one of its target) at which a held object may be put down, the nearest
+/// first: several if it is round.
+#[builtin]
 fn putting_headings(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let headings = grip(simulation, image, args)?.headings();
-    done(Value::list(headings.into_iter().map(Value::Double)))
+    name: &Value,
+    arm: &Value,
+) -> Result<Value> {
+    let headings = grip(simulation, image, name, arm)?.headings();
+    Ok(Value::list(headings.into_iter().map(Value::Double)))
 }
 
-fn free_heading(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let target = pose_in_base(simulation, image, &args[2])?;
-    let grip = grip(simulation, image, args)?;
-    let heading = simulation.free_heading(&grip, &target);
-    done(heading.map_or(Value::NIL, Value::Double))
+/// A heading (rad) at which a held object can be put down at a pose, and the hand can open and retract
+/// without touching anything else; NIL if there is none.
+#[builtin]
+fn free_heading(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    arm: &Value,
+    target: &Value,
+) -> Result<Option<f64>> {
+    let target = pose_in_base(simulation, image, target)?;
+    let grip = grip(simulation, image, name, arm)?;
+    Ok(simulation.free_heading(&grip, &target))
 }
 
+/// Poses of the hand for placing at a heading (rad): lift, grasp, second pregrasp, pregrasp.
+#[builtin]
 fn putting_poses_at(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let target = pose_in_base(simulation, image, &args[2])?;
-    let heading =
-        number::to_f64(&args[3]).ok_or_else(|| Raise::type_error(&args[3], known::REAL))?;
-    let grip = grip(simulation, image, args)?;
+    name: &Value,
+    arm: &Value,
+    target: &Value,
+    heading: f64,
+) -> Result<Value> {
+    let target = pose_in_base(simulation, image, target)?;
+    let grip = grip(simulation, image, name, arm)?;
     let base = simulation.base();
     let overhead = Overhead::of(&simulation.world, &grip.object, &(base * target))
         .map_err(Raise::reporting)?;
     let poses = overhead.putting(&base, grip.poses(&(target * about_z(heading))));
-    done(Value::list(poses.map(|pose| simulation.in_base(&pose))))
+    Ok(Value::list(poses.map(|pose| simulation.in_base(&pose))))
 }
 
-fn poses_reachable(
+/// Can a hand be brought to all poses, which are in the frame of the robot's base, by some height of the
+/// torso?
+#[builtin]
+fn poses_reachable_p(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let poses = args[1].iter_list();
+    arm: &Value,
+    poses: &Value,
+) -> Result<bool> {
+    let side = side(image, arm)?;
+    let poses = poses.iter_list();
     let poses = poses.map(|pose| pose_in_base(simulation, image, &pose));
     let poses: Vec<Pose> = poses.collect::<Result<_>>()?;
-    done(simulation.is_reachable(side, &poses))
+    Ok(simulation.is_reachable(side, &poses))
 }

@@ -4,91 +4,55 @@
 use std::sync::Arc;
 
 use crate::host::SimulationHost;
-use crate::host::call::{done, host};
 use crate::host::parts::{View, in_world};
 use crate::outside::Outside;
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, type_text};
 use cram::designator::schema;
 use cram::designator::value::Class;
-use cram::{Plan, Reply, tell_overview};
-use lisp::builtin::{Builtin, Operator, control};
-use lisp::builtins::help::{self, Topic, Topics};
+use cram::{Plan, tell_overview};
+use lisp::builtin::{Builtin, Operator};
+use lisp::builtins::help::{Topic, Topics, of_symbol};
 use lisp::image::Image;
 use lisp::stream;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::package::PackageTable;
 use lisp::value::raise::Raise;
 use lisp::value::symbol::Sym;
 use lisp::vm::calls::run;
+use lisp::vm::machine::Machine;
+use lisp::vm::step::Step;
 use robotics::world::Models;
 use spatial::Shortest;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "HELP",
-        "",
-        "Gives an overview of the functions and of how to find out more.",
-        &[],
-        host!(tell_help),
-    ),
-    control(
-        "DESCRIBE-TOPIC",
-        "name",
-        "Tells what is known about a name: as a function, a variable, an action, a type of objects, an object in the world. The function behind DOC.",
-        &[],
-        host!(describe_topic),
-    ),
-    control(
-        "LIST-ACTIONS",
-        "",
-        "Tells the types of actions that a plan can perform, with the keys that each takes.",
-        &[],
-        host!(list_actions),
-    ),
-    control(
-        "TASKS",
-        "",
-        "Shows the tasks that are alive, and those of the last plan that have ended, as a tree with their status.",
-        &[],
-        |machine, _| tell_overview(machine),
-    ),
-    control(
-        "INSPECT",
-        "object",
-        "Shows the parts of a value, numbered. In a terminal a number then goes into a part, b goes back, q ends. 'NAME is an object in the world, :ROBOT the robot.",
-        &[],
-        host!(inspect),
-    ),
-];
+pub(super) static TABLE: &[Builtin] = builtins![help, describe_topic, list_actions, tasks, inspect];
 
 /// The function behind `time`, in package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
-    "CALL-WITH-TIMING",
-    "function",
-    "Calls a function and reports how long it took, in real and in simulated time.",
-    &[],
-    |machine, args| {
-        let plan = Plan::of(machine.image);
-        let outside = machine.image.extension::<Outside>().unwrap_or_default();
-        let clock = Arc::clone(&outside.clock);
-        let (begin, now) = (clock.now(), plan.now());
-        run(machine, "TIME", |calls| async move {
-            let values = calls.call_for_values(&args[0], Vec::new()).await;
-            let simulated = plan.now() - now;
-            let real = clock.now().saturating_sub(begin).as_secs_f64();
-            let text = format!("; {simulated:.3} s simulated, {real:.3} s real");
-            calls
-                .with(move |machine| trace(machine.image, &text))
-                .await?;
-            Ok(values)
-        })
-    },
-)];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![call_with_timing];
+
+/// Calls a function and reports how long it took, in real and in simulated time.
+#[builtin]
+fn call_with_timing(machine: &mut Machine<'_>, function: Value) -> Result<Step> {
+    let plan = Plan::of(machine.image);
+    let outside = machine.image.extension::<Outside>().unwrap_or_default();
+    let clock = Arc::clone(&outside.clock);
+    let (begin, now) = (clock.now(), plan.now());
+    run(machine, "TIME", |calls| async move {
+        let values = calls.call_for_values(&function, Vec::new()).await;
+        let simulated = plan.now() - now;
+        let real = clock.now().saturating_sub(begin).as_secs_f64();
+        let text = format!("; {simulated:.3} s simulated, {real:.3} s real");
+        calls
+            .with(move |machine| trace(machine.image, &text))
+            .await?;
+        Ok(values)
+    })
+}
 
 /// Macros of package `PLANWRIGHT`.
 pub(crate) static OPERATORS: &[Operator] = &[Operator {
@@ -125,20 +89,31 @@ fn say(image: &mut Image, text: &str) {
     }
 }
 
-fn nothing() -> Result<Reply> {
-    done(Value::values(Vec::new()))
+/// No values.
+fn nothing() -> Value {
+    Value::values(Vec::new())
 }
 
-fn tell_help(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Gives an overview of the functions and of how to find out more.
+#[builtin]
+fn help(_: &mut Simulation, image: &mut Image) -> Value {
     say(image, include_str!("help.txt"));
     nothing()
 }
 
-fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Tells the types of actions that a plan can perform, with the keys that each takes.
+#[builtin]
+fn list_actions(_: &mut Simulation, image: &mut Image) -> Value {
     let rows = schema::all(image, Class::Action);
     let text: String = rows.iter().map(|row| row_text(row)).collect();
     say(image, &text);
     nothing()
+}
+
+/// Shows the tasks that are alive, and those of the last plan that have ended, as a tree with their status.
+#[builtin]
+fn tasks(machine: &mut Machine<'_>) -> Result<Step> {
+    tell_overview(machine)
 }
 
 /// Makes known what names mean to the robot: actions, motions and types of objects.
@@ -193,25 +168,28 @@ fn keys_text(row: &schema::TypeRow) -> String {
     text
 }
 
-fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let Some(name) = name_text(image, &args[0]) else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
+/// Tells what is known about a name: as a function, a variable, an action, a type of objects, an object in
+/// the world. The function behind DOC.
+#[builtin]
+fn describe_topic(host: &mut SimulationHost, image: &mut Image, name: &Value) -> Result<Value> {
+    let Some(word) = name_text(image, name) else {
+        return Err(Raise::type_error(name, known::SYMBOL));
     };
     let mut text = String::new();
-    if let Value::Symbol(sym, ..) = &args[0] {
-        let told = help::of_symbol(image, *sym);
+    if let Value::Symbol(sym, ..) = name {
+        let told = of_symbol(image, *sym);
         // A symbol without a meaning of its own may still name one of the following.
         if told.lines().count() > 1 {
             text.push_str(&told);
         }
     }
     for class in [Class::Action, Class::Motion] {
-        for row in schema::rows(image, class, &name) {
+        for row in schema::rows(image, class, &word) {
             text.push_str(&row_text(&row));
             text.push_str(&keys_text(&row));
         }
     }
-    if let Some(kind) = type_text(image, &args[0])
+    if let Some(kind) = type_text(image, name)
         && let Some(object) = host.simulation.models.objects.get(&kind)
     {
         let grasps = host
@@ -227,22 +205,25 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }
-    if let Some(view) = in_world(host, image, &args[0]) {
+    if let Some(view) = in_world(host, image, name) {
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {
         text = format!(
-            "Nothing is known about {name}; (apropos \"{}\") looks for names.\n",
-            name.to_lowercase()
+            "Nothing is known about {word}; (apropos \"{}\") looks for names.\n",
+            word.to_lowercase()
         );
     }
     say(image, &text);
-    nothing()
+    Ok(nothing())
 }
 
-fn inspect(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let text = View::of(host, image, &args[0]).text(image);
+/// Shows the parts of a value, numbered. In a terminal a number then goes into a part, b goes back, q ends.
+/// 'NAME is an object in the world, :ROBOT the robot.
+#[builtin]
+fn inspect(host: &mut SimulationHost, image: &mut Image, object: &Value) -> Value {
+    let text = View::of(host, image, object).text(image);
     say(image, &text);
-    host.person.inspected = Some(args[0].clone());
+    host.person.inspected = Some(object.clone());
     nothing()
 }

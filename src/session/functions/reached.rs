@@ -1,13 +1,12 @@
 //! What hands reach, of many objects.
 
 use super::asking::names_in;
-use crate::host::call::done;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{side, side_keyword};
 use crate::simulation::names::{name_text, type_keyword};
 use crate::simulation::reached_grasps::{Hindrances, ReachedGrasps};
-use cram::Reply;
 use lisp::image::Image;
+use lisp::typed::{self, builtin};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use robotics::robot::Side;
@@ -23,32 +22,46 @@ enum Each {
     Grasp,
 }
 
-fn each(image: &Image, value: &Value) -> Result<Each> {
-    match name_text(image, value).as_deref() {
-        Some("OBJECT") => Ok(Each::Object),
-        Some("SIDE") => Ok(Each::Side),
-        Some("GRASP") => Ok(Each::Grasp),
-        _ => Err(Raise::simple(
-            "The first grasp of each :OBJECT, each :SIDE or each :GRASP was expected.",
-        )),
+impl Each {
+    fn of(image: &Image, value: &Value) -> Result<Each> {
+        match name_text(image, value).as_deref() {
+            Some("OBJECT") => Ok(Each::Object),
+            Some("SIDE") => Ok(Each::Side),
+            Some("GRASP") => Ok(Each::Grasp),
+            _ => Err(Raise::simple(
+                "The first grasp of each :OBJECT, each :SIDE or each :GRASP was expected.",
+            )),
+        }
     }
 }
 
+/// The sides of a list of arms.
+fn sides_in(image: &Image, arms: &Value) -> Result<Vec<Side>> {
+    arms.iter_list().map(|arm| side(image, &arm)).collect()
+}
+
+/// By which grasps hands reach objects from where the robot stands, as lists (object side grasp): all grasps
+/// if EACH is :GRASP, the first of each hand if :SIDE, the first of all if :OBJECT; as if the objects ABSENT
+/// were not there. With AMONG, lists such as these, of no others.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%reached-grasps '(bottle-1) '(:left :right) :grasp))` => `NIL`
+#[builtin("%REACHED-GRASPS")]
 pub(super) fn reached(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let names = names_in(simulation, image, &args[0])?;
-    let sides = args[1].iter_list();
-    let sides: Vec<Side> = sides
-        .map(|value| side(image, &value))
-        .collect::<Result<_>>()?;
-    let each = each(image, &args[2])?;
-    let absent = args.get(3).filter(|absent| absent.is_true());
+    names: &Value,
+    sides: &Value,
+    each: &Value,
+    absent: Option<&Value>,
+    among: Option<&Value>,
+) -> Result<Vec<Value>> {
+    let names = names_in(simulation, image, names)?;
+    let sides = sides_in(image, sides)?;
+    let each = Each::of(image, each)?;
+    let absent = absent.filter(|absent| absent.is_true());
     let absent = absent.map(|absent| names_in(simulation, image, absent));
     let absent = absent.transpose()?.unwrap_or_default();
-    let among = args.get(4).filter(|among| among.is_true());
+    let among = among.filter(|among| among.is_true());
     let among: Option<Vec<Value>> = among.map(|rows| rows.iter_list().collect());
     let simulation = &*simulation;
     let copy = without_held(simulation, &absent)?;
@@ -88,20 +101,22 @@ pub(super) fn reached(
             }
         }
     }
-    done(Value::list(rows))
+    Ok(rows)
 }
 
-/// The objects without any of which a hand could grasp an object that no hand can grasp now, or `:UNCLEAR`.
+/// The objects without any of which a hand could grasp an object from where the robot stands that no hand can
+/// grasp now; or :UNCLEAR where objects are above that one or in hands, so that each has to be tried.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%hindrances 'bottle-1 '(:left :right)))` => `NIL`
+#[builtin("%HINDRANCES")]
 pub(super) fn hindrances(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let sides = args[1].iter_list();
-    let sides: Vec<Side> = sides
-        .map(|value| side(image, &value))
-        .collect::<Result<_>>()?;
+    name: &Value,
+    sides: &Value,
+) -> Result<Value> {
+    let name = simulation.object_named(image, name)?;
+    let sides = sides_in(image, sides)?;
     let simulation = &*simulation;
     let world = &simulation.world;
     let kind = world.object(&name).map_err(raise)?.type_name();
@@ -117,9 +132,9 @@ pub(super) fn hindrances(
                 continue;
             };
             let some = match reached.hindrances(&mut without, &name, side, &definition)? {
-                Hindrances::Nothing => return done(Value::NIL),
+                Hindrances::Nothing => return Ok(Value::NIL),
                 Hindrances::Objects(some) => some,
-                Hindrances::Unclear => return done(type_keyword(image, "UNCLEAR")),
+                Hindrances::Unclear => return Ok(type_keyword(image, "UNCLEAR")),
             };
             let each = others.iter().zip(&mut without_each).zip(&mut found);
             for ((other, without), is_found) in each {
@@ -133,7 +148,7 @@ pub(super) fn hindrances(
         }
     }
     let found = others.iter().zip(found).filter(|(_, is_found)| *is_found);
-    done(Value::list(
+    Ok(Value::list(
         found.map(|(name, _)| simulation.symbol_of(name)),
     ))
 }

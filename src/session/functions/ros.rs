@@ -1,108 +1,37 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
-use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::plans::{DEMO_SYSTEMS, demo_text};
 use crate::simulation::Simulation;
-use cram::Reply;
 use cram::designator::names::{name_text, rosify};
 use cram::packages::{self, PACKAGES, STAND_INS};
-use lisp::builtin::{Builtin, control, pure};
+use lisp::builtin::Builtin;
 use lisp::builtins::loading::load_text;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
 use lisp::visible::visible;
+use lisp::vm::machine::Machine;
+use lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `ROSLISP`.
-pub(crate) static LOG_TABLE: &[Builtin] = &[
-    control(
-        "LOG-LINE",
-        "level tags text",
-        "Writes a log line.",
-        &[],
-        host!(log_line),
-    ),
-    control(
-        "ROS-TIME",
-        "",
-        "Simulated time in seconds.",
-        &[],
-        host!(ros_time),
-    ),
-];
+pub(crate) static LOG_TABLE: &[Builtin] = builtins![log_line, ros_time];
 
 /// Builtins of package `ROSLISP-UTILITIES`.
-pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
-    control(
-        "%STARTUP-ROS",
-        "",
-        "Nothing to start: the robot is here already. Takes the world back to its start.",
-        &["(roslisp-utilities::%startup-ros) => NIL"],
-        edit!(startup_ros),
-    ),
-    control(
-        "%SHUTDOWN-ROS",
-        "",
-        "Nothing to stop.",
-        &[],
-        host!(shutdown_ros),
-    ),
-];
+pub(crate) static UTILITIES_TABLE: &[Builtin] = builtins![startup_ros, shutdown_ros];
 
 /// What the loader of systems, which is written in Lisp, asks: builtins of package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    control(
-        "LOAD-BUILT-IN-SYSTEM",
-        "system",
-        "Says that there is nothing to load, if a system is built in; else `NIL`.",
-        &["(system:load-built-in-system \"cram_language\") => T"],
-        host!(load_built_in_system),
-    ),
-    pure(
-        "BUILT-IN-SYSTEM-P",
-        "system",
-        "Is a system of this name built in?",
-        &["(system:built-in-system-p :cram-language) => T"],
-        |image, args| Ok(is_built_in(image, &args[0]).into()),
-    ),
-    pure(
-        "WITHOUT-FILES-P",
-        "system",
-        "Is only the package of a system built in?",
-        &["(system:without-files-p :cram-language) => NIL"],
-        |image, args| Ok(is_without_files(image, &args[0]).into()),
-    ),
-    pure(
-        "BUILT-IN-SYSTEMS",
-        "",
-        "The names of the systems that are built in, as ROS writes them.",
-        &["(first (system:built-in-systems)) => \"alexandria\""],
-        |_, _| Ok(Value::list(systems().into_iter().map(Value::string))),
-    ),
-    pure(
-        "BUILT-IN-FILES",
-        "system",
-        "The names of the files of plans that a system consists of which is built in.",
-        &["(system:built-in-files :cram-language) => NIL"],
-        |image, args| Ok(built_in_files(image, &args[0])),
-    ),
-    control(
-        "LOAD-BUILT-IN-FILE",
-        "file",
-        "Evaluates all forms of a file of plans that is built in.",
-        &[],
-        |machine, args| {
-            let name = args[0].as_text().unwrap_or_default();
-            match demo_text(&name) {
-                Some(text) => load_text(machine, &name, text),
-                None => Err(Raise::simple(format!("No file {name:?} is built in."))),
-            }
-        },
-    ),
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    load_built_in_system,
+    built_in_system_p,
+    without_files_p,
+    built_in_systems,
+    built_in_files,
+    load_built_in_file
 ];
 
 /// Systems that are built in and have no package of their name.
@@ -142,7 +71,10 @@ const NO_SYSTEMS: [&str; 5] = [
 ];
 
 /// The names of the systems that are built in, as ROS writes them.
-fn systems() -> Vec<String> {
+///
+/// `(first (system:built-in-systems))` => `"alexandria"`
+#[builtin]
+fn built_in_systems() -> Vec<String> {
     let names = PACKAGES.iter().map(|package| package.name);
     let mut systems: Vec<String> = names
         .filter(|name| !NO_SYSTEMS.contains(name) && !STAND_INS.contains(name))
@@ -183,15 +115,23 @@ impl Simulation {
     }
 }
 
-fn log_line(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let level = match args[0].as_symbol().map(|s| image.name(s)) {
+/// Writes a log line.
+#[builtin]
+fn log_line(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    level: &Value,
+    tags: &Value,
+    text: &Value,
+) {
+    let level = match level.as_symbol().map(|s| image.name(s)) {
         Some("DEBUG") => LogLevel::Debug,
         Some("WARN") => LogLevel::Warn,
         Some("ERROR" | "FATAL") => LogLevel::Error,
         _ => LogLevel::Info,
     };
     // Tags are printed without their packages.
-    let names: Vec<String> = args[1]
+    let names: Vec<String> = tags
         .iter_list()
         .map(|tag| match tag.as_symbol() {
             Some(sym) => image.name(sym).to_owned(),
@@ -199,39 +139,55 @@ fn log_line(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> R
         })
         .collect();
     let tags = format!("({})", names.join(" "));
-    let text = args[2].as_text().unwrap_or_default();
+    let text = text.as_text().unwrap_or_default();
     simulation.log(image, level, &tags, &text);
-    done(Value::NIL)
 }
 
-fn ros_time(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    done(simulation.now())
+/// Simulated time in seconds.
+#[builtin]
+fn ros_time(simulation: &mut Simulation) -> f64 {
+    simulation.now()
 }
 
-fn startup_ros(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Nothing to start: the robot is here already. Takes the world back to its start.
+///
+/// `(roslisp-utilities::%startup-ros)` => `NIL`
+#[builtin("%STARTUP-ROS", edit)]
+fn startup_ros(simulation: &mut Simulation, image: &mut Image) {
     simulation.restart();
     let text =
         "The robot and the kitchen are simulated in this process: there is nothing to start.";
     simulation.log(image, LogLevel::Info, "(ROSLISP TOP)", text);
-    done(Value::NIL)
 }
 
-fn shutdown_ros(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Nothing to stop.
+#[builtin("%SHUTDOWN-ROS")]
+fn shutdown_ros(simulation: &mut Simulation, image: &mut Image) {
     let text = "There is nothing to stop; (quit) leaves the shell.";
     simulation.log(image, LogLevel::Info, "(ROSLISP TOP)", text);
-    done(Value::NIL)
 }
 
-/// Whether a system is built in. The name may be written as in ROS or as in Lisp.
-fn is_built_in(image: &Image, system: &Value) -> bool {
-    name_text(image, system).is_some_and(|name| systems().contains(&rosify(&name)))
+/// Is a system of this name built in?
+///
+/// `(system:built-in-system-p :cram-language)` => `T`
+#[builtin]
+fn built_in_system_p(image: &Image, system: &Value) -> bool {
+    // The name may be written as in ROS or as in Lisp.
+    name_text(image, system).is_some_and(|name| built_in_systems().contains(&rosify(&name)))
 }
 
-/// Whether only the package of a system is built in.
-fn is_without_files(image: &Image, system: &Value) -> bool {
+/// Is only the package of a system built in?
+///
+/// `(system:without-files-p :cram-language)` => `NIL`
+#[builtin]
+fn without_files_p(image: &Image, system: &Value) -> bool {
     name_text(image, system).is_some_and(|name| WITHOUT_FILES.contains(&rosify(&name).as_str()))
 }
 
+/// The names of the files of plans that a system consists of which is built in.
+///
+/// `(system:built-in-files :cram-language)` => `NIL`
+#[builtin]
 fn built_in_files(image: &Image, system: &Value) -> Value {
     let name = name_text(image, system).map(|name| rosify(&name));
     let files = DEMO_SYSTEMS
@@ -241,15 +197,15 @@ fn built_in_files(image: &Image, system: &Value) -> Value {
     Value::list(files.iter().map(|file| Value::from(*file)))
 }
 
-fn load_built_in_system(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let is_built_in = is_built_in(image, &args[0]);
+/// Says that there is nothing to load, if a system is built in; else `NIL`.
+///
+/// `(system:load-built-in-system "cram_language")` => `T`
+#[builtin]
+fn load_built_in_system(simulation: &mut Simulation, image: &mut Image, system: &Value) -> bool {
+    let is_built_in = built_in_system_p(image, system);
     if is_built_in {
-        let shown = print::to_string(image, &args[0], false);
-        let (level, text) = match is_without_files(image, &args[0]) {
+        let shown = print::to_string(image, system, false);
+        let (level, text) = match without_files_p(image, system) {
             true => (
                 LogLevel::Warn,
                 format!(
@@ -263,5 +219,15 @@ fn load_built_in_system(
         };
         simulation.log(image, level, "(ROS-LOAD LOAD-SYSTEM)", &text);
     }
-    done(Value::bool(is_built_in))
+    is_built_in
+}
+
+/// Evaluates all forms of a file of plans that is built in.
+#[builtin]
+fn load_built_in_file(machine: &mut Machine<'_>, file: &Value) -> Result<Step> {
+    let name = file.as_text().unwrap_or_default();
+    match demo_text(&name) {
+        Some(text) => load_text(machine, &name, text),
+        None => Err(Raise::simple(format!("No file {name:?} is built in."))),
+    }
 }

@@ -5,16 +5,15 @@ use std::io::BufWriter;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::host::call::{done, host};
 use crate::simulation::Simulation;
-use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::files::{Contents, Opening};
 use lisp::image::Image;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::equality::equal;
-use lisp::value::known;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 use sweep::relations::{Cell, Relation, Relations};
 use sweep::sqlite::{Sqlite, SqliteError};
 use view::watch::recording::{Datum, Episode, Wanted, read_episode_of_file};
@@ -22,63 +21,15 @@ use view::watch::recording::{Datum, Episode, Wanted, read_episode_of_file};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%ADD-FACTS",
-        "relation text",
-        "Adds the lines of a text to a relation, each an object of JSON, or a record of a sweep. Returns how many lines there were.",
-        &[],
-        host!(add_facts),
-    ),
-    control(
-        "%ADD-FACTS-OF-FILE",
-        "relation file",
-        "Adds the lines of a file to a relation, as %ADD-FACTS adds those of a text.",
-        &[],
-        host!(add_facts_of_file),
-    ),
-    control(
-        "%ADD-RECORDING",
-        "file &optional relations",
-        "Adds what a recording, an MCAP file, says of relations, a list of their names, or else of all. Returns whether the file is whole.",
-        &[],
-        host!(add_recording),
-    ),
-    control(
-        "%FORGET-FACTS",
-        "",
-        "Forgets all facts that have been read.",
-        &[],
-        host!(forget_facts),
-    ),
-    control(
-        "%FACT-RELATIONS",
-        "",
-        "The relations of which facts have been read: names, columns and the number of rows.",
-        &[],
-        host!(fact_relations),
-    ),
-    control(
-        "%FACTS",
-        "relation given wanted",
-        "Rows of a relation: the values of the columns WANTED where the columns of the plist GIVEN have its values.",
-        &[],
-        host!(facts),
-    ),
-    control(
-        "%FACT-BINDINGS",
-        "relation columns",
-        "The bindings of the variables in a plist of columns, a list for each row in which the others have their values; T if there is no such relation, or that is no plist. A variable that is there twice must be equal to itself.",
-        &[],
-        host!(fact_bindings),
-    ),
-    control(
-        "%WRITE-SQLITE",
-        "file relations",
-        "Writes facts into an SQLite file that does not exist: those that have been read, or those of RELATIONS, a list of names, each followed by a text with lines of JSON. Returns how many rows there are.",
-        &[],
-        host!(write_sqlite),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    add_facts,
+    add_facts_of_file,
+    add_recording,
+    forget_facts,
+    fact_relations,
+    facts,
+    fact_bindings,
+    write_sqlite
 ];
 
 /// Columns whose texts are names, which are keywords in the plan language.
@@ -86,43 +37,54 @@ const NAMES: &[&str] = &[
     "kind", "type", "status", "outcome", "class", "name", "key", "level",
 ];
 
-fn add_facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let relation = name_of(image, &args[0]);
-    let Value::Str(text) = &args[1] else {
-        return Err(Raise::type_error(&args[1], known::STRING));
-    };
+/// Adds the lines of a text to a relation, each an object of JSON, or a record of a sweep. Returns how many
+/// lines there were.
+#[builtin("%ADD-FACTS")]
+fn add_facts(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    relation: &Value,
+    text: &Rc<LispString>,
+) -> Result<usize> {
+    let relation = name_of(image, relation);
     add_text(simulation, &relation, &text.text())
 }
 
+/// Adds the lines of a file to a relation, as %ADD-FACTS adds those of a text.
+#[builtin("%ADD-FACTS-OF-FILE")]
 fn add_facts_of_file(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let relation = name_of(image, &args[0]);
-    let bytes = image.files.read(&name_of(image, &args[1]));
+    relation: &Value,
+    file: &Value,
+) -> Result<usize> {
+    let relation = name_of(image, relation);
+    let bytes = image.files.read(&name_of(image, file));
     let bytes = bytes.map_err(|error| Raise::simple(error.to_string()))?;
     let text = String::from_utf8(bytes);
     let text = text.map_err(|_| Raise::simple("it is no text in UTF-8"))?;
     add_text(simulation, &relation, &text)
 }
 
-fn add_text(simulation: &mut Simulation, relation: &str, text: &str) -> Result<Reply> {
+fn add_text(simulation: &mut Simulation, relation: &str, text: &str) -> Result<usize> {
     let facts = Rc::make_mut(&mut simulation.facts);
-    match facts.add(relation, text) {
-        Ok(count) => done(Value::from(count as i64)),
-        Err(wrong) => Err(Raise::simple(format!(
-            "line {}: {}",
-            wrong.line, wrong.problem
-        ))),
-    }
+    let added = facts.add(relation, text);
+    added.map_err(|wrong| Raise::simple(format!("line {}: {}", wrong.line, wrong.problem)))
 }
 
-fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let file = name_of(image, &args[0]);
+/// Adds what a recording, an MCAP file, says of relations, a list of their names, or else of all. Returns
+/// whether the file is whole.
+#[builtin("%ADD-RECORDING")]
+fn add_recording(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    file: &Value,
+    relations: Option<&Value>,
+) -> Result<bool> {
+    let file = name_of(image, file);
     let reader = image.files.reader(&file);
     let reader = reader.map_err(|error| Raise::simple(error.to_string()))?;
-    let names = args.get(1).into_iter().flat_map(Value::iter_list);
+    let names = relations.into_iter().flat_map(Value::iter_list);
     let names: Vec<String> = names
         .map(|name| name_of(image, &name).to_lowercase())
         .collect();
@@ -135,7 +97,7 @@ fn add_recording(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let facts = Rc::make_mut(&mut simulation.facts);
     let is_cut_off = episode.is_cut_off;
     add_episode(facts, episode);
-    done(Value::bool(!is_cut_off))
+    Ok(!is_cut_off)
 }
 
 /// Adds the relations of a recording.
@@ -153,12 +115,15 @@ pub fn add_episode(facts: &mut Relations, episode: Episode) {
     }
 }
 
-fn forget_facts(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Forgets all facts that have been read.
+#[builtin("%FORGET-FACTS")]
+fn forget_facts(simulation: &mut Simulation) {
     simulation.facts = Rc::default();
-    done(Value::NIL)
 }
 
-fn fact_relations(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The relations of which facts have been read: names, columns and the number of rows.
+#[builtin("%FACT-RELATIONS")]
+fn fact_relations(simulation: &mut Simulation, image: &mut Image) -> Vec<Value> {
     let facts = Rc::clone(&simulation.facts);
     let relations = facts.iter().map(|(name, relation)| {
         let columns = relation.columns().iter();
@@ -169,20 +134,35 @@ fn fact_relations(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -
             Value::from(relation.len() as i64),
         ])
     });
-    done(Value::list(relations.collect::<Vec<_>>()))
+    relations.collect()
 }
 
-fn facts(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let given: Vec<Value> = args[1].iter_list().collect();
-    let wanted: Vec<Value> = args[2].iter_list().collect();
-    let rows = rows(simulation, image, &args[0], &given, &wanted)?.unwrap_or_default();
-    done(Value::list(
-        rows.into_iter().map(Value::list).collect::<Vec<_>>(),
-    ))
+/// Rows of a relation: the values of the columns WANTED where the columns of the plist GIVEN have its values.
+#[builtin("%FACTS")]
+fn facts(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    relation: &Value,
+    given: &Value,
+    wanted: &Value,
+) -> Result<Vec<Value>> {
+    let given: Vec<Value> = given.iter_list().collect();
+    let wanted: Vec<Value> = wanted.iter_list().collect();
+    let rows = rows(simulation, image, relation, &given, &wanted)?.unwrap_or_default();
+    Ok(rows.into_iter().map(Value::list).collect())
 }
 
-fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let columns: Vec<Value> = args[1].iter_list().collect();
+/// The bindings of the variables in a plist of columns, a list for each row in which the others have their
+/// values; T if there is no such relation, or that is no plist. A variable that is there twice must be equal
+/// to itself.
+#[builtin("%FACT-BINDINGS")]
+fn fact_bindings(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    relation: &Value,
+    columns: &Value,
+) -> Result<Value> {
+    let columns: Vec<Value> = columns.iter_list().collect();
     let is_keyword = |column: &Value| {
         let symbol = column.as_symbol();
         symbol.is_some_and(|symbol| image.is_keyword(symbol))
@@ -190,10 +170,10 @@ fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let (mut given, mut wanted, mut variables) = (Vec::new(), Vec::new(), Vec::new());
     for pair in columns.chunks(2) {
         let [column, value] = pair else {
-            return done(Value::T);
+            return Ok(Value::T);
         };
         if !is_keyword(column) {
-            return done(Value::T);
+            return Ok(Value::T);
         }
         match is_variable(image, value) {
             true => {
@@ -203,11 +183,11 @@ fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value])
             false => given.extend([column.clone(), value.clone()]),
         }
     }
-    if is_variable(image, &args[0]) {
-        return done(Value::T);
+    if is_variable(image, relation) {
+        return Ok(Value::T);
     }
-    let Some(rows) = rows(simulation, image, &args[0], &given, &wanted)? else {
-        return done(Value::T);
+    let Some(rows) = rows(simulation, image, relation, &given, &wanted)? else {
+        return Ok(Value::T);
     };
     let former = |at: usize| {
         let mut before = variables.iter().take(at);
@@ -231,7 +211,7 @@ fn fact_bindings(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         let pairs = pairs.map(|((variable, value), _)| Value::cons(variable.clone(), value));
         all.push(Value::list(pairs.collect::<Vec<_>>()));
     }
-    done(Value::list(all))
+    Ok(Value::list(all))
 }
 
 /// Is it a variable of a goal?
@@ -282,8 +262,16 @@ fn rows(
     Ok(Some(rows))
 }
 
-fn write_sqlite(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let file = name_of(image, &args[0]);
+/// Writes facts into an SQLite file that does not exist: those that have been read, or those of RELATIONS, a
+/// list of names, each followed by a text with lines of JSON. Returns how many rows there are.
+#[builtin("%WRITE-SQLITE")]
+fn write_sqlite(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    file: &Value,
+    relations: &Value,
+) -> Result<Value> {
+    let file = name_of(image, file);
     let files = Arc::clone(&image.files);
     let refused = |why: &dyn Display| Raise::simple(format!("cannot write {file}: {why}"));
     // SQLite would apply what it has left of an earlier file to the new one.
@@ -304,7 +292,7 @@ fn write_sqlite(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     let output = files
         .open(&unfinished, opening)
         .map_err(|error| refused(&error))?;
-    let texts: Vec<Value> = args[1].iter_list().collect();
+    let texts: Vec<Value> = relations.iter_list().collect();
     let write = || -> std::result::Result<u64, SqliteError> {
         let mut sqlite = Sqlite::begin(BufWriter::new(output))?;
         if texts.is_empty() {
@@ -324,7 +312,7 @@ fn write_sqlite(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         Ok(rows)
     });
     match written {
-        Ok(rows) => done(Value::from(rows as i64)),
+        Ok(rows) => Ok(Value::from(rows as i64)),
         Err(error) => {
             // An error is reported; what is left of the file is of no use.
             let _ = files.remove(&unfinished);

@@ -3,17 +3,16 @@
 
 use nalgebra::Vector3;
 
-use crate::host::call::{done, host};
 use crate::simulation::Simulation;
-use cram::Reply;
 use cram::pose::value::pose_stamped;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::world::{BodyName, Object, WorldError};
+use robotics::world::{Object, WorldError};
 use spatial::{Pose, trig};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -22,68 +21,24 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const TIPPED: f64 = 5.0;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "SCENE-AT-REST",
-        "",
-        "The objects that lie or stand still and that no hand holds, as a list of (name pose).",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (length (pp-plans::scene-at-rest))) => 1",
-        ],
-        host!(scene_at_rest),
-    ),
-    control(
-        "DISTURBED-OBJECTS",
-        "scene distance",
-        "What has happened to objects of a scene, a list of (name pose), that are farther (m) from their poses now or have been tipped: a list of texts. Objects that a hand holds do not count.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::disturbed-objects (pp-plans::scene-at-rest) 0.005)) => NIL",
-        ],
-        host!(disturbed_objects),
-    ),
-    control(
-        "OBJECT-LIFTED-P",
-        "name",
-        "Does a hand hold the object, and has it lifted it off what it stood on?",
-        &[],
-        host!(object_lifted),
-    ),
-    control(
-        "SUPPORT-OF",
-        "name",
-        "The name of what carries most of an object, except the robot: a string.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::support-of 'bottle-1)) => \"table_area_main\"",
-        ],
-        host!(support_of),
-    ),
-    control(
-        "CARRIERS-OF",
-        "name",
-        "The names of what carries an object, what carries that, and so on down to furniture or the floor: strings.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::carriers-of 'bottle-1)) => (\"table_area_main\")",
-        ],
-        host!(carriers_of),
-    ),
-    control(
-        "DROP-BELOW",
-        "name pose",
-        "How far (m) an object would fall from a pose, and the name of what it would fall onto: a list; NIL if nothing is below.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (second (pp-plans::drop-below 'bottle-1 (pp-tut:make-pose \"map\" '((-1.6 -0.9 1.2) (0 0 0 1)))))) => \"table_area_main\"",
-        ],
-        host!(drop_below),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    scene_at_rest,
+    disturbed_objects,
+    object_lifted_p,
+    support_of,
+    carriers_of,
+    drop_below
 ];
 
 fn world_error(error: WorldError) -> Box<Raise> {
     Raise::reporting(error)
 }
 
-impl Simulation {}
-
-fn scene_at_rest(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The objects that lie or stand still and that no hand holds, as a list of (name pose).
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (length (pp-plans::scene-at-rest)))` => `1`
+#[builtin]
+fn scene_at_rest(simulation: &mut Simulation) -> Result<Vec<Value>> {
     let world = &simulation.world;
     let moving: Vec<&str> = world.moving_objects().map(Object::name).collect();
     let still = world
@@ -95,17 +50,23 @@ fn scene_at_rest(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Res
         let name = simulation.symbol_of(object.name());
         scene.push(Value::list([name, pose_stamped("map", &pose)]));
     }
-    done(Value::list(scene))
+    Ok(scene)
 }
 
+/// What has happened to objects of a scene, a list of (name pose), that are farther (m) from their poses now
+/// or have been tipped: a list of texts. Objects that a hand holds do not count.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::disturbed-objects (pp-plans::scene-at-rest) 0.005))` => `NIL`
+#[builtin]
 fn disturbed_objects(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let limit = number::to_f64(&args[1]).unwrap_or(0.0);
+    scene: &Value,
+    distance: &Value,
+) -> Result<Vec<String>> {
+    let limit = number::to_f64(distance).unwrap_or(0.0);
     let mut texts = Vec::new();
-    for entry in args[0].iter_list() {
+    for entry in scene.iter_list() {
         let parts = entry.list_to_vec().unwrap_or_default();
         let [name, pose] = parts.as_slice() else {
             return Err(Raise::simple(format!(
@@ -114,12 +75,9 @@ fn disturbed_objects(
             )));
         };
         let before = simulation.pose_in_map(image, pose)?;
-        let Some(text) = simulation.disturbance(image, name, &before, limit)? else {
-            continue;
-        };
-        texts.push(Value::from(text.as_str()));
+        texts.extend(simulation.disturbance(image, name, &before, limit)?);
     }
-    done(Value::list(texts))
+    Ok(texts)
 }
 
 impl Simulation {
@@ -154,34 +112,51 @@ impl Simulation {
     }
 }
 
-fn object_lifted(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Does a hand hold the object, and has it lifted it off what it stood on?
+#[builtin]
+fn object_lifted_p(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<bool> {
+    let name = simulation.object_named(image, name)?;
     let object = simulation.world.object(&name).map_err(world_error)?;
-    done(object.hold().is_some_and(|hold| hold.is_lifted()))
+    Ok(object.hold().is_some_and(|hold| hold.is_lifted()))
 }
 
-fn support_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The name of what carries most of an object, except the robot: a string.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::support-of 'bottle-1))` => `"table_area_main"`
+#[builtin]
+fn support_of(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<String> {
+    let name = simulation.object_named(image, name)?;
     let carrier = simulation.world.carrier(&name).map_err(world_error)?;
-    let text = carrier.map_or_else(|| "nothing".to_owned(), |body| body.to_string());
-    done(Value::from(text.as_str()))
+    Ok(carrier.map_or_else(|| "nothing".to_owned(), |body| body.to_string()))
 }
 
-fn drop_below(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let pose = simulation.pose_in_map(image, &args[1])?;
+/// How far (m) an object would fall from a pose, and the name of what it would fall onto: a list; NIL if
+/// nothing is below.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (second (pp-plans::drop-below 'bottle-1 (pp-tut:make-pose "map" '((-1.6 -0.9 1.2) (0 0 0 1))))))` => `"table_area_main"`
+#[builtin]
+fn drop_below(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    pose: &Value,
+) -> Result<Option<Value>> {
+    let name = simulation.object_named(image, name)?;
+    let pose = simulation.pose_in_map(image, pose)?;
     let below = simulation.world.below(&name, &pose).map_err(world_error)?;
-    let shown = |(drop, body): (f64, BodyName)| {
-        Value::list([Value::Double(drop), Value::from(body.to_string().as_str())])
-    };
-    done(below.map_or(Value::NIL, shown))
+    Ok(below.map(|(drop, body)| Value::list([Value::Double(drop), Value::from(body.to_string())])))
 }
 
-fn carriers_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The names of what carries an object, what carries that, and so on down to furniture or the floor: strings.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::carriers-of 'bottle-1))` => `("table_area_main")`
+#[builtin]
+fn carriers_of(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+) -> Result<Vec<String>> {
+    let name = simulation.object_named(image, name)?;
     let carriers = simulation.world.carriers(&name).map_err(world_error)?;
-    let names = carriers
-        .iter()
-        .map(|body| Value::from(body.to_string().as_str()));
-    done(Value::list(names))
+    Ok(carriers.iter().map(ToString::to_string).collect())
 }

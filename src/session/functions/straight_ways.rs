@@ -1,16 +1,14 @@
 //! Straight ways of a hand, found before anything moves: here, from another place to stand, or as if the other arm
 //! were in another posture.
 
-use crate::host::call::{done, host};
 use crate::interruption::interruption;
 use crate::simulation::Simulation;
 use crate::simulation::motions::{numbers, side};
 use crate::simulation::names::name_text;
-use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -23,51 +21,56 @@ use spatial::{Pose, pose};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(super) static TABLE: &[Builtin] = &[control(
-    "%STRAIGHT-WAY",
-    "arm ways &key base-pose posture begin object through",
-    "The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the robot, or :HERE-AT-ANY-HEIGHT, if the torso may move on the way; :THIS-HEIGHT, at the first pose with the torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may touch the objects THROUGH.",
-    &[
-        "(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1)))))) => NIL",
-    ],
-    host!(straight_hand_way),
-)];
+pub(super) static TABLE: &[Builtin] = builtins![straight_hand_way];
 
+/// The first of some ways, each a list of poses, through which a hand can be moved straight, one pose after
+/// the other, while the robot and what it holds touch nothing: its number, and the height (m) of the torso
+/// and the positions (rad) of the arm's joints in which it begins. NIL if there is none. With BASE-POSE, from
+/// there, if the robot can stand there as it is. With POSTURE, a list of an arm, a height of the torso and
+/// positions of its joints, as if they were so. BEGIN is where it begins: :HERE, where the hand is on the
+/// robot, or :HERE-AT-ANY-HEIGHT, if the torso may move on the way; :THIS-HEIGHT, at the first pose with the
+/// torso as it is; else at the first pose. The hand may touch OBJECT, if it is given; what the hand holds may
+/// touch the objects THROUGH.
+///
+/// `(progn (pp-tut:init-projection) (btr::%straight-way :left '((((5 0 1) (0 0 0 1))))))` => `NIL`
+#[builtin("%STRAIGHT-WAY")]
 fn straight_hand_way(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let side = side(image, &args[0])?;
-    let keys = ["BASE-POSE", "POSTURE", "BEGIN", "OBJECT", "THROUGH"];
-    let keys = keys.map(|name| image.keyword(name));
-    let [base, posture, begin, object, through] = keywords::parse(image, &args[2..], keys)?;
+    arm: &Value,
+    ways: &Value,
+    #[key] base_pose: Option<&Value>,
+    #[key] posture: Option<&Value>,
+    #[key] begin: Option<&Value>,
+    #[key] object: Option<&Value>,
+    #[key] through: Option<&Value>,
+) -> Result<Option<Value>> {
+    let side = side(image, arm)?;
     let mut passed = Vec::new();
-    for name in through.iter().flat_map(Value::iter_list) {
+    for name in through.into_iter().flat_map(Value::iter_list) {
         passed.push(BodyName::Object(simulation.object_named(image, &name)?));
     }
     let begin = beginning(image, begin);
-    let object = object.filter(Value::is_true);
-    let object = object.map(|name| simulation.object_named(image, &name));
+    let object = object.filter(|object| object.is_true());
+    let object = object.map(|name| simulation.object_named(image, name));
     let object = object.transpose()?;
-    let base = base.filter(Value::is_true);
-    let base = base.map(|base| simulation.pose_as_given(image, &base));
+    let base = base_pose.filter(|base| base.is_true());
+    let base = base.map(|base| simulation.pose_as_given(image, base));
     let base = base.transpose()?;
-    let posture = posture.filter(Value::is_true);
-    let posture = posture.map(|posture| posture_of(image, &posture));
+    let posture = posture.filter(|posture| posture.is_true());
+    let posture = posture.map(|posture| posture_of(image, posture));
     let posture = posture.transpose()?;
     if let Some(base) = &base {
         let place = [base.translation.x, base.translation.y, pose::yaw(base)];
         if !can_stand(&simulation.world, &place) {
-            return done(Value::NIL);
+            return Ok(None);
         }
     }
     let imagined = (base.is_some() || posture.is_some())
         .then(|| imagined(&simulation.world, base.as_ref(), posture.as_ref()));
-    let mut ways = Vec::new();
-    for way in args[1].iter_list() {
-        ways.push(way_of(simulation, image, &way)?);
-    }
+    let ways = ways.iter_list();
+    let ways = ways.map(|way| way_of(simulation, image, &way));
+    let ways: Vec<Vec<Pose>> = ways.collect::<Result<_>>()?;
     let world = imagined.as_ref().unwrap_or(&simulation.world);
     // There, the robot would take itself to be where it went to.
     let in_base = base.unwrap_or_else(|| simulation.believed_base()).inverse();
@@ -80,22 +83,19 @@ fn straight_hand_way(
             ))
         })
     });
-    done(match found.flatten() {
-        None => Value::NIL,
-        Some((number, start)) => {
-            let arm = start.arm.into_iter().map(Value::Double);
-            Value::list([
-                Value::from(number),
-                Value::Double(start.torso),
-                Value::list(arm.collect::<Vec<_>>()),
-            ])
-        }
-    })
+    Ok(found.flatten().map(|(number, start)| {
+        let arm = start.arm.into_iter().map(Value::Double);
+        Value::list([
+            Value::from(number),
+            Value::Double(start.torso),
+            Value::list(arm.collect::<Vec<_>>()),
+        ])
+    }))
 }
 
 /// Where a way begins, by a name.
-pub(super) fn beginning(image: &Image, begin: Option<Value>) -> WayBegin {
-    let begin = begin.and_then(|begin| name_text(image, &begin));
+pub(super) fn beginning(image: &Image, begin: Option<&Value>) -> WayBegin {
+    let begin = begin.and_then(|begin| name_text(image, begin));
     match begin.as_deref() {
         Some("HERE") => WayBegin::Here,
         Some("HERE-AT-ANY-HEIGHT") => WayBegin::HereAtAnyHeight,

@@ -2,15 +2,13 @@
 
 use nalgebra::Vector3;
 
-use crate::host::call::{done, edit, host};
 use crate::simulation::Simulation;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::simulation::obstacle::{OBSTACLE, obstacle};
-use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords::optional;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -40,79 +38,17 @@ const TOLERANCE: f64 = 0.002;
 const FLOOR: f64 = 0.02;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%SURFACE-POINT",
-        "surface u v",
-        "The point (x y z), in the map (m), at the shares U and V of the edges of a surface, at its top; NIL if it is none.",
-        &["(length (pw::%surface-point :table-area-main 0.5 0.5)) => 3"],
-        host!(surface_point),
-    ),
-    control(
-        "%PLACE-ON-SURFACE",
-        "name type surface x y yaw apart &optional color mass",
-        "Puts an object onto a surface where it stands level, with so much room (m) to other objects. NIL, or a text that says why it cannot.",
-        &[
-            "(progn (pw::%sweep-begin 0 0) (pw::%place-on-surface 'cup-1 :cup :table-area-main -1.6 -0.9 0 0)) => NIL",
-        ],
-        edit!(place_on_surface),
-    ),
-    control(
-        "%PLACE-ON-FLOOR",
-        "name x y yaw size height",
-        "Puts a box with a square base (m) onto the floor. NIL, or a text that says why it cannot.",
-        &[],
-        edit!(place_on_floor),
-    ),
-    control(
-        "%SETTLE-WORLD",
-        "",
-        "Lets everything come to rest. A list of the name of an object that does not stay where it was put, and what became of it; or NIL.",
-        &["(progn (pw::%sweep-begin 0 0) (pw::%settle-world)) => NIL"],
-        edit!(settle_world),
-    ),
-    control(
-        "%OBJECTS-OF-WORLD",
-        "",
-        "The names of all objects.",
-        &["(progn (pp-tut:init-projection) (pw::%objects-of-world)) => NIL"],
-        host!(objects_of_world),
-    ),
-    control(
-        "%TILT",
-        "object",
-        "The angle (rad) between the axis of an object and the vertical.",
-        &[],
-        edit!(tilt),
-    ),
-    control(
-        "%TYPE-OF-OBJECT",
-        "object",
-        "The type of an object, whatever the robot takes it for.",
-        &[],
-        host!(type_of_object),
-    ),
-    control(
-        "%OBSTACLE-P",
-        "object",
-        "Has a sweep put the object onto the floor, as an obstacle?",
-        &[],
-        host!(is_obstacle),
-    ),
-    control(
-        "%ON-FLOOR-P",
-        "object",
-        "Is the lowest point of an object at the floor?",
-        &[],
-        host!(is_on_floor),
-    ),
-    control(
-        "%NO-PENETRATION-P",
-        "",
-        "Is nothing deeper in anything else than 2 mm?",
-        &[],
-        host!(no_penetration),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    surface_point,
+    place_on_surface,
+    place_on_floor,
+    settle_world,
+    objects_of_world,
+    tilt,
+    type_of_object,
+    is_obstacle,
+    is_on_floor,
+    no_penetration
 ];
 
 fn world_error(error: WorldError) -> Box<Raise> {
@@ -151,20 +87,28 @@ impl Simulation {
     }
 }
 
-fn surface_point(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let surface = simulation.surface_named(image, &args[0])?;
+/// The point (x y z), in the map (m), at the shares U and V of the edges of a surface, at its top; NIL if it
+/// is none.
+///
+/// `(length (pw::%surface-point :table-area-main 0.5 0.5))` => `3`
+#[builtin("%SURFACE-POINT")]
+fn surface_point(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    surface: &Value,
+    u: &Value,
+    v: &Value,
+) -> Result<Option<Value>> {
+    let surface = simulation.surface_named(image, surface)?;
     let Ok(extent) = surface.extent(&simulation.world) else {
-        return done(Value::NIL);
+        return Ok(None);
     };
-    let [u, v] = [real(&args[1])?, real(&args[2])?];
+    let [u, v] = [real(u)?, real(v)?];
     let [width, depth, _] = extent.size();
     let local = nalgebra::Point3::new(extent.min[0] + u * width, extent.min[1] + v * depth, 0.0);
     let point = extent.frame * local;
-    done(Value::list([
-        Value::Double(point.x),
-        Value::Double(point.y),
-        Value::Double(extent.top()),
-    ]))
+    let point = [point.x, point.y, extent.top()];
+    Ok(Some(Value::list(point.map(Value::Double))))
 }
 
 /// The name of an object and its type.
@@ -205,33 +149,49 @@ fn why_no_room(reason: &NoRoom) -> String {
     }
 }
 
+/// Puts an object onto a surface where it stands level, with so much room (m) to other objects. NIL, or a
+/// text that says why it cannot.
+///
+/// `(progn (pw::%sweep-begin 0 0) (pw::%place-on-surface 'cup-1 :cup :table-area-main -1.6 -0.9 0 0))` => `NIL`
+#[builtin(
+    "%PLACE-ON-SURFACE",
+    "name type surface x y yaw apart &optional color mass",
+    edit
+)]
 fn place_on_surface(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let (name, mut kind) = name_and_kind(simulation, image, &args[0], &args[1])?;
-    let surface = simulation.surface_named(image, &args[2])?;
-    let [x, y, yaw, apart] = [&args[3], &args[4], &args[5], &args[6]].map(real);
+    name: &Value,
+    kind: &Value,
+    surface: &Value,
+    x: &Value,
+    y: &Value,
+    yaw: &Value,
+    apart: &Value,
+    _color: Option<&Value>,
+    mass: Option<&Value>,
+) -> Result<Option<String>> {
+    let (object, mut kind) = name_and_kind(simulation, image, name, kind)?;
+    let surface = simulation.surface_named(image, surface)?;
+    let [x, y, yaw, apart] = [x, y, yaw, apart].map(real);
     let (x, y, yaw, apart) = (x?, y?, yaw?, apart?);
-    if let Some(mass) = optional(args, 8) {
+    if let Some(mass) = mass.filter(|given| given.is_true()) {
         kind.mass = real(mass)?;
     }
-    match simulation.standing_place(&kind, &surface, [x, y, yaw], apart) {
-        Err(why) => done(Value::from(why.as_str())),
-        Ok(pose) => {
-            let report = simulation
-                .world
-                .spawn_kind(&name, &kind, &pose)
-                .map_err(world_error)?;
-            if let Some(body) = report.blocked_by {
-                simulation.world.remove(&name).map_err(world_error)?;
-                return done(Value::from(format!("{body} is there").as_str()));
-            }
-            simulation.put(name, &args[0], report.pose);
-            done(Value::NIL)
-        }
+    let pose = match simulation.standing_place(&kind, &surface, [x, y, yaw], apart) {
+        Err(why) => return Ok(Some(why)),
+        Ok(pose) => pose,
+    };
+    let report = simulation
+        .world
+        .spawn_kind(&object, &kind, &pose)
+        .map_err(world_error)?;
+    if let Some(body) = report.blocked_by {
+        simulation.world.remove(&object).map_err(world_error)?;
+        return Ok(Some(format!("{body} is there")));
     }
+    simulation.put(object, name, report.pose);
+    Ok(None)
 }
 
 impl Simulation {
@@ -292,12 +252,23 @@ impl Simulation {
     }
 }
 
-fn place_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let Some(name) = name_text(image, &args[0]) else {
+/// Puts a box with a square base (m) onto the floor. NIL, or a text that says why it cannot.
+#[builtin("%PLACE-ON-FLOOR", edit)]
+fn place_on_floor(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    x: &Value,
+    y: &Value,
+    yaw: &Value,
+    size: &Value,
+    height: &Value,
+) -> Result<Option<String>> {
+    let Some(object) = name_text(image, name) else {
         return Err(Raise::simple("An object is named by a symbol."));
     };
-    let [x, y, yaw] = [&args[1], &args[2], &args[3]].map(real);
-    let [size, height] = [&args[4], &args[5]].map(real);
+    let [x, y, yaw] = [x, y, yaw].map(real);
+    let [size, height] = [size, height].map(real);
     let (x, y, yaw, size, height) = (x?, y?, yaw?, size?, height?);
     if ![size, height].iter().all(|edge| EDGES.contains(edge)) {
         return Err(Raise::simple(format!(
@@ -309,17 +280,22 @@ fn place_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     let kind = obstacle([size, size, height]);
     let report = simulation
         .world
-        .spawn_kind(&name, &kind, &from_xy_yaw(x, y, yaw))
+        .spawn_kind(&object, &kind, &from_xy_yaw(x, y, yaw))
         .map_err(world_error)?;
     if let Some(body) = report.blocked_by.filter(|body| *body != BodyName::Floor) {
-        simulation.world.remove(&name).map_err(world_error)?;
-        return done(Value::from(format!("{body} is there").as_str()));
+        simulation.world.remove(&object).map_err(world_error)?;
+        return Ok(Some(format!("{body} is there")));
     }
-    simulation.put(name, &args[0], report.pose);
-    done(Value::NIL)
+    simulation.put(object, name, report.pose);
+    Ok(None)
 }
 
-fn settle_world(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Lets everything come to rest. A list of the name of an object that does not stay where it was put, and
+/// what became of it; or NIL.
+///
+/// `(progn (pw::%sweep-begin 0 0) (pw::%settle-world))` => `NIL`
+#[builtin("%SETTLE-WORLD", edit)]
+fn settle_world(simulation: &mut Simulation) -> Result<Option<Value>> {
     let put = simulation.put_for_sweep.clone();
     for (name, _) in &put {
         if !simulation
@@ -327,33 +303,34 @@ fn settle_world(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Resu
             .come_to_rest(name, SETTLE)
             .map_err(world_error)?
         {
-            return restless(name, "does not come to rest");
+            return Ok(Some(restless(name, "does not come to rest")));
         }
     }
     for (name, before) in &put {
         let now = simulation.world.object_pose(name).map_err(world_error)?;
         let way = (now.translation.vector - before.translation.vector).norm();
         if tilt_of(&now) > TIPPED {
-            return restless(name, "falls over");
+            return Ok(Some(restless(name, "falls over")));
         }
         if way > MOVED {
-            return restless(name, "does not stay where it was put");
+            return Ok(Some(restless(name, "does not stay where it was put")));
         }
     }
-    done(Value::NIL)
+    Ok(None)
 }
 
-fn restless(name: &str, what: &str) -> Result<Reply> {
-    done(Value::list([
-        Value::from(name.to_lowercase().as_str()),
-        Value::from(what),
-    ]))
+/// The name of an object, and what becomes of it.
+fn restless(name: &str, what: &str) -> Value {
+    Value::list([Value::from(name.to_lowercase()), Value::from(what)])
 }
 
-fn objects_of_world(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The names of all objects.
+///
+/// `(progn (pp-tut:init-projection) (pw::%objects-of-world))` => `NIL`
+#[builtin("%OBJECTS-OF-WORLD")]
+fn objects_of_world(simulation: &mut Simulation) -> Vec<Value> {
     let names = simulation.world.objects().map(Object::name);
-    let names: Vec<Value> = names.map(|name| simulation.symbol_of(name)).collect();
-    done(Value::list(names))
+    names.map(|name| simulation.symbol_of(name)).collect()
 }
 
 /// The angle (rad) between the z axis of a pose and the vertical.
@@ -362,45 +339,55 @@ fn tilt_of(pose: &Pose) -> f64 {
     trig::atan2(up.xy().norm(), up.z)
 }
 
-fn tilt(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The angle (rad) between the axis of an object and the vertical.
+#[builtin("%TILT", edit)]
+fn tilt(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<f64> {
+    let name = simulation.object_named(image, object)?;
     let pose = simulation.world.object_pose(&name).map_err(world_error)?;
-    done(Value::Double(tilt_of(&pose)))
+    Ok(tilt_of(&pose))
 }
 
-fn type_of_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The type of an object, whatever the robot takes it for.
+#[builtin("%TYPE-OF-OBJECT")]
+fn type_of_object(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<Value> {
+    let name = simulation.object_named(image, object)?;
     let object = simulation.world.object(&name).map_err(world_error)?;
     let kind = object.type_name().to_owned();
-    done(type_keyword(image, &kind))
+    Ok(type_keyword(image, &kind))
 }
 
-fn is_obstacle(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Has a sweep put the object onto the floor, as an obstacle?
+#[builtin("%OBSTACLE-P")]
+fn is_obstacle(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<bool> {
+    let name = simulation.object_named(image, object)?;
     let object = simulation.world.object(&name).map_err(world_error)?;
-    done(object.type_name() == OBSTACLE)
+    Ok(object.type_name() == OBSTACLE)
 }
 
-fn is_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Is the lowest point of an object at the floor?
+#[builtin("%ON-FLOOR-P")]
+fn is_on_floor(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Result<bool> {
+    let name = simulation.object_named(image, object)?;
     let extent = simulation.world.object_extent(&name).map_err(world_error)?;
     let lowest = extent.frame.translation.z + extent.min[2];
-    done(lowest < FLOOR)
+    Ok(lowest < FLOOR)
 }
 
-fn no_penetration(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Is nothing deeper in anything else than 2 mm?
+#[builtin("%NO-PENETRATION-P")]
+fn no_penetration(simulation: &mut Simulation) -> Result<bool> {
     let world = &simulation.world;
     if world
         .deepest_penetration(&AllowedPairs::default(), TOLERANCE)
         .is_some()
     {
-        return done(false);
+        return Ok(false);
     }
     for object in world.objects().filter(|o| o.attachment().is_none()) {
         let (depth, _) = world.depth_of(object.name()).map_err(world_error)?;
         if depth > TOLERANCE {
-            return done(false);
+            return Ok(false);
         }
     }
-    done(true)
+    Ok(true)
 }

@@ -1,17 +1,19 @@
 //! What sweeps ask of the session: a fresh world, the numbers of its draws, and the record of what
 //! came of it. The rest of sweeps is written in Lisp (`plans/lib/sweeps.plan`).
 
+use crate::audience::Audience;
 use crate::dialogue::Swept;
 use crate::host::SimulationHost;
-use crate::host::call::{done, edit, host};
+use crate::simulation::Simulation;
 use crate::simulation::injection::{Fault, FaultKind};
 use crate::simulation::names::name_text;
 use crate::sweeping::{Known, Stage, Sweeping, excuse_lack_of_memory};
 use closest_name::closest_name;
-use cram::{Handlers, Reply};
-use lisp::builtin::{Builtin, control, pure};
+use cram::Handlers;
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, FromValue, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -21,224 +23,121 @@ use sweep::{Drawn, Ending, Record, normal_quantile};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%SWEEP-BEGIN",
-        "seed world",
-        "Takes everything to the start of a world of a sweep: no objects, the robot at the origin, random numbers as its seed and number say.",
-        &[],
-        edit!(begin),
-    ),
-    control(
-        "%SWEEP-RUN-BEGINS",
-        "",
-        "The plan begins: from here on its time is counted.",
-        &[],
-        edit!(run_begins),
-    ),
-    control(
-        "%SWEEP-RUN-ENDS",
-        "",
-        "The plan has ended.",
-        &[],
-        edit!(run_ends),
-    ),
-    control(
-        "%INJECT",
-        "kind probability after duration of at position yaw",
-        "A fault may strike motions from now on.",
-        &[],
-        edit!(inject),
-    ),
-    control(
-        "%INJECT-SCHEDULE",
-        "faults",
-        "Faults that have struck in a world strike again, in the same meetings with the same objects.",
-        &[],
-        edit!(inject_schedule),
-    ),
-    control(
-        "%INJECTED-FAULTS",
-        "",
-        "The faults that have struck since the last ones were injected, as strings.",
-        &["(pw::%injected-faults) => NIL"],
-        host!(injected_faults),
-    ),
-    control(
-        "%END-FAULTS",
-        "",
-        "No fault strikes any more.",
-        &["(pw::%end-faults) => NIL"],
-        edit!(end_faults),
-    ),
-    control(
-        "%BEGIN-FAULTS",
-        "seed",
-        "Faults are drawn anew, as the seed says.",
-        &[],
-        edit!(begin_faults),
-    ),
-    control(
-        "%SWEEP-RECORD",
-        "&key outcome class cause expectations measures",
-        "What came of the world, as a line of JSON.",
-        &[],
-        host!(record),
-    ),
-    control(
-        "%RESTORE-QUIETLY",
-        "name",
-        "As RESTORE, without a word.",
-        &[],
-        edit!(restore_quietly),
-    ),
-    pure(
-        "%MUTE-OUTPUT",
-        "instead",
-        "Drops what is written from now on, unless INSTEAD is NIL; it says what is going on instead. \
-         Returns what was given before.",
-        &["(pw::%mute-output nil) => NIL"],
-        mute_output,
-    ),
-    pure(
-        "%SWEEP-VARYING",
-        "flag",
-        "Whether the values of a sweep's variables, or its faults, are being found: what fails then is a mistake in the sweep.",
-        &["(pw::%sweep-varying nil) => NIL"],
-        varying,
-    ),
-    pure(
-        "%SWEEP-UNIT",
-        "path",
-        "The next number from 0 to 1 of a path.",
-        &[],
-        unit,
-    ),
-    pure(
-        "%SWEEP-OVERRIDE",
-        "path",
-        "A list of the value that is set for a draw; NIL if none is.",
-        &[],
-        overriding,
-    ),
-    pure(
-        "%SWEEP-SET",
-        "path value",
-        "Sets the value of a draw in the worlds that begin from now on.",
-        &[],
-        set,
-    ),
-    pure(
-        "%SWEEP-FORGET",
-        "",
-        "Draws are set no more.",
-        &["(pw::%sweep-forget) => NIL"],
-        forget,
-    ),
-    pure(
-        "%SWEEP-NOTE",
-        "path value &optional simplest",
-        "Notes what was drawn, and the simplest value that could have been.",
-        &[],
-        note,
-    ),
-    pure(
-        "%SWEEP-KITCHEN",
-        "path simpler settings",
-        "Notes of the kitchen that has been drawn, by its path, which values of parameters would be simpler, a list of (NAME VALUE), and which parameters are set, a list of (NAME TEXT).",
-        &[],
-        kitchen,
-    ),
-    pure(
-        "%SWEEP-OVERRIDES",
-        "path",
-        "What is set for draws right below a path: a list of (NAME VALUE).",
-        &["(pw::%sweep-overrides \"home\") => NIL"],
-        overrides,
-    ),
-    pure(
-        "%NORMAL-DEVIATE",
-        "unit &optional low high",
-        "The standard normal deviate at that share of the distribution, or of its part between two deviates.",
-        &["(pw::%normal-deviate 0.5d0) => 0.0d0"],
-        deviate,
-    ),
-    pure(
-        "%SWEEP-KNOWN",
-        "name worlds goal",
-        "Tells the command line of a sweep.",
-        &[],
-        known,
-    ),
-    control(
-        "%SWEEP-SUMMARY",
-        "name seed goal lines",
-        "What the lines of a sweep say together, as text.",
-        &[],
-        host!(summary),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    begin,
+    run_begins,
+    run_ends,
+    inject,
+    inject_schedule,
+    injected_faults,
+    end_faults,
+    begin_faults,
+    record,
+    restore_quietly,
+    mute_output,
+    varying,
+    unit,
+    overriding,
+    set,
+    forget,
+    note,
+    kitchen,
+    overrides,
+    deviate,
+    known,
+    summary
 ];
 
-/// A number that is not negative.
-fn index(value: &Value) -> Result<u64> {
-    match value {
-        Value::Int(number) => u64::try_from(*number).ok(),
-        Value::Big(number) => u64::try_from(&**number).ok(),
-        _ => None,
+/// A seed or the number of a world.
+struct Number(u64);
+
+impl FromValue<'_> for Number {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
+        let number = match value {
+            Value::Int(number) => u64::try_from(*number).ok(),
+            Value::Big(number) => u64::try_from(&**number).ok(),
+            _ => None,
+        };
+        number.map(Number).ok_or_else(|| {
+            Raise::simple(
+                "A seed or the number of a world is an integer from 0 to 18446744073709551615.",
+            )
+        })
     }
-    .ok_or_else(|| {
-        Raise::simple(
-            "A seed or the number of a world is an integer from 0 to 18446744073709551615.",
-        )
-    })
 }
 
-fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let (seed, world) = (index(&args[0])?, index(&args[1])?);
+/// The path of a draw, or another text.
+struct Text(String);
+
+impl FromValue<'_> for Text {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
+        text(value).map(Text)
+    }
+}
+
+fn text(value: &Value) -> Result<String> {
+    value
+        .as_text()
+        .ok_or_else(|| Raise::simple("The path of a draw is a string."))
+}
+
+/// Takes everything to the start of a world of a sweep: no objects, the robot at the origin, random numbers
+/// as its seed and number say.
+#[builtin("%SWEEP-BEGIN", edit)]
+fn begin(host: &mut SimulationHost, image: &mut Image, seed: Number, world: Number) {
+    let (Number(seed), Number(world)) = (seed, world);
     let state = Sweeping::of(image);
     state.begin(seed, world);
     image.seed(state.bits("lisp"));
     let injection = std::rc::Rc::clone(&host.simulation.injection);
     injection.borrow_mut().begin(seed, world, state.off());
     host.simulation.restart_with(state.bits("simulation"));
-    done(Value::NIL)
 }
 
-fn run_begins(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The plan begins: from here on its time is counted.
+#[builtin("%SWEEP-RUN-BEGINS", edit)]
+fn run_begins(host: &mut SimulationHost, image: &mut Image) {
     Handlers::of(image).reset();
     Sweeping::of(image).enter(Stage::Running);
     host.simulation.begin_tally();
     host.person.timeline.set_off(true);
-    done(Value::NIL)
 }
 
-fn run_ends(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    host.simulation.end_tally();
-    done(Value::NIL)
+/// The plan has ended.
+#[builtin("%SWEEP-RUN-ENDS", edit)]
+fn run_ends(simulation: &mut Simulation) {
+    simulation.end_tally();
 }
 
-fn begin_faults(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let seed = index(&args[0])?;
+/// Faults are drawn anew, as the seed says.
+#[builtin("%BEGIN-FAULTS", edit)]
+fn begin_faults(simulation: &mut Simulation, image: &mut Image, seed: Number) {
     let off = Sweeping::of(image).off();
-    host.simulation.injection.borrow_mut().begin(seed, 0, off);
-    host.simulation.begin_tally();
-    done(Value::NIL)
+    simulation.injection.borrow_mut().begin(seed.0, 0, off);
+    simulation.begin_tally();
 }
 
-fn end_faults(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    host.simulation.injection.borrow_mut().end();
-    done(Value::NIL)
+/// No fault strikes any more.
+///
+/// `(pw::%end-faults)` => `NIL`
+#[builtin("%END-FAULTS", edit)]
+fn end_faults(simulation: &mut Simulation) {
+    simulation.injection.borrow_mut().end();
 }
 
-fn injected_faults(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    let struck = host.simulation.injection.borrow().struck();
-    let struck = struck.into_iter().map(Value::string);
-    done(Value::list(struck.collect::<Vec<_>>()))
+/// The faults that have struck since the last ones were injected, as strings.
+///
+/// `(pw::%injected-faults)` => `NIL`
+#[builtin("%INJECTED-FAULTS")]
+fn injected_faults(simulation: &mut Simulation) -> Vec<String> {
+    simulation.injection.borrow().struck()
 }
 
-fn inject_schedule(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let mut faults: Vec<Fault> = Vec::new();
-    for item in args[0].iter_list() {
+/// Faults that have struck in a world strike again, in the same meetings with the same objects.
+#[builtin("%INJECT-SCHEDULE", edit)]
+fn inject_schedule(simulation: &mut Simulation, image: &mut Image, faults: &Value) -> Result<()> {
+    let mut schedule: Vec<Fault> = Vec::new();
+    for item in faults.iter_list() {
         let Some(fault) = item.as_text().and_then(|path| Fault::of_path(&path)) else {
             return Err(Raise::simple(format!(
                 "{} is no fault of a schedule: a string such as \"inject.gripper-slip.BOTTLE.1\" was \
@@ -248,14 +147,14 @@ fn inject_schedule(host: &mut SimulationHost, image: &mut Image, args: &[Value])
         };
         // One fault for each kind and object, or each would count meetings.
         let same = |known: &&mut Fault| known.kind == fault.kind && known.of == fault.of;
-        match faults.iter_mut().find(same) {
+        match schedule.iter_mut().find(same) {
             Some(known) => known.at.extend(fault.at),
-            None => faults.push(fault),
+            None => schedule.push(fault),
         }
     }
-    let mut injection = host.simulation.injection.borrow_mut();
-    faults.into_iter().for_each(|fault| injection.add(fault));
-    done(Value::NIL)
+    let mut injection = simulation.injection.borrow_mut();
+    schedule.into_iter().for_each(|fault| injection.add(fault));
+    Ok(())
 }
 
 /// A meeting, or a list of meetings, counted from 1.
@@ -278,8 +177,21 @@ fn meetings(image: &Image, value: &Value) -> Result<Vec<u64>> {
     })
 }
 
-fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = name_text(image, &args[0]).unwrap_or_default();
+/// A fault may strike motions from now on.
+#[builtin("%INJECT", edit)]
+fn inject(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    kind: &Value,
+    probability: &Value,
+    after: &Value,
+    duration: &Value,
+    of: &Value,
+    at: &Value,
+    position: &Value,
+    yaw: &Value,
+) -> Result<()> {
+    let name = name_text(image, kind).unwrap_or_default();
     let names = FaultKind::ALL.map(FaultKind::name);
     let mut kinds = FaultKind::ALL.into_iter();
     let Some(kind) = kinds.find(|kind| kind.name().eq_ignore_ascii_case(&name)) else {
@@ -290,7 +202,7 @@ fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
         );
         return Err(Raise::simple(format!("{name} is no kind of fault{near}")));
     };
-    let number_from = |at: usize, what: &str, most: f64| match &args[at] {
+    let number_from = |value: &Value, what: &str, most: f64| match value {
         value if !value.is_true() => Ok(None),
         value => match number::to_f64(value).filter(|number| (0.0..=most).contains(number)) {
             Some(number) => Ok(Some(number)),
@@ -300,7 +212,7 @@ fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
             ))),
         },
     };
-    let of = match &args[4] {
+    let of = match of {
         value if !value.is_true() => None,
         value => Some(name_text(image, value).ok_or_else(|| {
             Raise::simple("What a fault is :OF is the name of an object or of a type.")
@@ -308,80 +220,91 @@ fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
     };
     let fault = Fault {
         kind,
-        probability: number_from(1, "probability", 1.0)?.unwrap_or(1.0),
-        after: number_from(2, "time", 1e9)?,
-        duration: number_from(3, "duration", 1e9)?,
+        probability: number_from(probability, "probability", 1.0)?.unwrap_or(1.0),
+        after: number_from(after, "time", 1e9)?,
+        duration: number_from(duration, "duration", 1e9)?,
         of,
-        at: meetings(image, &args[5])?,
-        position: number_from(6, "standard deviation of positions", 1.0)?.unwrap_or(0.0),
-        yaw: number_from(7, "standard deviation of angles", 4.0)?.unwrap_or(0.0),
+        at: meetings(image, at)?,
+        position: number_from(position, "standard deviation of positions", 1.0)?.unwrap_or(0.0),
+        yaw: number_from(yaw, "standard deviation of angles", 4.0)?.unwrap_or(0.0),
     };
-    host.simulation.injection.borrow_mut().add(fault);
-    done(Value::NIL)
+    simulation.injection.borrow_mut().add(fault);
+    Ok(())
 }
 
-fn restore_quietly(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = args[0].as_symbol().map(|sym| image.name(sym).to_owned());
+/// As RESTORE, without a word.
+#[builtin("%RESTORE-QUIETLY", edit)]
+fn restore_quietly(host: &mut SimulationHost, image: &mut Image, name: &Value) -> Result<()> {
+    let name = name.as_symbol().map(|sym| image.name(sym).to_owned());
     let name = name.unwrap_or_default();
     host.person
         .snapshots
-        .restore_kept(&mut host.simulation, &name)?;
-    done(Value::NIL)
+        .restore_kept(&mut host.simulation, &name)
 }
 
-fn text(value: &Value) -> Result<String> {
-    value
-        .as_text()
-        .ok_or_else(|| Raise::simple("The path of a draw is a string."))
+/// Drops what is written from now on, unless INSTEAD is NIL; it says what is going on instead. Returns what
+/// was given before.
+///
+/// `(pw::%mute-output nil)` => `NIL`
+#[builtin("%MUTE-OUTPUT")]
+fn mute_output(image: &mut Image, instead: &Value) -> Option<Value> {
+    let before = image.output.mute(instead.as_text());
+    before.map(|text| Value::string(&text))
 }
 
-fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let before = image.output.mute(args[0].as_text());
-    Ok(before.map_or(Value::NIL, |text| Value::string(&text)))
-}
-
-fn varying(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let flag = args.first().is_some_and(Value::is_true);
+/// Whether the values of a sweep's variables, or its faults, are being found: what fails then is a mistake in
+/// the sweep.
+///
+/// `(pw::%sweep-varying nil)` => `NIL`
+#[builtin("%SWEEP-VARYING")]
+fn varying(image: &mut Image, flag: bool) {
     let stage = if flag { Stage::Varying } else { Stage::SetUp };
     Sweeping::of(image).enter(stage);
-    Ok(Value::NIL)
 }
 
-fn unit(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
-    Ok(Value::Double(Sweeping::of(image).unit(&path)))
+/// The next number from 0 to 1 of a path.
+#[builtin("%SWEEP-UNIT")]
+fn unit(image: &mut Image, path: Text) -> f64 {
+    Sweeping::of(image).unit(&path.0)
 }
 
-fn overriding(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
-    let found = Sweeping::of(image).overriding(&path);
-    Ok(found.map_or(Value::NIL, |value| Value::list([value])))
+/// A list of the value that is set for a draw; NIL if none is.
+#[builtin("%SWEEP-OVERRIDE")]
+fn overriding(image: &mut Image, path: Text) -> Option<Value> {
+    let found = Sweeping::of(image).overriding(&path.0);
+    found.map(|value| Value::list([value]))
 }
 
-fn set(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
-    Sweeping::of(image).set(&path, args[1].clone());
-    Ok(Value::NIL)
+/// Sets the value of a draw in the worlds that begin from now on.
+#[builtin("%SWEEP-SET")]
+fn set(image: &mut Image, path: Text, value: Value) {
+    Sweeping::of(image).set(&path.0, value);
 }
 
-fn forget(image: &mut Image, _: &[Value]) -> Result<Value> {
+/// Draws are set no more.
+///
+/// `(pw::%sweep-forget)` => `NIL`
+#[builtin("%SWEEP-FORGET")]
+fn forget(image: &mut Image) {
     Sweeping::of(image).forget();
-    Ok(Value::NIL)
 }
 
-fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
-    let drawn = drawn(image, &args[1]);
-    Sweeping::of(image).note(&path, drawn);
-    if let Some(simplest) = args.get(2) {
-        let simplest = self::drawn(image, simplest);
-        Sweeping::of(image).note_simplest(&path, simplest);
+/// Notes what was drawn, and the simplest value that could have been.
+#[builtin("%SWEEP-NOTE")]
+fn note(image: &mut Image, path: Text, value: &Value, simplest: Option<&Value>) {
+    let value = drawn(image, value);
+    Sweeping::of(image).note(&path.0, value);
+    if let Some(simplest) = simplest {
+        let simplest = drawn(image, simplest);
+        Sweeping::of(image).note_simplest(&path.0, simplest);
     }
-    Ok(Value::NIL)
 }
 
-fn kitchen(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
+/// Notes of the kitchen that has been drawn, by its path, which values of parameters would be simpler, a list
+/// of (NAME VALUE), and which parameters are set, a list of (NAME TEXT).
+#[builtin("%SWEEP-KITCHEN")]
+fn kitchen(image: &mut Image, path: Text, simpler: &Value, settings: &Value) -> Result<()> {
+    let path = path.0;
     let pairs = |list: &Value| {
         let pairs = list.iter_list().map(|pair| {
             let mut pair = pair.iter_list();
@@ -390,23 +313,25 @@ fn kitchen(image: &mut Image, args: &[Value]) -> Result<Value> {
         });
         pairs.collect::<Result<Vec<_>>>()
     };
-    let simpler = pairs(&args[1])?.into_iter();
+    let simpler = pairs(simpler)?.into_iter();
     let simpler = simpler.map(|(name, value)| (format!("{path}.{name}"), drawn(image, &value)));
     let simpler = simpler.collect();
-    let settings = pairs(&args[2])?.into_iter();
+    let settings = pairs(settings)?.into_iter();
     let settings = settings.map(|(name, value)| Ok((name, text(&value)?)));
     let settings = settings.collect::<Result<_>>()?;
     Sweeping::of(image).note_kitchen(simpler, settings);
-    Ok(Value::NIL)
+    Ok(())
 }
 
-fn overrides(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let path = text(&args[0])?;
-    let all = Sweeping::of(image).overrides(&path);
-    let all = all
-        .into_iter()
-        .map(|(name, value)| Value::list([Value::string(&name), value]));
-    Ok(Value::list(all.collect::<Vec<_>>()))
+/// What is set for draws right below a path: a list of (NAME VALUE).
+///
+/// `(pw::%sweep-overrides "home")` => `NIL`
+#[builtin("%SWEEP-OVERRIDES")]
+fn overrides(image: &mut Image, path: Text) -> Vec<Value> {
+    let all = Sweeping::of(image).overrides(&path.0);
+    let all = all.into_iter();
+    all.map(|(name, value)| Value::list([Value::string(&name), value]))
+        .collect()
 }
 
 /// A value as it is recorded.
@@ -427,88 +352,102 @@ fn drawn(image: &Image, value: &Value) -> Drawn {
     }
 }
 
-fn deviate(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let bound = |at: usize| args.get(at).and_then(number::to_f64);
-    let unit = number::to_f64(&args[0]).unwrap_or(0.5);
+/// The standard normal deviate at that share of the distribution, or of its part between two deviates.
+///
+/// `(pw::%normal-deviate 0.5d0)` => `0.0d0`
+#[builtin("%NORMAL-DEVIATE")]
+fn deviate(unit: &Value, low: Option<&Value>, high: Option<&Value>) -> f64 {
+    let [lowest, highest] = [low, high].map(|bound| bound.and_then(number::to_f64));
+    let unit = number::to_f64(unit).unwrap_or(0.5);
     // The share of the distribution below a deviate.
     let below = |z: f64| 0.5 * libm::erfc(-z / std::f64::consts::SQRT_2);
-    let low = bound(1).map_or(0.0, below);
-    let high = bound(2).map_or(1.0, below);
+    let low = lowest.map_or(0.0, below);
+    let high = highest.map_or(1.0, below);
     let share = (low + unit * (high - low)).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0);
     let deviate = normal_quantile(share);
-    let least = bound(1).unwrap_or(f64::NEG_INFINITY);
-    let most = bound(2).unwrap_or(f64::INFINITY);
-    Ok(Value::Double(deviate.max(least).min(most)))
+    let least = lowest.unwrap_or(f64::NEG_INFINITY);
+    let most = highest.unwrap_or(f64::INFINITY);
+    deviate.max(least).min(most)
 }
 
-fn known(image: &mut Image, args: &[Value]) -> Result<Value> {
+/// Tells the command line of a sweep.
+#[builtin("%SWEEP-KNOWN")]
+fn known(image: &mut Image, name: Text, worlds: Number, goal: &Value) {
     let known = Known {
-        name: text(&args[0])?,
-        worlds: index(&args[1])?,
-        goal: number::to_f64(&args[2]),
+        name: name.0,
+        worlds: worlds.0,
+        goal: number::to_f64(goal),
     };
     Sweeping::of(image).know(known);
-    Ok(Value::NIL)
 }
 
-fn summary(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
+/// What the lines of a sweep say together, as text.
+#[builtin("%SWEEP-SUMMARY")]
+fn summary(
+    audience: &mut Audience,
+    name: Text,
+    seed: Number,
+    goal: &Value,
+    lines: &Value,
+) -> String {
     let title = Title {
-        name: text(&args[0])?,
-        seed: index(&args[1])?,
-        goal: number::to_f64(&args[2]),
+        name: name.0,
+        seed: seed.0,
+        goal: number::to_f64(goal),
     };
-    let lines = args[3].iter_list().filter_map(|line| line.as_text());
+    let lines = lines.iter_list().filter_map(|line| line.as_text());
     let records: Vec<Record> = lines
         .filter_map(|line| serde_json::from_str(&line).ok())
         .collect();
     let text = Summary::new(&title, &records).to_string();
-    host.audience.swept = Some(Swept { title, records });
-    done(Value::string(text))
+    audience.swept = Some(Swept { title, records });
+    text
 }
 
-fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+/// What came of the world, as a line of JSON.
+#[builtin("%SWEEP-RECORD")]
+fn record(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    #[key] outcome: Option<&Value>,
+    #[key] class: Option<&Value>,
+    #[key] cause: Option<&Value>,
+    #[key] expectations: Option<&Value>,
+    #[key] measures: Option<&Value>,
+) -> String {
     let state = Sweeping::of(image);
     let mut record = state.record(image, Ending::Success);
-    let simulation = &host.simulation;
-    for pair in args.chunks(2) {
-        let [key, value] = pair else {
-            continue;
-        };
-        let key = key.as_symbol().map(|sym| image.name(sym).to_owned());
-        match key.as_deref() {
-            Some("OUTCOME") => record.outcome = ending(image, value),
-            Some("CLASS") => record.class = value.as_text().filter(|_| value.is_true()),
-            Some("CAUSE") => match value {
-                Value::Symbol(sym, ..) if image.is_keyword(*sym) => {
-                    record.cause = simulation.failed_by();
-                    record.bodies = simulation.bodies_of_failure();
-                }
-                _ => record.cause = value.as_text().filter(|_| value.is_true()),
-            },
-            Some("EXPECTATIONS") => {
-                for answer in value.iter_list() {
-                    let name = answer.car_or_nil().as_text().unwrap_or_default();
-                    record
-                        .expectations
-                        .set(&name, answer.cdr_or_nil().is_true());
-                }
-            }
-            Some("MEASURES") => {
-                for answer in value.iter_list() {
-                    let name = answer.car_or_nil().as_text().unwrap_or_default();
-                    record
-                        .measures
-                        .set(&name, drawn(image, &answer.cdr_or_nil()));
-                }
-            }
-            _ => {}
+    if let Some(outcome) = outcome {
+        record.outcome = ending(image, outcome);
+    }
+    if let Some(class) = class {
+        record.class = class.as_text();
+    }
+    match cause {
+        None => {}
+        Some(Value::Symbol(sym, ..)) if image.is_keyword(*sym) => {
+            record.cause = simulation.failed_by();
+            record.bodies = simulation.bodies_of_failure();
         }
+        Some(cause) => record.cause = cause.as_text(),
+    }
+    for answer in expectations.into_iter().flat_map(Value::iter_list) {
+        let name = answer.car_or_nil().as_text().unwrap_or_default();
+        record
+            .expectations
+            .set(&name, answer.cdr_or_nil().is_true());
+    }
+    for answer in measures.into_iter().flat_map(Value::iter_list) {
+        let name = answer.car_or_nil().as_text().unwrap_or_default();
+        record
+            .measures
+            .set(&name, drawn(image, &answer.cdr_or_nil()));
     }
     simulation.complete(&mut record);
     excuse_lack_of_memory(image, &mut record);
     let line = record.line();
     state.keep(record);
-    done(Value::string(line))
+    line
 }
 
 fn ending(image: &Image, value: &Value) -> Ending {

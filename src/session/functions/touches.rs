@@ -1,12 +1,11 @@
 //! Builtins for what a thing has touched, and how hard: for chores that move a tool on a surface.
 
-use crate::host::call::{done, host};
 use crate::simulation::Simulation;
 use crate::simulation::names::type_text_of;
-use cram::Reply;
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
 use lisp::value::raise::Raise;
@@ -14,60 +13,7 @@ use lisp::value::raise::Raise;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "%WATCH-TOUCHES",
-        "name least most",
-        "From now on, notes in every step of the simulation what an object touches below it, and how hard; LEAST and MOST are the forces (N) between which it is right. Forgets what it has touched before.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%watch-touches 'bottle-1 1 3)) => T",
-        ],
-        host!(watch),
-    ),
-    control(
-        "%END-TOUCHES",
-        "name",
-        "Notes no more what an object touches.",
-        &[],
-        host!(end),
-    ),
-    control(
-        "%TOUCHES",
-        "name",
-        "What has been noted of the forces (N) from below on an object: (:steps n :within n :mean n :peak n :now n :aside n), the number of steps in which it was touched, of those with the right force, the mean, the greatest and the present force, and the greatest one from a side. NIL if nothing is noted.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%touches 'bottle-1)) => NIL",
-        ],
-        host!(touches),
-    ),
-    control(
-        "%UNTOUCHED",
-        "name points",
-        "Those of some points (x y z), in the map (m), at which an object has not touched anything below it since that is noted.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%watch-touches 'bottle-1 1 3) (btr::%untouched 'bottle-1 '((0 0 1)))) => ((0 0 1))",
-        ],
-        host!(untouched),
-    ),
-    control(
-        "%OWN-BOX",
-        "name",
-        "The box around an object in its own frame: the least and the greatest x, y and z (m), as two lists.",
-        &[
-            "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cube-1 :cube :pose '((1.4 0.6 0.9) (0 0 0 1))) (first (btr::%own-box 'cube-1))) => (-0.035d0 -0.035d0 -0.035d0)",
-        ],
-        host!(own_box),
-    ),
-    control(
-        "%KIND-P",
-        "name kind",
-        "Is an object of a type, or of one of its kinds?",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%kind-p 'bottle-1 :kitchen-item)) => T",
-        ],
-        host!(is_kind),
-    ),
-];
+pub(super) static TABLE: &[Builtin] = builtins![watch, end, touches, untouched, own_box, is_kind];
 
 fn force(image: &Image, value: &Value) -> Result<f64> {
     let force = number::to_f64(value).filter(|force| force.is_finite() && *force >= 0.0);
@@ -79,24 +25,43 @@ fn force(image: &Image, value: &Value) -> Result<f64> {
     })
 }
 
-fn watch(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let range = (force(image, &args[1])?, force(image, &args[2])?);
+/// From now on, notes in every step of the simulation what an object touches below it, and how hard; LEAST
+/// and MOST are the forces (N) between which it is right. Forgets what it has touched before.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%watch-touches 'bottle-1 1 3))` => `T`
+#[builtin("%WATCH-TOUCHES")]
+fn watch(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    least: &Value,
+    most: &Value,
+) -> Result<bool> {
+    let name = simulation.object_named(image, name)?;
+    let range = (force(image, least)?, force(image, most)?);
     let watched = simulation.world.watch_touches(&name, range);
     watched.map_err(Raise::reporting)?;
-    done(Value::T)
+    Ok(true)
 }
 
-fn end(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Notes no more what an object touches.
+#[builtin("%END-TOUCHES")]
+fn end(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<()> {
+    let name = simulation.object_named(image, name)?;
     simulation.world.end_touches(&name);
-    done(Value::NIL)
+    Ok(())
 }
 
-fn touches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// What has been noted of the forces (N) from below on an object: (:steps n :within n :mean n :peak n :now n
+/// :aside n), the number of steps in which it was touched, of those with the right force, the mean, the
+/// greatest and the present force, and the greatest one from a side. NIL if nothing is noted.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%touches 'bottle-1))` => `NIL`
+#[builtin("%TOUCHES")]
+fn touches(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Vec<Value>> {
+    let name = simulation.object_named(image, name)?;
     let Some(touches) = simulation.world.touches_of(&name) else {
-        return done(Value::NIL);
+        return Ok(Vec::new());
     };
     // Far fewer steps than a number holds.
     let count = |steps: u64| Value::from(usize::try_from(steps).unwrap_or(usize::MAX));
@@ -113,14 +78,24 @@ fn touches(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Re
         list.push(image.keyword(name).into());
         list.push(value);
     }
-    done(Value::list(list))
+    Ok(list)
 }
 
-fn untouched(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// Those of some points (x y z), in the map (m), at which an object has not touched anything below it since
+/// that is noted.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%watch-touches 'bottle-1 1 3) (btr::%untouched 'bottle-1 '((0 0 1))))` => `((0 0 1))`
+#[builtin("%UNTOUCHED")]
+fn untouched(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    points: &Value,
+) -> Result<Vec<Value>> {
+    let name = simulation.object_named(image, name)?;
     let touches = simulation.world.touches_of(&name);
     let mut left = Vec::new();
-    for point in args[1].iter_list() {
+    for point in points.iter_list() {
         let numbers: Vec<f64> = point
             .iter_list()
             .filter_map(|n| number::to_f64(&n))
@@ -135,21 +110,34 @@ fn untouched(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> 
             left.push(point);
         }
     }
-    done(Value::list(left))
+    Ok(left)
 }
 
-fn own_box(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+/// The box around an object in its own frame: the least and the greatest x, y and z (m), as two lists.
+///
+/// `(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cube-1 :cube :pose '((1.4 0.6 0.9) (0 0 0 1))) (first (btr::%own-box 'cube-1)))` => `(-0.035d0 -0.035d0 -0.035d0)`
+#[builtin("%OWN-BOX")]
+fn own_box(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<Value> {
+    let name = simulation.object_named(image, name)?;
     let corners = simulation.world.own_box(&name).map_err(Raise::reporting)?;
-    done(Value::list(
+    Ok(Value::list(
         corners.map(|c| Value::list(c.map(Value::Double))),
     ))
 }
 
-fn is_kind(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
-    let kind = type_text_of(image, &args[1])?;
+/// Is an object of a type, or of one of its kinds?
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr::%kind-p 'bottle-1 :kitchen-item))` => `T`
+#[builtin("%KIND-P")]
+fn is_kind(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    name: &Value,
+    kind: &Value,
+) -> Result<bool> {
+    let name = simulation.object_named(image, name)?;
+    let kind = type_text_of(image, kind)?;
     let object = simulation.world.object(&name).map_err(Raise::reporting)?;
     let library = &simulation.world.models().objects;
-    done(Value::from(library.is_kind_of(object.type_name(), &kind)))
+    Ok(library.is_kind_of(object.type_name(), &kind))
 }

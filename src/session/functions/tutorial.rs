@@ -1,25 +1,26 @@
 //! The functions of the tutorial's package that query or change the world.
 
+use std::rc::Rc;
+
 use super::objects::Spawning;
-use crate::host::call::{done, edit, host};
 use crate::log_level::LogLevel;
 use crate::simulation::motions::side;
 use crate::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
 use crate::simulation::properties::property;
 use crate::simulation::{Axes, Simulation};
-use cram::Reply;
 use cram::designator::value::current;
 use cram::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
-use lisp::builtin::{Builtin, control};
+use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords::{self, optional};
+use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::copy::Copier;
 use lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
+use lisp::value::string::LispString;
 use lisp::value::symbol::Sym;
 
 /// Default length (m) of coordinate axes.
@@ -28,114 +29,49 @@ const AXES_SIZE: f64 = 0.3;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub(super) static TABLE: &[Builtin] = &[
-    control(
-        "INIT-PROJECTION",
-        "",
-        "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.",
-        &["(pp-tut:init-projection) => T"],
-        edit!(init_projection),
-    ),
-    control(
-        "SPAWN-OBJECT",
-        "pose &optional type name color",
-        "Puts an object (by default a red bottle named BOTTLE-1) into the world and lets it come to rest. An existing object with that name is moved.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr-utils:object-exists 'bottle-1)) => T",
-        ],
-        edit!(spawn_object),
-    ),
-    control(
-        "LIST-AVAILABLE-OBJECTS",
-        "",
-        "The types of objects that can be spawned.",
-        &["(first (pp-tut:list-available-objects)) => :TRAY"],
-        host!(list_available_objects),
-    ),
-    control(
-        "LIST-DEFINED-GRASPS",
-        "type &optional arm",
-        "The grasps that are defined for a type of objects; with an arm, those for that arm.",
-        &[
-            "(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)",
-            "(pp-tut:list-defined-grasps :plate :left) => (:LEFT-SIDE :TOP :TOP-FRONT :TOP-LEFT :TOP-RIGHT)",
-        ],
-        host!(list_defined_grasps),
-    ),
-    control(
-        "VISUALIZE-COORDINATES",
-        "object-or-pose &optional size",
-        "Shows coordinate axes, as long as SIZE (m), at an object, given by its name or type, or at a pose; x is red, y green, z blue. They stay until others are shown.",
-        &[
-            "(pp-tut:visualize-coordinates (pp-tut:make-pose \"map\" '((0 1 0) (0 0 0 1))) 0.5) => NIL",
-        ],
-        host!(visualize_coordinates),
-    ),
-    control(
-        "GET-KITCHEN-URDF",
-        "",
-        "The description of the kitchen.",
-        &[],
-        host!(get_kitchen_urdf),
-    ),
-    control(
-        "MOVE-KITCHEN-JOINT",
-        "&key joint-name joint-angle kitchen-name",
-        "Opens or closes a drawer or a door, with what is in it; an error if anything is in the way.",
-        &["(pp-tut:move-kitchen-joint) => NIL"],
-        edit!(move_kitchen_joint),
-    ),
-    control(
-        "GET-ROBOT-TRANSFORMATION",
-        "",
-        "The transform from the map to the robot's base.",
-        &[
-            "(progn (pp-tut:init-projection) (pp-tut:get-robot-transformation)) => #<\"map\" \"base_footprint\" ((0.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
-        ],
-        host!(get_robot_transformation),
-    ),
-    control(
-        "GET-CURRENT-POSE-OF-OBJECT",
-        "name",
-        "The pose of an object in the map frame.",
-        &[],
-        host!(get_current_pose),
-    ),
-    control(
-        "GET-OBJ-NAME",
-        "object",
-        "The name of a perceived object.",
-        &[],
-        host!(get_object_name),
-    ),
-    control(
-        "GET-OBJECT-NAME",
-        "object",
-        "The name of a perceived object.",
-        &[],
-        host!(get_object_name),
-    ),
-    control(
-        "LOOK-UP-TRANSFORMATION",
-        "parent child",
-        "The transform from one frame to another.",
-        &[],
-        host!(look_up_transformation),
-    ),
+pub(super) static TABLE: &[Builtin] = builtins![
+    init_projection,
+    spawn_object,
+    list_available_objects,
+    list_defined_grasps,
+    visualize_coordinates,
+    get_kitchen_urdf,
+    move_kitchen_joint,
+    get_robot_transformation,
+    get_current_pose_of_object,
+    get_obj_name,
+    get_object_name,
+    look_up_transformation
 ];
 
-fn init_projection(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+/// Takes the world back to its start: no objects, the robot at the origin with its arms tucked.
+///
+/// `(pp-tut:init-projection)` => `T`
+#[builtin(edit)]
+fn init_projection(simulation: &mut Simulation) -> bool {
     simulation.restart();
-    done(Value::T)
+    true
 }
 
-fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let pose = simulation.pose_in_map(image, &args[0])?;
-    let kind = match args.get(1) {
+/// Puts an object (by default a red bottle named BOTTLE-1) into the world and lets it come to rest. An
+/// existing object with that name is moved.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr-utils:object-exists 'bottle-1))` => `T`
+#[builtin(_, "pose &optional type name color", edit)]
+fn spawn_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    pose: &Value,
+    kind: Option<&Value>,
+    name: Option<&Value>,
+    color: Option<&Value>,
+) -> Result<()> {
+    let pose = simulation.pose_in_map(image, pose)?;
+    let kind = match kind {
         Some(kind) => kind.clone(),
         None => image.keyword("BOTTLE").into(),
     };
-    let name = match args.get(2) {
+    let name = match name {
         Some(name) => name.clone(),
         None => {
             let package = image.packages.find("CRAM-PICK-PLACE-TUTORIAL");
@@ -149,7 +85,7 @@ fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
     let is_new =
         name_text(image, &name).is_some_and(|name| simulation.world.object(&name).is_err());
     let red = is_new.then(|| Value::list([Value::Int(1), Value::Int(0), Value::Int(0)]));
-    let color = args.get(3).cloned().or(red);
+    let color = color.cloned().or(red);
     simulation.spawn(
         image,
         &Spawning {
@@ -159,50 +95,55 @@ fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
             color: color.as_ref(),
             mass: None,
         },
-    )?;
-    done(Value::NIL)
+    )
 }
 
-fn list_available_objects(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    _: &[Value],
-) -> Result<Reply> {
-    let types: Vec<Value> = simulation
-        .models
-        .objects
-        .types()
-        .map(|kind| type_keyword(image, &kind.name))
-        .collect();
-    done(Value::list(types))
+/// The types of objects that can be spawned.
+///
+/// `(first (pp-tut:list-available-objects))` => `:TRAY`
+#[builtin]
+fn list_available_objects(simulation: &mut Simulation, image: &mut Image) -> Vec<Value> {
+    let types = simulation.models.objects.types();
+    types.map(|kind| type_keyword(image, &kind.name)).collect()
 }
 
+/// The grasps that are defined for a type of objects; with an arm, those for that arm.
+///
+/// `(pp-tut:list-defined-grasps :cup)` => `(:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)`
+/// `(pp-tut:list-defined-grasps :plate :left)` => `(:LEFT-SIDE :TOP :TOP-FRONT :TOP-LEFT :TOP-RIGHT)`
+#[builtin(_, "type &optional arm")]
 fn list_defined_grasps(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let kind = type_text_of(image, &args[0])?;
-    let arm = match optional(args, 1) {
+    kind: &Value,
+    arm: Option<&Value>,
+) -> Result<Vec<Value>> {
+    let kind = type_text_of(image, kind)?;
+    let arm = match arm.filter(|given| given.is_true()) {
         Some(arm) => Some(side(image, arm)?),
         None => None,
     };
     let library = &simulation.grasps;
-    let grasps: Vec<Value> = library
+    Ok(library
         .grasps(&kind)
         .iter()
         .filter(|name| arm.is_none_or(|arm| library.get(&kind, arm, name).is_some()))
         .map(|name| type_keyword(image, name))
-        .collect();
-    done(Value::list(grasps))
+        .collect())
 }
 
+/// Shows coordinate axes, as long as SIZE (m), at an object, given by its name or type, or at a pose; x is
+/// red, y green, z blue. They stay until others are shown.
+///
+/// `(pp-tut:visualize-coordinates (pp-tut:make-pose "map" '((0 1 0) (0 0 0 1))) 0.5)` => `NIL`
+#[builtin]
 fn visualize_coordinates(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let size = match args.get(1) {
+    object_or_pose: &Value,
+    size: Option<&Value>,
+) -> Result<()> {
+    let size = match size {
         Some(size) => number::to_f64(size)
             .filter(|size| size.is_finite() && *size > 0.0)
             .ok_or_else(|| {
@@ -213,9 +154,9 @@ fn visualize_coordinates(
             })?,
         None => AXES_SIZE,
     };
-    let pose = match as_placement(&args[0]) {
+    let pose = match as_placement(object_or_pose) {
         Some(placement) => {
-            if frame_of(&args[0]).is_some_and(|frame| &*frame != "map") {
+            if frame_of(object_or_pose).is_some_and(|frame| &*frame != "map") {
                 image.output.fresh_line();
                 image.output.write(
                     "WARNING: Pose is not in MAP frame. It is visualized with respect to the MAP though.\n",
@@ -224,8 +165,8 @@ fn visualize_coordinates(
             placement.to_pose()
         }
         None => {
-            let Some(name) = name_text(image, &args[0]) else {
-                let shown = print::to_string(image, &args[0], true);
+            let Some(name) = name_text(image, object_or_pose) else {
+                let shown = print::to_string(image, object_or_pose, true);
                 return Err(Raise::simple(format!(
                     "{shown} cannot be visualized: the name or type of an object, or a pose as make-pose makes it, was expected."
                 )));
@@ -243,13 +184,13 @@ fn visualize_coordinates(
                     image.output.write(
                         "WARNING: Unknown object, please either give an object name or object type.\n",
                     );
-                    return done(Value::NIL);
+                    return Ok(());
                 }
             }
         }
     };
     simulation.axes = Some(Axes { pose, size });
-    done(Value::NIL)
+    Ok(())
 }
 
 /// The kitchen's description as a value.
@@ -272,12 +213,14 @@ impl Foreign for KitchenUrdf {
     }
 }
 
-fn get_kitchen_urdf(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+/// The description of the kitchen.
+#[builtin]
+fn get_kitchen_urdf(simulation: &mut Simulation, image: &mut Image) -> Value {
     let symbol = image.keyword("ROBOT");
-    done(Value::foreign(KitchenUrdf {
+    Value::foreign(KitchenUrdf {
         name: simulation.models.kitchen_description.urdf_name.clone(),
         symbol,
-    }))
+    })
 }
 
 /// The joint of the kitchen that is meant where none is named.
@@ -293,23 +236,22 @@ fn usual_joint(simulation: &Simulation) -> Result<String> {
     })
 }
 
+/// Opens or closes a drawer or a door, with what is in it; an error if anything is in the way.
+///
+/// `(pp-tut:move-kitchen-joint)` => `NIL`
+#[builtin(edit)]
 fn move_kitchen_joint(
     simulation: &mut Simulation,
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let keys = [
-        image.keyword("JOINT-NAME"),
-        image.keyword("JOINT-ANGLE"),
-        image.keyword("KITCHEN-NAME"),
-    ];
-    let [name, angle, _] = keywords::parse(image, args, keys)?;
-    let name = match name {
+    #[key] joint_name: Option<&Value>,
+    #[key] joint_angle: Option<&Value>,
+    #[key] _kitchen_name: Option<&Value>,
+) -> Result<()> {
+    let name = match joint_name {
         Some(Value::Str(name)) => name.text(),
-        Some(other) => return Err(Raise::type_error(&other, known::STRING)),
+        Some(other) => return Err(Raise::type_error(other, known::STRING)),
         None => usual_joint(simulation)?,
     };
-    let angle = angle.as_ref().and_then(number::to_f64).unwrap_or(0.2);
+    let angle = joint_angle.and_then(number::to_f64).unwrap_or(0.2);
     if simulation.models.kitchen.joint_named(&name).is_none() {
         let joints = simulation.models.kitchen.joints();
         let near = suggestion(&name, joints.map(|(_, joint)| joint.name.as_str()), |n| {
@@ -332,67 +274,69 @@ fn move_kitchen_joint(
         .teleport_kitchen_joint(&name, angle)
         .map_err(Raise::reporting)?;
     simulation.world.settle(2.0);
-    done(Value::NIL)
+    Ok(())
 }
 
-fn get_robot_transformation(
-    simulation: &mut Simulation,
-    _: &mut Image,
-    _: &[Value],
-) -> Result<Reply> {
-    done(transform_stamped(
-        "map",
-        simulation.base_frame(),
-        &simulation.believed_base(),
-    ))
+/// The transform from the map to the robot's base.
+///
+/// `(progn (pp-tut:init-projection) (pp-tut:get-robot-transformation))` => `#<"map" "base_footprint" ((0.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
+#[builtin]
+fn get_robot_transformation(simulation: &mut Simulation) -> Value {
+    transform_stamped("map", simulation.base_frame(), &simulation.believed_base())
 }
 
-fn get_current_pose(
+/// The pose of an object in the map frame.
+#[builtin]
+fn get_current_pose_of_object(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+    name: &Value,
+) -> Result<Value> {
+    let name = simulation.object_named(image, name)?;
     let pose = simulation
         .world
         .object_pose(&name)
         .map_err(Raise::reporting)?;
-    done(pose_stamped("map", &pose))
+    Ok(pose_stamped("map", &pose))
 }
 
+/// The name of a perceived object.
+#[builtin]
+fn get_obj_name(simulation: &mut Simulation, image: &mut Image, object: &Value) -> Option<Value> {
+    let name = property(image, &current(object), "NAME");
+    if name.is_none() {
+        simulation.log(
+            image,
+            LogLevel::Debug,
+            "(PP-TUT GET-OBJ-NAME)",
+            "an object has no name before it is perceived",
+        );
+    }
+    name
+}
+
+/// The name of a perceived object.
+#[builtin]
 fn get_object_name(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let current = current(&args[0]);
-    match property(image, &current, "NAME") {
-        Some(name) => done(name),
-        None => {
-            simulation.log(
-                image,
-                LogLevel::Debug,
-                "(PP-TUT GET-OBJ-NAME)",
-                "an object has no name before it is perceived",
-            );
-            done(Value::NIL)
-        }
-    }
+    object: &Value,
+) -> Option<Value> {
+    get_obj_name(simulation, image, object)
 }
 
+/// The transform from one frame to another.
+#[builtin]
 fn look_up_transformation(
     simulation: &mut Simulation,
     image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let frame = |value: &Value| match value {
-        Value::Str(text) => Ok(text.text()),
-        other => Err(Raise::type_error(other, known::STRING)),
-    };
-    let (parent, child) = (frame(&args[0])?, frame(&args[1])?);
+    parent: &Rc<LispString>,
+    child: &Rc<LispString>,
+) -> Result<Value> {
+    let (parent, child) = (parent.text(), child.text());
     let from = simulation.frame_in_map(image, &parent)?;
     let to = simulation.frame_in_map(image, &child)?;
-    done(transform_stamped(&parent, &child, &(from.inverse() * to)))
+    Ok(transform_stamped(&parent, &child, &(from.inverse() * to)))
 }
 
 #[cfg(test)]

@@ -5,85 +5,43 @@ use crate::audience::Audience;
 use crate::person::Person;
 use crate::simulation::Simulation;
 use cram::Reply;
-use lisp::image::Image;
-use lisp::value::Value;
-use lisp::value::raise::Raise;
-
-/// A function that acts on the host.
-pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
+use lisp::typed::{self, Owner};
 
 /// The request to call a function on the host.
-pub(crate) struct HostCall {
-    /// The function.
-    pub call: HostFn,
-    /// Its arguments.
-    pub args: Vec<Value>,
-    /// Does it change the world otherwise than the robot could, or open a door to the outside?
-    pub is_edit: bool,
-}
+pub(crate) type HostCall = typed::HostCall<SimulationHost>;
 
-/// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
-pub(crate) trait Owner {
-    /// That part of the host.
-    fn of(host: &mut SimulationHost) -> &mut Self;
+impl typed::Host for SimulationHost {
+    type Reply = Reply;
 }
 
 impl Owner for SimulationHost {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         host
     }
 }
 
 impl Owner for Simulation {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.simulation
     }
 }
 
 impl Owner for Person {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.person
     }
 }
 
 impl Owner for Audience {
+    type Host = SimulationHost;
+
     fn of(host: &mut SimulationHost) -> &mut Self {
         &mut host.audience
     }
-}
-
-/// A control builtin that requests a call of a function, whose first parameter determines the
-/// [`Owner`] that it acts on.
-macro_rules! host {
-    ($function:path) => {
-        $crate::host::call::host!($function, false)
-    };
-    ($function:path, $is_edit:expr) => {
-        |_, args| {
-            Ok(lisp::vm::step::Step::request(
-                $crate::host::call::HostCall {
-                    call: |host, image, args| {
-                        $function($crate::host::call::Owner::of(host), image, args)
-                    },
-                    args,
-                    is_edit: $is_edit,
-                },
-            ))
-        }
-    };
-}
-pub(crate) use host;
-
-/// The same for a function that a closed session refuses: it changes the world otherwise than the robot
-/// could, or opens a door to the outside.
-macro_rules! edit {
-    ($function:path) => {
-        $crate::host::call::host!($function, true)
-    };
-}
-pub(crate) use edit;
-
-/// The reply of a completed call.
-pub(crate) fn done(value: impl Into<Value>) -> Result<Reply, Box<Raise>> {
-    Ok(Reply::Now(Ok(value.into())))
 }

@@ -22,13 +22,13 @@ use lisp::image::Image;
 use lisp::value::copy::Copier;
 
 /// Everything outside Lisp that a task can use.
-pub(crate) struct SimulationHost {
+pub struct SimulationHost {
     /// The robot in its world.
-    pub simulation: Simulation,
+    pub(crate) simulation: Simulation,
     /// The state of the prompt.
     pub(crate) person: Person,
     /// The outputs that show the session.
-    pub audience: Audience,
+    pub(crate) audience: Audience,
     /// The limits of the evaluation under way.
     pub(crate) bounds: Bounds,
     /// Are edits of the world refused?
