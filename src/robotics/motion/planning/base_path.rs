@@ -47,6 +47,9 @@ pub(crate) const MIN_MARGIN: f64 = RESOLUTION / 2.0;
 const NO_MARGIN_WITHIN: f64 = 0.35;
 /// Between two checked poses no part of the robot moves by more than this (m).
 const RESOLUTION: f64 = 0.01;
+/// The same where no margin is kept and something is nearer than [`MIN_MARGIN`]: what a corner may cut off another one
+/// between two such poses is less than the overlap at which a step is refused.
+const FINE_RESOLUTION: f64 = 0.001;
 /// Lattice spacings (m) with the clearance (m) that is kept, in the order in which they are tried.
 const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, MIN_MARGIN)];
 
@@ -115,12 +118,17 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     /// What blocks the pose.
     pub(super) fn place(&mut self, p: &BasePlace) -> Option<P> {
         interruption::look();
-        let margin = if is_near(p, &self.start) || self.depends_on_goal(p) {
-            0.0
-        } else {
+        let margin = if self.keeps_margin(p) {
             self.margin
+        } else {
+            0.0
         };
         (self.blocked)(p, margin)
+    }
+
+    /// Whether a margin is kept at the pose.
+    fn keeps_margin(&self, p: &BasePlace) -> bool {
+        !is_near(p, &self.start) && !self.depends_on_goal(p)
     }
 
     /// Whether it may depend on the goal what blocks a pose.
@@ -166,6 +174,27 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
                 }
             }
             stride /= 2;
+        }
+        self.cut(from, to, parts)
+    }
+
+    /// What a part of the robot cuts off between the poses of a straight leg, so many parts of which have been checked,
+    /// where no margin is kept.
+    fn cut(&mut self, from: &BasePlace, to: &BasePlace, parts: usize) -> Option<P> {
+        const FINE: usize = (RESOLUTION / FINE_RESOLUTION) as usize;
+        let at = |i: usize| between(from, to, i as f64 / (FINE * parts) as f64);
+        let mut was_close = false;
+        for i in 0..=parts {
+            let place = at(FINE * i);
+            let is_close =
+                !self.keeps_margin(&place) && (self.blocked)(&place, MIN_MARGIN).is_some();
+            if i > 0 && (was_close || is_close) {
+                let mut between = FINE * (i - 1) + 1..FINE * i;
+                if let Some(p) = between.find_map(|i| (self.blocked)(&at(i), 0.0)) {
+                    return Some(p);
+                }
+            }
+            was_close = is_close;
         }
         None
     }
@@ -379,6 +408,34 @@ mod tests {
         }
         let result = find([2.0, 0.0, 0.0], gap(0.203));
         assert!(matches!(result, Err(BasePathFailure::Enclosed { .. })));
+    }
+
+    /// Near the start no margin is kept, and poses are a centimetre apart.
+    #[test]
+    fn a_corner_near_the_start_is_not_cut_between_two_poses() {
+        // Two corners that pass each other, each as sharp as that of a square that is turned by 45 degrees.
+        let overlap = |p: &BasePlace| {
+            let corner = (p[0] + 1.905).abs() + (p[1] - 0.1965).abs();
+            let farther_out = (p[0] + 1.905).abs() + (p[1] - 1.0).abs();
+            0.2 - corner.min(farther_out)
+        };
+        let goal = [2.0, 0.0, 0.0];
+        let mut blocked = |p: &BasePlace, margin: f64| (overlap(p) > -margin).then_some("corner");
+        let explored = &mut ExploredGrids::default();
+        let path = find_base_path(
+            [-2.0, 0.0, 0.0],
+            goal,
+            (OMNIDIRECTIONAL, ROOM),
+            0.7,
+            explored,
+            &mut blocked,
+        );
+        for leg in path.unwrap().windows(2) {
+            for i in 0..=4000 {
+                let place = between(&leg[0], &leg[1], f64::from(i) / 4000.0);
+                assert!(overlap(&place) < 0.0008, "{place:?}: {}", overlap(&place));
+            }
+        }
     }
 
     #[test]
