@@ -85,12 +85,12 @@ impl ReachMap {
         })
     }
 
-    /// Whether the tip may be at a pose in the frame of the arm's base.
+    /// Whether the tip may be at a pose in the frame of the arm's base. What is beyond the map may be within reach.
     pub(super) fn holds(&self, tip: &Pose) -> bool {
         let hand = self.hand(tip);
         let cells = self.cells.get_or_init(|| self.map());
         let (Some(radius), Some(level)) = (hand.radius_cell(), hand.level_cell()) else {
-            return false;
+            return true;
         };
         let bit = 1 << part(hand.direction, DIRECTIONS);
         let at = index(radius, level, hand.tilt_cell(), part(hand.turn, TURNS));

@@ -110,7 +110,7 @@ impl<'a> TorsoSearch<'a> {
     /// lift's limits; `None` if only each height can be asked. Few that it reaches are missed.
     pub(crate) fn any_height_reaches(&self, wrist: &Pose) -> Option<bool> {
         let lifted = self.arm.on_lift.as_ref()?;
-        Some(lifted.reaches(&self.in_arm_base(wrist, 0.0)))
+        Some(lifted.reaches_soon(&self.in_arm_base(wrist, 0.0)))
     }
 
     /// All heights (m) that are tried, in order.
