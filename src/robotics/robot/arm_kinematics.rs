@@ -169,14 +169,22 @@ impl ArmKinematics {
         }
     }
 
-    /// The arm on a lift that moves its base along a direction (m per m of the lift, frame of the base): it tells of all
-    /// heights at once what is out of reach. `None` for an arm that is solved in closed form, which tells that sooner of
-    /// each height, or that has no room for another joint.
-    pub(super) fn on_lift(&self, rise: &Vector3<f64>, limits: Limits) -> Option<NumericKinematics> {
-        match &self.solver {
-            Solver::ClosedForm(_) => None,
-            Solver::Numeric(solver) => solver.on_lift(rise, limits),
-        }
+    /// The chain to the tip from a link below the lift that raises the arm: it tells of all heights at once what is out of
+    /// reach. `None` for an arm that is solved in closed form, which tells that sooner of each height, or has too few
+    /// joints for poses in general, and if there is no such chain of at most eight joints.
+    pub(super) fn with_lift(
+        &self,
+        tree: &KinematicTree,
+        (below, tip): (LinkId, LinkId),
+        lift: JointId,
+    ) -> Option<NumericKinematics> {
+        let Solver::Numeric(solver) = &self.solver else {
+            return None;
+        };
+        let lifted = NumericKinematics::new(tree, below, tip).ok()?;
+        let (first, arm) = lifted.joints().split_first()?;
+        let is_lift = solver.is_general() && *first == lift && arm == solver.joints();
+        is_lift.then_some(lifted)
     }
 }
 

@@ -81,19 +81,6 @@ impl Torso {
         self.joint.map_or(0.0, |joint| q.get(joint))
     }
 
-    /// How a link above the frame on the floor moves with the height (m per m, frame of the link).
-    pub(super) fn rise(&self, tree: &KinematicTree, frame: LinkId, link: LinkId) -> Vector3<f64> {
-        let at = |height: f64| {
-            let mut q = tree.zero_positions();
-            self.set_height(&mut q, height);
-            tree.relative_pose(frame, link, &q)
-                .unwrap_or_else(Pose::identity)
-        };
-        let lowest = at(0.0);
-        let way = at(1.0).translation.vector - lowest.translation.vector;
-        lowest.rotation.inverse() * way
-    }
-
     /// Sets its height (m), if it has a lift.
     pub fn set_height(&self, q: &mut JointPositions, height: f64) {
         if let Some(joint) = self.joint {
@@ -167,9 +154,9 @@ pub struct Arm {
     pub tool_axes: UnitQuaternion<f64>,
     /// Inverse kinematics from `base` to `wrist`.
     pub kinematics: ArmKinematics,
-    /// The same with the lift of the torso as its first joint, where it is solved numerically and there is one: positions
-    /// of its base are those with the torso at height 0.
-    pub(super) on_lift: Option<NumericKinematics>,
+    /// The same from the base's frame on the floor, with the lift of the torso as its first joint, where the arm is
+    /// solved numerically and there is one.
+    pub(super) with_lift: Option<NumericKinematics>,
     /// Where it may bring its hand, if it is solved numerically.
     pub(super) map: Option<ReachMap>,
     /// Named joint positions, in the order of the file.

@@ -430,7 +430,9 @@ impl<'a> Reader<'a> {
         let tool_offset = record.required("tool-offset")?.number()?;
         let (tool_axes, ahead) = rotation(record.required("tool-axes")?)?;
         let kinematics = kinematics.with_tool_at(ahead * tool_offset);
-        let rise = torso.rise(self.tree, base.frame, base_link);
+        let with_lift = torso
+            .joint
+            .and_then(|lift| kinematics.with_lift(self.tree, (base.frame, wrist_link), lift));
         Ok(Arm {
             side,
             base: base_link,
@@ -442,7 +444,7 @@ impl<'a> Reader<'a> {
             start: *start,
             payload: optional_positive(record, "payload")?,
             map: kinematics.map(ahead * tool_offset),
-            on_lift: kinematics.on_lift(&rise, torso.limits),
+            with_lift,
             kinematics,
             postures,
             gripper: self.gripper(side)?,

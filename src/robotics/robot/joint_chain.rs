@@ -210,33 +210,6 @@ impl JointChain {
         })
     }
 
-    /// The same chain behind a lift that moves its base along a direction (m per m of the lift, frame of the base);
-    /// `None` if there are too many joints for that.
-    pub(super) fn on_lift(&self, rise: &Vector3<f64>, limits: Limits) -> Option<Self> {
-        let mut chain = self.clone();
-        let first = *chain.joints.first()?;
-        if chain.joints.len() == MOST_ARM_JOINTS {
-            return None;
-        }
-        // Nobody asks which joint the lift is.
-        chain.joints.insert(0, first);
-        chain.limits.insert(0, Some(limits));
-        chain.is_turn.insert(0, false);
-        for segment in &mut chain.segments {
-            segment.leader += 1;
-        }
-        let lift = ChainSegment {
-            origin: Pose::identity(),
-            axis: rise.try_normalize(1e-9)?,
-            slides: true,
-            leader: 0,
-            multiplier: rise.norm(),
-            offset: 0.0,
-        };
-        chain.segments.insert(0, lift);
-        Some(chain)
-    }
-
     /// The frame behind each moving joint, and the pose of the tip, all in the frame of the base.
     pub(super) fn frames(&self, positions: &[f64]) -> (Vec<Pose>, Pose) {
         let mut pose = Pose::identity();

@@ -9,6 +9,7 @@ pub(crate) mod arm_chain;
 pub mod arm_kinematics;
 pub mod arm_plane;
 pub mod arm_positions;
+mod chain_descent;
 mod chain_length;
 pub mod closed_form;
 pub mod derive;

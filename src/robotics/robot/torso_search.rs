@@ -109,8 +109,8 @@ impl<'a> TorsoSearch<'a> {
     /// Whether the arm reaches the wrist, which is given in the robot's frame on the floor, at some height within the
     /// lift's limits; `None` if only each height can be asked. Few that it reaches are missed.
     pub(crate) fn any_height_reaches(&self, wrist: &Pose) -> Option<bool> {
-        let lifted = self.arm.on_lift.as_ref()?;
-        Some(lifted.reaches_soon(&self.in_arm_base(wrist, 0.0)))
+        let lifted = self.arm.with_lift.as_ref()?;
+        Some(lifted.reaches_soon(wrist))
     }
 
     /// All heights (m) that are tried, in order.

@@ -467,7 +467,7 @@ fn how_fast_chains_are_solved() {
         arms.push((format!("{name} {}", arm.joints().len()), arm));
     }
     println!(
-        "chain       found  median    p95    p99 us, reaches  median  misses  median us, solutions  median number, us"
+        "chain       found  median    p95    p99 us, reaches  median, soon  misses  median  reaches     soon us, solutions  median number, us"
     );
     for (name, arm) in arms {
         let mut postures = Postures::new();
@@ -489,6 +489,7 @@ fn how_fast_chains_are_solved() {
         };
         let (found, [median, p95, p99]) = timed(&|goal| arm.nearest(goal, &seed).is_ok(), &goals);
         let (reached, [reach, ..]) = timed(&|goal| arm.reaches(goal), &goals);
+        let (soon, _) = timed(&|goal| arm.reaches_soon(goal), &goals);
         let turned: Vec<_> = goals
             .iter()
             .map(|g| g * from_xyz_rpy([0.0, 0.0, 0.3], [1.0, 0.5, 2.0]))
@@ -498,10 +499,15 @@ fn how_fast_chains_are_solved() {
             .filter(|g| matches!(arm.nearest(g, &seed), Err(Miss::NotFound { .. })))
             .take(100)
             .collect();
-        let miss = match misses.is_empty() {
+        let missed = |work: &dyn Fn(&Pose) -> bool| match misses.is_empty() {
             true => f64::NAN,
-            false => timed(&|goal| arm.nearest(goal, &seed).is_ok(), &misses).1[0],
+            false => timed(work, &misses).1[0],
         };
+        let miss = missed(&|goal| arm.nearest(goal, &seed).is_ok());
+        let [vain, hasty] = [
+            missed(&|goal| arm.reaches(goal)),
+            missed(&|goal| arm.reaches_soon(goal)),
+        ];
         let many: usize = goals[..50]
             .iter()
             .map(|goal| arm.solutions(goal, 0.2).len())
@@ -509,7 +515,7 @@ fn how_fast_chains_are_solved() {
         let (_, [solutions, ..]) =
             timed(&|goal| !arm.solutions(goal, 0.2).is_empty(), &goals[..50]);
         println!(
-            "{name:10} {found:6} {median:7.1} {p95:6.1} {p99:6.1}     {reached:7} {reach:7.1} {:7} {miss:10.1}  {:12.1} {solutions:8.1}",
+            "{name:10} {found:6} {median:7.1} {p95:6.1} {p99:6.1}     {reached:7} {reach:7.1} {soon:5} {:7} {miss:7.1} {vain:8.1} {hasty:8.1}  {:12.1} {solutions:8.1}",
             misses.len(),
             many as f64 / 50.0
         );
