@@ -464,6 +464,32 @@ fn saved_and_replayed(talk: &mut Talk, name: &str) -> String {
     saved
 }
 
+/// More than one block of what is packed together, each with inputs that show much and one that shows nothing.
+#[test]
+fn a_long_session_is_saved_whole() {
+    let mut talk = Talk::new();
+    for number in 0..60 {
+        talk.say(&format!(
+            "(dotimes (i 300) (format t \"~a of {number}: é~%\" (* i {number})))"
+        ));
+        talk.say("(values)");
+    }
+    let saved = saved_and_replayed(&mut talk, "long");
+    assert!(saved.len() > 3 * (64 << 10), "{} bytes", saved.len());
+    let mut rest = saved.as_str();
+    for number in 0..60 {
+        for part in [
+            format!("PP-TUT> (dotimes (i 300) (format t \"~a of {number}: "),
+            format!("{} of {number}: é\nNIL\n\nPP-TUT> (values)\n", 299 * number),
+        ] {
+            let at = rest
+                .find(&part)
+                .unwrap_or_else(|| panic!("{part} is missing"));
+            rest = &rest[at + part.len()..];
+        }
+    }
+}
+
 #[test]
 fn what_was_typed_in_the_debugger_is_saved_and_replayed() {
     let mut talk = Talk::new();

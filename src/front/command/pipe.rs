@@ -11,7 +11,7 @@ use crate::prompt::{Doubt, JournalError, Keeper, Opened, Resumed, excerpt, resum
 use lisp::files::{MAX_PLAN_BYTES, permit_plan_length};
 use lisp::visible::visible;
 use session::dialogue::screen::input_name;
-use session::dialogue::{Converse, Outcome, Repeat, Screen, evaluate_on, is_whole};
+use session::dialogue::{Converse, GrowingInput, Outcome, Repeat, Screen, evaluate_on};
 
 /// Takes inputs as the prompt would, each as soon as it is complete, and prints what the prompt
 /// would print. Continues after an unhandled condition. Keeps a journal only if the user asks
@@ -83,9 +83,10 @@ fn evaluate_lines(
 ) -> Result<Status, CommandError> {
     let mut status = Status::Good;
     let mut text = String::new();
+    let mut input = GrowingInput::default();
     loop {
         let at_end = read_line(&mut lines, &mut text)? == 0;
-        if !at_end && !is_whole(&text) {
+        if !at_end && !input.is_whole(&text) {
             continue;
         }
         if !text.trim().is_empty() {
@@ -105,6 +106,7 @@ fn evaluate_lines(
             return Ok(status);
         }
         text.clear();
+        input = GrowingInput::default();
     }
 }
 

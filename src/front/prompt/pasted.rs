@@ -2,11 +2,12 @@
 //! forms from output.
 
 use std::borrow::Cow;
+use std::mem;
 
 use crate::transcript::Transcript;
 use lisp::reader::{Lexer, TokenKind};
 use session::dialogue::prompt_line::prompt_line;
-use session::dialogue::{ends_in_quotes, is_whole};
+use session::dialogue::{GrowingInput, is_whole};
 
 /// The inputs found in text typed or pasted at the prompt.
 #[derive(PartialEq, Eq, Debug, Default)]
@@ -97,6 +98,7 @@ impl<'a> Inputs<'a> {
 /// line that has a prompt and a form.
 fn first_prompt(text: &str) -> Option<usize> {
     let mut start = 0;
+    let mut input = GrowingInput::default();
     for line in text.split_inclusive('\n') {
         let before = text.get(..start)?;
         let content = line.trim_end_matches(['\r', '\n']);
@@ -106,10 +108,10 @@ fn first_prompt(text: &str) -> Option<usize> {
         };
         if let Some(has_form) = is_prompt(content.trim_start()) {
             let is_indented = content.starts_with([' ', '\t']);
-            if is_whole(before) && (has_form || !is_indented) {
+            if input.is_whole(before) && (has_form || !is_indented) {
                 return Some(start);
             }
-            if has_form && !ends_in_quotes(before) {
+            if has_form && !input.ends_in_quotes(before) {
                 return Some(start);
             }
         }
@@ -205,9 +207,8 @@ fn forms_among(lines: &[String]) -> (Vec<String>, Vec<String>) {
     let mut at = 0;
     while let Some(line) = lines.get(at) {
         let rest = lines.get(at..).unwrap_or_default();
-        let ends = (1..=rest.len()).find(|count| is_whole(&rest[..*count].join("\n")));
-        let text = ends.map(|count| rest[..count].join("\n"));
-        match text.filter(|text| line.starts_with('(') && is_written(text)) {
+        let text = line.starts_with('(').then(|| first_input(rest)).flatten();
+        match text.filter(|text| is_written(text)) {
             Some(text) => {
                 at += text.lines().count();
                 forms.push(text);
@@ -221,6 +222,19 @@ fn forms_among(lines: &[String]) -> (Vec<String>, Vec<String>) {
         }
     }
     (forms, output)
+}
+
+/// The first complete input of some lines.
+fn first_input(lines: &[String]) -> Option<String> {
+    let mut text = String::new();
+    let mut input = GrowingInput::default();
+    lines.iter().find_map(|line| {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text.push_str(line);
+        input.is_whole(&text).then(|| mem::take(&mut text))
+    })
 }
 
 /// Whether a text consists of lists that may be forms, at least the first written by somebody: what

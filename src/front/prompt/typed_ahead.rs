@@ -12,7 +12,7 @@ use rustyline::{
     Modifiers, RepeatCount,
 };
 
-use session::dialogue::is_whole;
+use session::dialogue::GrowingInput;
 use session::dialogue::prompt_line::prompt_line;
 
 /// Ctrl-C among what was typed.
@@ -213,7 +213,8 @@ impl TypedAhead {
         } else {
             let ends = lines.match_indices('\n').map(|(at, _)| at + 1);
             let mut chunks = ends.filter_map(|end| lines.get(..end));
-            chunks.find(|chunk| is_whole(chunk))
+            let mut input = GrowingInput::default();
+            chunks.find(|chunk| input.is_whole(chunk))
         };
         match input {
             Some(input) => {

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::markdown::session_blocks;
+use session::dialogue::GrowingInput;
 use session::dialogue::prompt_line::{PromptLine, prompt_line};
-use session::dialogue::{ends_in_quotes, is_whole};
 
 /// A file of inputs, each with its expected output.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -67,43 +67,72 @@ fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
     let mut found = Vec::new();
     let mut index = 0;
     while let Some((number, prompt)) = prompts.get(index) {
-        let input_before = |next| input(lines, *number, prompt.input, end_before(next)).0;
-        let mut next = index + 1;
-        // A line within a string may look like a prompt.
-        while next < prompts.len() && ends_in_quotes(&input_before(next)) {
-            next += 1;
-        }
-        if !is_whole(&input_before(next)) {
-            next = index + 1;
-        }
-        found.push(entry(lines, *number, *prompt, end_before(next)));
-        index = next;
+        let (input, line) = input(
+            lines,
+            *number,
+            prompt.input,
+            &prompts[index + 1..],
+            block.end,
+        );
+        index += prompts[index..].partition_point(|(number, _)| *number < line);
+        found.push(entry(
+            lines,
+            *number,
+            *prompt,
+            input,
+            line..end_before(index),
+        ));
     }
     found
 }
 
-/// The input whose prompt is on line `number`, up to the line that completes it but before line
-/// `end`; and the line after it.
-fn input(lines: &[String], number: usize, first: &str, end: usize) -> (String, usize) {
+/// The input whose prompt is on line `number`, up to the line that completes it or before the next prompt or line
+/// `end`; and the line after it. An input that is incomplete at the next prompt ends there; reading it then fails.
+fn input(
+    lines: &[String],
+    number: usize,
+    first: &str,
+    prompts: &[(usize, PromptLine<'_>)],
+    end: usize,
+) -> (String, usize) {
+    let mut growing = GrowingInput::default();
     let mut input = first.to_owned();
-    let mut next = number + 1;
-    while !is_whole(&input) {
+    let mut prompts = prompts.iter().map(|(number, _)| *number).peekable();
+    // Where the input ends if nothing completes it.
+    let mut at_first_prompt = None;
+    for next in number + 1.. {
+        if growing.is_whole(&input) {
+            return (input, next);
+        }
+        if prompts.next_if_eq(&next).is_some() {
+            at_first_prompt.get_or_insert((input.len(), next));
+            // A line within a string may look like a prompt.
+            if !growing.ends_in_quotes(&input) {
+                break;
+            }
+        }
         let Some(line) = lines.get(next).filter(|_| next < end) else {
+            at_first_prompt.get_or_insert((input.len(), next));
             break;
         };
         input.push('\n');
         input.push_str(line);
-        next += 1;
     }
+    let (length, next) = at_first_prompt.unwrap_or((input.len(), end));
+    input.truncate(length);
     (input, next)
 }
 
-/// The entry whose prompt is on line `number`; the next prompt is on line `end`.
-///
-/// An input that is incomplete at the next prompt ends there; reading it then fails.
-fn entry(lines: &[String], number: usize, prompt: PromptLine<'_>, end: usize) -> Entry {
-    let (input, next) = input(lines, number, prompt.input, end);
-    let following = lines.get(next..end).unwrap_or_default();
+/// The entry whose prompt is on line `number`, with what is expected on further lines.
+fn entry(
+    lines: &[String],
+    number: usize,
+    prompt: PromptLine<'_>,
+    input: String,
+    following: Range<usize>,
+) -> Entry {
+    let next = following.start;
+    let following = lines.get(following).unwrap_or_default();
     let expected = without_blank_end(following.iter().map(String::as_str));
     let expected_at = next..next + expected.len();
     Entry {

@@ -1,6 +1,7 @@
 //! Does a text consist of whole forms? The prompt asks this to know whether to read on.
 
-use super::lexer::{Lexer, TokenKind};
+use super::flattened::unbalanced_depth;
+use super::lexer::{Lexer, Token, TokenKind};
 
 /// How far a text goes towards whole forms.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,7 +22,28 @@ pub enum Completeness {
     },
 }
 
+/// Tells whether a text consists of whole forms.
+pub fn is_complete(text: &str) -> Completeness {
+    Scanner::default().scan(text)
+}
+
+/// Tells of a text that grows by whole lines, again and again, whether it consists of whole forms. All
+/// answers together take time that grows with the text alone.
+#[derive(Default, Debug)]
+pub struct Scanner {
+    /// The byte up to which the text has been read.
+    read: usize,
+    open: Vec<Open>,
+    /// How many lists are open.
+    depth: usize,
+    /// The string, block comment or symbol in bars that was open at the end.
+    cut_off: Option<CutOff>,
+    unmatched: Option<usize>,
+    lost: Lost,
+}
+
 /// What is not finished yet.
+#[derive(Debug)]
 enum Open {
     List {
         at: usize,
@@ -33,72 +55,158 @@ enum Open {
     },
 }
 
-/// Tells whether a text consists of whole forms.
-pub fn is_complete(text: &str) -> Completeness {
-    let mut open: Vec<Open> = Vec::new();
-    for token in Lexer::new(text) {
-        if !token.is_closed {
-            return incomplete(&open, token.start);
+/// A token that the end of the text cuts off.
+#[derive(Debug)]
+struct CutOff {
+    at: usize,
+    /// It stays so as long as this does not come.
+    closing: &'static str,
+    /// The byte up to which the text has been searched for that.
+    searched: usize,
+}
+
+/// The parentheses in comments that do not balance there, so that they may be lost code.
+#[derive(Default, Debug)]
+struct Lost {
+    is_any: bool,
+    /// How many more of them open than close.
+    depth: i64,
+    /// Whether quotes among them may change the meaning of all that follows.
+    has_quotes: bool,
+}
+
+impl Scanner {
+    /// Tells whether the text consists of whole forms. It is the text of the last time, and further lines: a line
+    /// break stands where that ended.
+    pub fn scan(&mut self, text: &str) -> Completeness {
+        if let Some(cut_off) = &mut self.cut_off {
+            let more = text.get(cut_off.searched..).unwrap_or_default();
+            if !more.contains(cut_off.closing) {
+                cut_off.searched = text.len();
+                return self.state();
+            }
+            self.cut_off = None;
         }
+        for token in Lexer::at(text, self.read) {
+            if self.unmatched.is_some() {
+                break;
+            }
+            if !token.is_closed {
+                self.cut_off = CutOff::of(&token, text);
+                return self.incomplete(token.start);
+            }
+            self.read = token.end;
+            self.take(&token, text);
+        }
+        self.state()
+    }
+
+    /// Whether the text of the last time, which was incomplete, may be whole with the lists that its comments have
+    /// perhaps swallowed. If not, it is certainly not.
+    pub fn may_have_lost_code(&self) -> bool {
+        let balances = self.cut_off.is_none() && self.lost.depth + self.depth as i64 == 0;
+        self.lost.is_any && (self.lost.has_quotes || balances)
+    }
+
+    /// What is known without a token at the end that is cut off but for its place.
+    fn state(&self) -> Completeness {
+        if let Some(at) = self.unmatched {
+            return Completeness::Unmatched { at };
+        }
+        let cut_off = self.cut_off.as_ref().map(|cut_off| cut_off.at);
+        let innermost = self.open.last().map(|open| match open {
+            Open::List { at } | Open::Prefix { at, .. } => *at,
+        });
+        match cut_off.or(innermost) {
+            Some(opened_at) => self.incomplete(opened_at),
+            None => Completeness::Complete,
+        }
+    }
+
+    fn incomplete(&self, opened_at: usize) -> Completeness {
+        Completeness::Incomplete {
+            opened_at,
+            depth: self.depth,
+        }
+    }
+
+    /// Takes a token that is closed.
+    fn take(&mut self, token: &Token, text: &str) {
         let at = token.start;
         match token.kind {
-            TokenKind::LineComment | TokenKind::BlockComment => {}
-            TokenKind::Open => open.push(Open::List { at }),
-            TokenKind::Dispatch { letter: '(', .. } => open.push(Open::List { at }),
+            TokenKind::LineComment => {
+                let comment = text.get(at..token.end).unwrap_or_default();
+                if let Some(depth) = unbalanced_depth(comment) {
+                    self.lost.is_any = true;
+                    self.lost.depth += depth;
+                    self.lost.has_quotes |= comment.contains(['"', '|', '\\']);
+                }
+            }
+            TokenKind::BlockComment => {}
+            TokenKind::Open | TokenKind::Dispatch { letter: '(', .. } => {
+                self.open.push(Open::List { at });
+                self.depth += 1;
+            }
             TokenKind::Close => {
                 // A quote right before the parenthesis is an error, which the parser reports.
-                while matches!(open.last(), Some(Open::Prefix { .. })) {
-                    open.pop();
+                while matches!(self.open.last(), Some(Open::Prefix { .. })) {
+                    self.open.pop();
                 }
-                if open.pop().is_none() {
-                    return Completeness::Unmatched { at };
+                if self.open.pop().is_none() {
+                    self.unmatched = Some(at);
+                    return;
                 }
-                finish_datum(&mut open);
+                self.depth -= 1;
+                self.finish_datum();
             }
             TokenKind::Quote
             | TokenKind::Backquote
             | TokenKind::Comma
             | TokenKind::CommaAt
-            | TokenKind::CommaDot => open.push(Open::Prefix { at, missing: 1 }),
+            | TokenKind::CommaDot => self.open.push(Open::Prefix { at, missing: 1 }),
             TokenKind::Dispatch { letter, .. } => {
                 let missing = if matches!(letter, '+' | '-') { 2 } else { 1 };
-                open.push(Open::Prefix { at, missing });
+                self.open.push(Open::Prefix { at, missing });
             }
             TokenKind::String
             | TokenKind::Character
             | TokenKind::Atom
-            | TokenKind::Prefixed { .. } => finish_datum(&mut open),
+            | TokenKind::Prefixed { .. } => self.finish_datum(),
         }
     }
-    match open.last() {
-        None => Completeness::Complete,
-        Some(Open::List { at } | Open::Prefix { at, .. }) => incomplete(&open, *at),
+
+    fn finish_datum(&mut self) {
+        while let Some(Open::Prefix { missing, .. }) = self.open.last_mut() {
+            *missing -= 1;
+            if *missing > 0 {
+                return;
+            }
+            self.open.pop();
+        }
     }
 }
 
-fn finish_datum(open: &mut Vec<Open>) {
-    while let Some(Open::Prefix { missing, .. }) = open.last_mut() {
-        *missing -= 1;
-        if *missing > 0 {
-            return;
-        }
-        open.pop();
-    }
-}
-
-fn incomplete(open: &[Open], opened_at: usize) -> Completeness {
-    Completeness::Incomplete {
-        opened_at,
-        depth: open
-            .iter()
-            .filter(|o| matches!(o, Open::List { .. }))
-            .count(),
+impl CutOff {
+    /// What the end of a text has cut off of a token; `None` if that ends with the line.
+    fn of(token: &Token, text: &str) -> Option<CutOff> {
+        let closing = match token.kind {
+            TokenKind::String => "\"",
+            TokenKind::BlockComment => "|#",
+            _ if text.ends_with('\\') || text.ends_with('#') => return None,
+            _ => "|",
+        };
+        Some(CutOff {
+            at: token.start,
+            closing,
+            searched: text.len(),
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use crate::reader::completeness::*;
+    use crate::reader::flattened::unflattened;
 
     #[test]
     fn whole_forms_are_complete() {
@@ -133,5 +241,60 @@ mod tests {
             }
         );
         assert_eq!(is_complete("a) b"), Completeness::Unmatched { at: 1 });
+    }
+
+    #[test]
+    fn a_text_that_grows_is_seen_as_if_it_were_new() {
+        let parts = [
+            "(",
+            ")",
+            "a",
+            "'",
+            "\"",
+            "|",
+            "#|",
+            "|#",
+            "\\",
+            "#\\",
+            "#",
+            "#+",
+            "#(",
+            ";",
+            ";; see (b",
+            ";; x (b) ;; y )",
+            ";; \"(",
+            "\n",
+            "\n",
+            "\n",
+            " ",
+            ",",
+            ",@",
+            "é",
+        ];
+        let mut number = 1_u64;
+        let mut lost = 0;
+        for _ in 0..20_000 {
+            let mut text = String::new();
+            let mut scanner = Scanner::default();
+            for _ in 0..24 {
+                number = number
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                text.push_str(parts[(number >> 33) as usize % parts.len()]);
+                // Ends of lines, and lines that are not ended.
+                if !text.ends_with('\n') && number >> 62 == 0 {
+                    let found = scanner.scan(&text);
+                    assert_eq!(found, is_complete(&text), "{text:?}");
+                    if matches!(found, Completeness::Incomplete { .. })
+                        && unflattened(&text).is_some()
+                    {
+                        assert!(scanner.may_have_lost_code(), "{text:?}");
+                        lost += 1;
+                    }
+                    text.push('\n');
+                }
+            }
+        }
+        assert!(lost > 100, "{lost}");
     }
 }

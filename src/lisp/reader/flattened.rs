@@ -77,6 +77,8 @@ struct Held {
     swallowed: Swallowed,
     /// Whether parentheses are closed in it that are opened before it, or the reverse.
     is_unbalanced: bool,
+    /// How many more parentheses it opens than it closes.
+    depth: i64,
     /// Whether it is one of two semicolons, and another one begins in it.
     has_comment: bool,
     /// Whether there is nothing but whole lists between its comments.
@@ -130,6 +132,12 @@ pub fn last_swallowing_comment(text: &str) -> Option<Swallowed> {
         .into_iter()
         .rfind(|held| held.is_unbalanced)
         .map(|held| held.swallowed)
+}
+
+/// How many more parentheses a comment opens after its words than it closes, if they do not balance.
+pub(super) fn unbalanced_depth(comment: &str) -> Option<i64> {
+    let held = Held::of(comment, 0).filter(|held| held.is_unbalanced)?;
+    Some(held.depth)
 }
 
 /// The comments of a balanced text that hold whole forms and in all likelihood are not meant to.
@@ -206,6 +214,7 @@ impl Held {
                 breaks: Vec::new(),
             },
             is_unbalanced: false,
+            depth: 0,
             has_comment: is_double && breaks.len() > 1,
             has_only_lists: true,
             follows_code: false,
@@ -242,6 +251,7 @@ impl Held {
             }
             break;
         }
+        self.depth = depth;
         self.is_unbalanced |= depth != 0;
         self.has_only_lists &= !self.is_unbalanced;
     }

@@ -21,7 +21,7 @@ mod suggest;
 mod symbol;
 mod typed_array;
 
-pub use completeness::{Completeness, is_complete};
+pub use completeness::{Completeness, Scanner, is_complete};
 pub use error::{ReadError, ReadErrorKind};
 pub use lexer::{Lexer, Token, TokenKind};
 #[cfg(test)]

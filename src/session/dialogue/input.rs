@@ -1,24 +1,43 @@
 //! Detecting the end of an input.
 
 use lisp::reader::flattened::unflattened;
-use lisp::reader::{Completeness, is_complete};
+use lisp::reader::{Completeness, Scanner};
 
-/// Whether the text is a complete input. One with too many closing parentheses is complete,
-/// but wrong; one whose comments have swallowed what it lacks is complete, too.
+/// Whether the text is a complete input.
 pub fn is_whole(text: &str) -> bool {
-    !matches!(is_complete(text), Completeness::Incomplete { .. }) || unflattened(text).is_some()
+    GrowingInput::default().is_whole(text)
 }
 
-/// Whether the text ends inside a string, a block comment or a symbol in bars, so that whatever
-/// follows belongs to that.
+/// Whether the text ends inside a string, a block comment or a symbol in bars, so that whatever follows belongs to
+/// that.
 pub fn ends_in_quotes(text: &str) -> bool {
-    let Completeness::Incomplete { opened_at, .. } = is_complete(text) else {
-        return false;
-    };
-    let begin = text.get(opened_at..).unwrap_or_default();
-    ["\"", "|", "#|"]
-        .iter()
-        .any(|quote| begin.starts_with(quote))
+    GrowingInput::default().ends_in_quotes(text)
+}
+
+/// Tells of an input that comes line by line, after each line, whether it is complete.
+#[derive(Default)]
+pub struct GrowingInput {
+    scanner: Scanner,
+}
+
+impl GrowingInput {
+    /// Whether the text is a complete input, which is the text of the last time and further lines. One with too many
+    /// closing parentheses is complete, but wrong; one whose comments have swallowed what it lacks is complete, too.
+    pub fn is_whole(&mut self, text: &str) -> bool {
+        let is_open = matches!(self.scanner.scan(text), Completeness::Incomplete { .. });
+        !is_open || self.scanner.may_have_lost_code() && unflattened(text).is_some()
+    }
+
+    /// Whether the text ends inside a string, a block comment or a symbol in bars.
+    pub fn ends_in_quotes(&mut self, text: &str) -> bool {
+        let Completeness::Incomplete { opened_at, .. } = self.scanner.scan(text) else {
+            return false;
+        };
+        let begin = text.get(opened_at..).unwrap_or_default();
+        ["\"", "|", "#|"]
+            .iter()
+            .any(|quote| begin.starts_with(quote))
+    }
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pub use evaluate::{
 };
 pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub use illustrate::{Illustrate, Swept, Table};
-pub use input::{ends_in_quotes, is_whole};
+pub use input::{GrowingInput, ends_in_quotes, is_whole};
 pub use lambda_list::{current_parameter, parameters};
 pub use names::{
     Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,

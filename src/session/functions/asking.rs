@@ -278,6 +278,21 @@ pub(super) fn names_in(
         .collect()
 }
 
+/// The names in a list, and what the camera sees of these objects; `None` if there are none.
+fn sight_of<'s>(
+    simulation: &'s Simulation,
+    image: &mut Image,
+    names: &Value,
+    camera_pose: &Value,
+) -> Result<Option<(Vec<String>, Sight<'s>)>> {
+    let names = names_in(simulation, image, names)?;
+    if names.is_empty() {
+        return Ok(None);
+    }
+    let sight = look(simulation, image, &names, camera_pose)?;
+    Ok(Some((names, sight)))
+}
+
 /// What the robot's camera sees of objects, or one at the pose of an optical frame: a list of (name share
 /// outside occluders): the share of the object that is in sight (0 to 1), whether it is out of the picture at
 /// least in part, and the bodies in front of it.
@@ -290,11 +305,9 @@ fn sights(
     names: &Value,
     camera_pose: &Value,
 ) -> Result<Vec<Value>> {
-    let names = names_in(simulation, image, names)?;
-    if names.is_empty() {
+    let Some((names, sight)) = sight_of(simulation, image, names, camera_pose)? else {
         return Ok(Vec::new());
-    }
-    let sight = look(simulation, image, &names, camera_pose)?;
+    };
     let mut found = Vec::new();
     for name in &names {
         let visibility = sight.visibility(name).map_err(raise)?;
@@ -322,11 +335,9 @@ fn shares_in_sight(
     names: &Value,
     camera_pose: &Value,
 ) -> Result<Vec<Value>> {
-    let names = names_in(simulation, image, names)?;
-    if names.is_empty() {
+    let Some((names, sight)) = sight_of(simulation, image, names, camera_pose)? else {
         return Ok(Vec::new());
-    }
-    let sight = look(simulation, image, &names, camera_pose)?;
+    };
     let row = |name: &String| {
         let share = sight.share(name).map_err(raise)?;
         Ok(Value::list([

@@ -23,9 +23,9 @@ use robotics::world::Models;
 const MAX_FORMS: usize = 100;
 /// Maximum number of motions of the running form that have snapshots.
 const MAX_MOTIONS: usize = 64;
-/// The memory (bytes) that snapshots before forms may take, and those before motions, where that is fewer of them: about 60
+/// The memory (bytes) that snapshots before forms may take, and those before motions, where that is fewer of them: about 40
 /// forms in each of which much has moved, such as transports.
-const MAX_BYTES: usize = 3 << 20;
+const MAX_BYTES: usize = 2 << 20;
 /// How many there are whatever memory they take.
 pub(super) const MIN_SNAPSHOTS: usize = 8;
 

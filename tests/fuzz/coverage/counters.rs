@@ -1,5 +1,6 @@
 //! The compiler's counters: how often each edge of the code was taken.
 
+use std::mem;
 use std::slice;
 use std::sync::Mutex;
 
@@ -20,6 +21,11 @@ pub(crate) unsafe extern "C" fn __sanitizer_cov_8bit_counters_init(begin: *mut u
         places.push(place);
     }
 }
+
+/// How many counters are looked at together.
+const WIDTH: usize = 256;
+/// So many that have counted nothing.
+const NONE: [u8; WIDTH] = [0; WIDTH];
 
 /// What has been reached.
 pub(crate) struct Coverage {
@@ -51,36 +57,24 @@ impl Coverage {
         self.edges
     }
 
-    /// Sets all counters to zero.
-    pub(crate) fn clear(&self) {
-        for (begin, count) in &self.places {
-            // SAFETY: the compiler has given these bounds; the program's threads count there without order, and
-            // whatever they write meanwhile is a valid byte.
-            unsafe { (*begin as *mut u8).write_bytes(0, *count) };
-        }
-    }
-
-    /// Notes what has been reached since the counters were cleared; returns whether any of it is new.
+    /// Notes what has been reached since the last time, and sets all counters to zero; returns whether any of it
+    /// is new.
     pub(crate) fn note(&mut self) -> bool {
         let mut is_new = false;
         let mut at = 0;
         for (begin, count) in &self.places {
-            // SAFETY: as above.
-            let counters = unsafe { slice::from_raw_parts(*begin as *const u8, *count) };
+            // SAFETY: the compiler has given these bounds; the program's threads count there without order, and
+            // whatever they write meanwhile is a valid byte.
+            let counters = unsafe { slice::from_raw_parts_mut(*begin as *mut u8, *count) };
             let seen = &mut self.seen[at..at + count];
             at += count;
-            const WIDTH: usize = 64;
-            for (counters, seen) in counters.chunks(WIDTH).zip(seen.chunks_mut(WIDTH)) {
-                // Nearly all are zero, which words show faster than bytes.
-                let (words, rest) = counters.as_chunks::<8>();
-                let any = words
-                    .iter()
-                    .fold(0, |any, word| any | u64::from_ne_bytes(*word));
-                if any == 0 && rest.iter().all(|counter| *counter == 0) {
+            for (counters, seen) in counters.chunks_mut(WIDTH).zip(seen.chunks_mut(WIDTH)) {
+                // Nearly all are zero.
+                if *counters == NONE[..counters.len()] {
                     continue;
                 }
-                for (counter, seen) in counters.iter().zip(seen) {
-                    let range = range(*counter);
+                for (counter, seen) in counters.iter_mut().zip(seen) {
+                    let range = range(mem::take(counter));
                     if range & !*seen != 0 {
                         self.edges += usize::from(*seen == 0);
                         *seen |= range;

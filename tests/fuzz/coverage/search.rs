@@ -42,18 +42,31 @@ pub(crate) fn main() {
         std::process::exit(i32::from(wanted.is_some()) * 2);
     };
     keep_caught_panics_quiet();
-    thread::spawn(|| {
+    let position = under_way(target);
+    thread::spawn(move || {
         loop {
             let before = TAKEN.load(Ordering::Relaxed);
             thread::sleep(STUCK);
             if TAKEN.load(Ordering::Relaxed) == before {
-                println!("stuck: see target/fuzz/coverage/position");
+                println!("stuck: see {}", position.display());
                 std::process::abort();
             }
         }
     });
     let problems = with_large_stack(|| Search::new(target).run(Duration::from_secs(seconds)));
     std::process::exit(i32::from(problems > 0));
+}
+
+/// Where the inputs that have reached something are kept.
+fn folder(target: &Target) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../target/fuzz/coverage")
+        .join(target.name)
+}
+
+/// The file with the input under way, in case that it ends the process.
+fn under_way(target: &Target) -> PathBuf {
+    folder(target).with_extension("under-way")
 }
 
 struct Search<'t> {
@@ -70,14 +83,13 @@ struct Search<'t> {
 
 impl<'t> Search<'t> {
     fn new(target: &'t Target) -> Self {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../target/fuzz/coverage");
-        let folder = root.join(target.name);
+        let folder = folder(target);
         fs::create_dir_all(&folder).expect("a folder can be made");
         Self {
             target,
             coverage: Coverage::new(),
             kept: Vec::new(),
-            position: File::create(root.join("position")).expect("a file can be made"),
+            position: File::create(under_way(target)).expect("a file can be made"),
             folder,
             problems: BTreeSet::new(),
             read: 0,
@@ -159,7 +171,6 @@ impl<'t> Search<'t> {
         // If that fails, only the input that ends the process is lost.
         let _ = self.note(input);
         let begin = Instant::now();
-        self.coverage.clear();
         let taken = attempt(take, input);
         let is_new = self.coverage.note();
         TAKEN.fetch_add(1, Ordering::Relaxed);

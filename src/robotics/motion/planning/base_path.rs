@@ -318,6 +318,16 @@ mod tests {
         find_base_path(start, goal, (drive, ROOM), 0.7, explored, &mut blocked)
     }
 
+    /// A path for a base that drives in any direction, around what the closure finds.
+    fn find_around(
+        goal: BasePlace,
+        explored: &mut ExploredGrids,
+        blocked: &mut Check<'_, &'static str>,
+    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
+        let start = [-2.0, 0.0, 0.0];
+        find_base_path(start, goal, (OMNIDIRECTIONAL, ROOM), 0.7, explored, blocked)
+    }
+
     #[test]
     fn a_free_straight_way_is_taken() {
         let path = find([2.0, 0.0, 0.0], |_, _, _| false);
@@ -419,17 +429,8 @@ mod tests {
             let farther_out = (p[0] + 1.905).abs() + (p[1] - 1.0).abs();
             0.2 - corner.min(farther_out)
         };
-        let goal = [2.0, 0.0, 0.0];
         let mut blocked = |p: &BasePlace, margin: f64| (overlap(p) > -margin).then_some("corner");
-        let explored = &mut ExploredGrids::default();
-        let path = find_base_path(
-            [-2.0, 0.0, 0.0],
-            goal,
-            (OMNIDIRECTIONAL, ROOM),
-            0.7,
-            explored,
-            &mut blocked,
-        );
+        let path = find_around([2.0, 0.0, 0.0], &mut ExploredGrids::default(), &mut blocked);
         for leg in path.unwrap().windows(2) {
             for i in 0..=4000 {
                 let place = between(&leg[0], &leg[1], f64::from(i) / 4000.0);
@@ -470,14 +471,7 @@ mod tests {
                         *checks += 1;
                         touches(p, m, &wall).then_some("wall")
                     };
-                    find_base_path(
-                        [-2.0, 0.0, 0.0],
-                        goal,
-                        (OMNIDIRECTIONAL, ROOM),
-                        0.7,
-                        explored,
-                        &mut blocked,
-                    )
+                    find_around(goal, explored, &mut blocked)
                 };
                 let found = find(&mut explored, &mut checks[0]);
                 assert_eq!(
