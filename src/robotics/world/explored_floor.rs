@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use super::body_name::BodyName;
+use super::cell_set::CellSet;
 use super::part_key::PartKey;
 use super::robot_configuration::RobotConfiguration;
 use super::scene::World;
@@ -31,9 +32,9 @@ pub(crate) struct ExploredGrid {
     /// Whether each is free.
     pub cells: Vec<Known>,
     /// Which can be reached from where the robot is, if all of them have been found.
-    pub reached: Option<Vec<bool>>,
-    /// Which are known to be cut off from where the robot is; empty if none are.
-    pub cut_off: Vec<bool>,
+    pub reached: Option<CellSet>,
+    /// Which are known to be cut off from where the robot is.
+    pub cut_off: CellSet,
 }
 
 /// What is known of each of the grids that a search uses, in its order.

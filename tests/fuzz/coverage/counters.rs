@@ -57,6 +57,12 @@ impl Coverage {
         self.edges
     }
 
+    /// Forgets what has been reached.
+    pub(crate) fn forget(&mut self) {
+        self.seen.fill(0);
+        self.edges = 0;
+    }
+
     /// Notes what has been reached since the last time, and sets all counters to zero; returns whether any of it
     /// is new.
     pub(crate) fn note(&mut self) -> bool {

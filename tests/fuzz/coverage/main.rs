@@ -6,8 +6,9 @@
 //! tests/fuzz/coverage/run TARGET SECONDS
 //! ```
 //!
-//! Without a target, it names them. What has been kept stands in `target/fuzz/coverage/TARGET`, where the next
-//! run goes on; inputs that fail stand beside that folder.
+//! Without a target, it names them; `all` gives each its part of the time. What has been kept stands in
+//! `target/fuzz/coverage/TARGET`, where the next run goes on; beside that folder stand inputs that fail, the one
+//! under way and how many there have been in all runs.
 
 #[cfg(fuzzing)]
 mod counters;

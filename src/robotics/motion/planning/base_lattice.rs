@@ -19,7 +19,7 @@ use super::drive_legs::{self, BACK_COST, TURN_COST};
 use super::pages::Pages;
 use crate::motion::failure::base_place::BasePlace;
 use crate::robot::description::DriveKind;
-use crate::world::{ExploredGrid, Known};
+use crate::world::{CellSet, ExploredGrid, Known};
 use spatial::trig;
 
 /// Number of headings, and the angle (rad) between neighbouring ones.
@@ -123,7 +123,7 @@ pub(super) struct Lattice<'s, 'a, 'c, P> {
 /// The exploration of everything from which the goal can be reached.
 struct Backwards {
     queue: VecDeque<Cell>,
-    reached: Vec<bool>,
+    reached: CellSet,
     is_over: bool,
     /// Whether all cells of the first grid are known that can be reached from the start.
     is_last_word: bool,
@@ -264,15 +264,12 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     }
 
     /// Keeps that cells of the first grid cannot be reached from the start.
-    fn cut_off(&mut self, cells: &[bool]) {
+    fn cut_off(&mut self, cells: &CellSet) {
         if !self.keeps_reached() {
             return;
         }
-        let floor = self.explored.cells.len();
-        self.explored.cut_off.resize(floor, false);
-        for (kept, cell) in self.explored.cut_off.iter_mut().zip(cells) {
-            *kept |= cell;
-        }
+        self.explored.cut_off.extend(cells);
+        self.explored.cut_off.truncate(self.explored.cells.len());
     }
 
     /// Least cost from the pose to the goal if nothing were in the way.
@@ -343,10 +340,10 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         let size = self.known.len();
         let mut costs = Pages::new(size, f64::INFINITY);
         let mut parents = Pages::new(size, start);
-        let mut done = vec![false; size];
+        let mut done = CellSet::default();
         let mut backwards = Backwards {
             queue: VecDeque::from([goal]),
-            reached: vec![false; size],
+            reached: CellSet::default(),
             is_over: self.through,
             is_last_word: self.explored.reached.is_some(),
         };
@@ -364,7 +361,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         }]);
         let mut expanded = 0;
         while let Some(Candidate { cell, .. }) = open.pop() {
-            if std::mem::replace(&mut done[cell as usize], true) {
+            if !done.insert(cell as usize) {
                 continue;
             }
             if cell == goal {
@@ -378,7 +375,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             let next: Vec<_> = self.beside(cell).chain(self.across(cell)).collect();
             for (next, step) in next {
                 if so_far + step >= costs.get(next as usize)
-                    || done[next as usize]
+                    || done.contains(next as usize)
                     || self.bad_edges.contains(&(cell, next))
                 {
                     continue;
@@ -409,7 +406,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
 
     /// Expands one more cell from which the goal can be reached. Returns whether there may be a
     /// path to one of those that are done.
-    fn explore(&mut self, backwards: &mut Backwards, done: &[bool]) -> bool {
+    fn explore(&mut self, backwards: &mut Backwards, done: &CellSet) -> bool {
         if backwards.is_over {
             return true;
         }
@@ -417,21 +414,21 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             self.cut_off(&backwards.reached);
             return false;
         };
-        if done.get(cell as usize) == Some(&true) {
+        if done.contains(cell as usize) {
             backwards.is_over = true;
             return true;
         }
         // What is beside a cell that is cut off is cut off, too.
         let is_on_floor = cell < self.around_goal.first;
-        let is_cut_off =
-            backwards.is_last_word || self.explored.cut_off.get(cell as usize) == Some(&true);
+        let is_cut_off = backwards.is_last_word || self.explored.cut_off.contains(cell as usize);
         if is_on_floor && is_cut_off {
             return true;
         }
         let before: Vec<Cell> = self.beside(cell).map(|(next, _)| next).collect();
         for next in before.into_iter().chain(self.across_from(cell)) {
-            if !backwards.reached[next as usize] && self.is_free(next) {
-                backwards.reached[next as usize] = true;
+            let is_known = backwards.reached.contains(next as usize);
+            if !is_known && self.is_free(next) {
+                backwards.reached.insert(next as usize);
                 backwards.queue.push_back(next);
             }
         }

@@ -257,3 +257,33 @@ fn a_tight_place_that_a_finer_search_reaches_is_reached() {
     let drive = kitchen.drive(-0.39496, 0.63927, heading.to_degrees());
     assert_eq!(kitchen.run_one(drive), Ok(MotionOutcome::Arrived));
 }
+
+/// What is held is torn out of a hand that stops at once.
+#[test]
+fn no_drive_among_furniture_stops_at_once() {
+    let mut random = 1_u64;
+    let mut between = |low: f64, high: f64| {
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * (random >> 33) as f64 / f64::from(1_u32 << 31)
+    };
+    let (mut arrived, mut worst) = (0, Vec::new());
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
+    for number in 0..150 {
+        let goal = [
+            between(-2.9, 0.9),
+            between(-0.9, 2.9),
+            between(-180.0, 180.0),
+        ];
+        let mut drive = kitchen.drive(goal[0], goal[1], goal[2]);
+        let start = place(&kitchen);
+        let (most, end) = drive_watching(&mut kitchen, &mut drive, |_, _| {});
+        arrived += u32::from(end == MotionStatus::Done(MotionOutcome::Arrived));
+        if most > MOST {
+            worst.push((number, most, start, goal, end));
+        }
+    }
+    assert!(arrived > 40, "{arrived}");
+    assert!(worst.is_empty(), "{worst:?}");
+}
