@@ -64,6 +64,19 @@ pub struct Token {
 }
 
 impl Token {
+    /// Whether the token ends with a line break that an escape has made part of it, so that the next line may belong
+    /// to it, too.
+    pub(super) fn takes_line_break(&self, text: &str) -> bool {
+        let is_name = matches!(
+            self.kind,
+            TokenKind::Atom | TokenKind::Character | TokenKind::Prefixed { .. }
+        );
+        is_name
+            && text
+                .get(..self.end)
+                .is_some_and(|text| text.ends_with('\n'))
+    }
+
     /// If the token begins with the dispatching macro character `#`: the digits after it, the
     /// letter in upper case, and where the text after that begins.
     pub(crate) fn dispatching(&self, text: &str) -> Option<(Option<u32>, char, usize)> {

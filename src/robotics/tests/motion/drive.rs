@@ -3,6 +3,8 @@
 use super::fixture::Kitchen;
 use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus, plan_drive};
 use crate::robot::Side;
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use spatial::pose::{from_xyz_rpy, yaw};
 
 /// Where the base is: x and y (m), heading (degrees).
@@ -261,13 +263,9 @@ fn a_tight_place_that_a_finer_search_reaches_is_reached() {
 /// What is held is torn out of a hand that stops at once.
 #[test]
 fn no_drive_among_furniture_stops_at_once() {
-    let mut random = 1_u64;
-    let mut between = |low: f64, high: f64| {
-        random = random
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * (random >> 33) as f64 / f64::from(1_u32 << 31)
-    };
+    let mut rng = Pcg64::seed_from_u64(1);
+    let mut random = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let mut between = |least: f64, most: f64| least + (most - least) * random();
     let (mut arrived, mut worst) = (0, Vec::new());
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
     for number in 0..150 {
