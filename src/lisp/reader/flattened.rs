@@ -272,8 +272,8 @@ fn end_of_words(comment: &str, start: usize) -> Option<usize> {
             continue;
         }
         let rest = words.get(at..).unwrap_or_default();
-        if ends_words(rest, is_double)
-            && let Some(blank) = blank
+        if let Some(blank) = blank
+            && ends_words(rest, is_double)
         {
             // Code that somebody has commented out is no comment of words.
             return has_words.then_some(offset + blank);
