@@ -8,32 +8,24 @@
 
 use std::cell::Cell;
 
-use nalgebra::{Point3, Translation3};
+use nalgebra::Point3;
 
 use super::aligned_bases::AlignedBases;
 use super::grasp_reach::Effort;
 use super::handle_grasps::{HandleGrasp, SHIFTS, handle_grasps};
 use super::shoulder::Shoulder;
-use crate::motion::contact::guard::GREATEST_LAG;
 use crate::motion::failure::no_handle_grasp::{HandleObstacle, NoHandleGrasp};
-use crate::motion::planning::configuration::with_joints;
 use crate::motion::planning::goal_configurations::CONFIGURATION_STEP;
+use crate::motion::planning::handle_approach::{
+    APPROACH_JUMP, approach, away, close_links, obstacle, with_open_hand, withdrawal,
+};
 use crate::motion::planning::handle_way::{PIVOTS, PartWay, follow_tools};
 use crate::motion::planning::way_obstacle::{part_obstacle, robot_obstacle};
 use crate::robot::torso_search::TorsoSearch;
-use crate::robot::{ArmPositions, JointId, JointKind, LinkId, Side};
-use crate::world::{
-    AllowedPairs, BodyName, CollisionHit, MovingParts, Part, RobotConfiguration, World,
-};
+use crate::robot::{ArmPositions, JointKind, LinkId, Side};
+use crate::world::{AllowedPairs, CollisionHit, MovedPart, Part, RobotConfiguration, World};
 use spatial::Pose;
 
-/// How far (m) the fingers are apart when the hand comes to a handle.
-pub(crate) const OPENING: f64 = 0.06;
-/// How far (m) the hand is from the bar before it approaches, and after it has withdrawn.
-pub(crate) const AWAY: f64 = 0.1;
-/// Clearance (m) of the robot while the hand approaches and withdraws: a little more than what
-/// planned paths keep.
-const MARGIN: f64 = 0.0045;
 /// Step (m) between torso heights that are tried.
 const HEIGHT_STEP: f64 = 0.06;
 /// Distance (m or rad) of points of the way for one of many base poses, and by how much more the
@@ -43,8 +35,6 @@ const COARSE: ((f64, f64), f64) = ((0.03, 0.06), 1.8);
 const PROBES: usize = 12;
 /// How many postures before the bar are tried first for one of many base poses.
 const FIRST_CHECKS: usize = 24;
-/// Distance (m) of points of the approach.
-const APPROACH_STEP: f64 = 0.02;
 
 /// What is to be opened or closed, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -353,9 +343,7 @@ impl<'w> HandleChooser<'w> {
         let all = arm.kinematics.solutions(&wrist, CONFIGURATION_STEP);
         let count = all.len().min(self.effort.most_postures());
         let mut met = HandleObstacle::OutOfReach;
-        let mut robot = robot.clone();
-        let open = arm.gripper.position_for_opening(OPENING);
-        robot.joints.set(arm.gripper.joint, open);
+        let robot = with_open_hand(self.world, robot, side);
         for i in 0..count {
             if *checks >= most_checks {
                 break;
@@ -402,23 +390,14 @@ impl<'w> HandleChooser<'w> {
                 .then_some(points)
                 .ok_or(HandleObstacle::OutOfReach)
         };
-        let is_free = |points: &[ArmPositions], part: &crate::world::MovedPart<'_>| {
-            let mut checker = part.checker();
-            let joints = models.description.arm(side).joints();
-            let mut hits = points.iter().map(|point| {
-                let there = with_joints(robot, joints, point);
-                checker.first_hit(&there, &self.close, MARGIN)
-            });
-            match hits.find_map(|hit| hit) {
-                None => Ok(()),
-                Some(hit) => Err(HandleObstacle::Collision(Box::new(hit))),
-            }
+        let is_free = |points: &[ArmPositions], part: &MovedPart<'_>| {
+            let hit = obstacle(self.world, (robot, side), part, &self.close, points);
+            hit.map_or(Ok(()), |hit| Err(HandleObstacle::Collision(Box::new(hit))))
         };
         self.points.set(self.points() + 1);
         is_free(&[*posture], first)?;
         let tool = grasp.grip.tool(&first.pose(handle), 0.0);
-        let approach = line(&(tool * away()), &tool);
-        let at_bar = follow(&approach, posture, 2.0)?;
+        let at_bar = follow(&approach(&tool), posture, APPROACH_JUMP)?;
         is_free(&at_bar, first)?;
         let start = at_bar.last().unwrap_or(posture);
         let mut met = HandleObstacle::OutOfReach;
@@ -435,7 +414,7 @@ impl<'w> HandleChooser<'w> {
             let (Some(end), Some(tool)) = (points.last(), tools.last()) else {
                 continue;
             };
-            let back = match follow(&line(tool, &(tool * away())), end, 2.0) {
+            let back = match follow(&withdrawal(tool), end, APPROACH_JUMP) {
                 Ok(back) => back,
                 Err(_) => continue,
             };
@@ -446,41 +425,4 @@ impl<'w> HandleChooser<'w> {
         }
         Err(met)
     }
-}
-
-/// The links of the robot that are close to each other as it stands, and that neither the torso nor one of the arms
-/// moves relative to each other: a head that looks down at its shoulders, say, wherever the base is.
-fn close_links(world: &World, arms: &[Side]) -> AllowedPairs {
-    let models = world.models();
-    let mut moved: Vec<JointId> = models.description.torso.joint.into_iter().collect();
-    for side in arms {
-        let arm = models.description.arm(*side);
-        moved.extend(arm.joints());
-        moved.push(arm.gripper.joint);
-    }
-    let parts = MovingParts::of_joints(&models.robot, &moved);
-    let robot = world.robot_configuration();
-    let mut checker = world.collision_checker();
-    let near = checker.all_hits(robot, &AllowedPairs::none(), MARGIN);
-    near.into_iter().fold(AllowedPairs::none(), |close, hit| {
-        let links = [&hit.moving, &hit.other].map(BodyName::robot_link);
-        match links {
-            [Some(one), Some(other)] if !parts.part(one, other) && hit.depth < GREATEST_LAG => {
-                close.and(hit.moving, hit.other)
-            }
-            _ => close,
-        }
-    })
-}
-
-/// From the bar to where the hand is before the approach, along the tool's axis.
-fn away() -> Translation3<f64> {
-    Translation3::new(-AWAY, 0.0, 0.0)
-}
-
-/// Poses on a straight line between two of the same orientation.
-fn line(from: &Pose, to: &Pose) -> Vec<Pose> {
-    let count = (AWAY / APPROACH_STEP).ceil() as u32;
-    let at = |i: u32| spatial::pose::between(from, to, f64::from(i) / f64::from(count));
-    (0..=count).map(at).collect()
 }

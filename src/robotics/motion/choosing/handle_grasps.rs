@@ -3,7 +3,8 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::hand_shape::HandShape;
-use super::handle_chooser::{HandleQuestion, OPENING};
+use super::handle_chooser::HandleQuestion;
+use crate::motion::planning::handle_approach::OPENING;
 use crate::motion::planning::handle_way::{BarGrip, turn};
 use crate::robot::{JointKind, LinkId};
 use crate::world::{Knob, World};

@@ -11,6 +11,9 @@ use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::failure::short_arm::ShortArm;
 use crate::motion::failure::stopped_part::StoppedPart;
+use crate::motion::planning::handle_approach::{
+    APPROACH_JUMP, close_links, obstacle, with_open_hand, withdrawal,
+};
 use crate::motion::planning::handle_way::{BarGrip, PIVOTS, PartWay, follow_tools};
 use crate::motion::planning::joint_plan::JointPlan;
 use crate::motion::planning::planning_group::PlanningGroup;
@@ -122,10 +125,18 @@ impl JointGoal for PullGoal {
             _ => PIVOTS.iter().map(|pivot| sign * pivot).collect(),
         };
         let mut farthest: Option<(usize, WayObstacle)> = None;
+        // A way after which the hand cannot leave the handle.
+        let mut caught = None;
         for pivot in pivots {
             let turn = [now, pivot];
             let obstacle = match self.arm_way(world, &grip, &way, turn) {
-                Ok(points) => return Ok(self.follower(world, &grip, &way, (&points, turn))),
+                Ok(points) if self.can_leave(world, &grip, &way, (&points, turn)) => {
+                    return Ok(self.follower(world, &grip, &way, (&points, turn)));
+                }
+                Ok(points) => {
+                    caught.get_or_insert((points, turn));
+                    continue;
+                }
                 Err(obstacle) => obstacle,
             };
             let got = match obstacle {
@@ -134,6 +145,9 @@ impl JointGoal for PullGoal {
             if farthest.as_ref().is_none_or(|(far, _)| got > *far) {
                 farthest = Some((got, obstacle));
             }
+        }
+        if let Some((points, turn)) = &caught {
+            return Ok(self.follower(world, &grip, &way, (points, *turn)));
         }
         Err(match farthest {
             Some((i, WayObstacle::Hit(_, hit))) => stopped((i, hit)),
@@ -176,6 +190,34 @@ impl JointGoal for PullGoal {
 }
 
 impl PullGoal {
+    /// Whether the hand can open at the end of a way and withdraw.
+    fn can_leave(
+        &self,
+        world: &World,
+        grip: &BarGrip,
+        way: &PartWay<'_>,
+        (points, turn): (&[ArmPositions], [f64; 2]),
+    ) -> bool {
+        let tools = way.tools(grip, turn);
+        let (Some(end), Some(tool), Some(part)) = (points.last(), tools.last(), way.parts.last())
+        else {
+            return false;
+        };
+        let robot = with_open_hand(world, world.robot_configuration(), self.side);
+        let tools = withdrawal(tool);
+        let back = follow_tools(
+            world.models(),
+            &robot,
+            self.side,
+            &tools,
+            end,
+            APPROACH_JUMP,
+        );
+        let close = close_links(world, &[self.side]);
+        back.len() == tools.len()
+            && obstacle(world, (&robot, self.side), part, &close, &back).is_none()
+    }
+
     /// A trajectory through the points, on which the tool is no faster than on straight lines.
     fn follower(
         &self,

@@ -11,6 +11,7 @@ pub(crate) mod configuration_checker;
 mod drive_legs;
 pub(crate) mod drive_plan;
 pub(crate) mod goal_configurations;
+pub(crate) mod handle_approach;
 pub(crate) mod handle_way;
 pub mod interruption;
 pub(crate) mod joint_path;
