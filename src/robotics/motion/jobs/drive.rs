@@ -15,6 +15,7 @@ use crate::motion::failure::base_place::BasePlace;
 use crate::motion::failure::motion_failure::MotionFailure;
 use crate::motion::failure::process_module::ProcessModule;
 use crate::motion::planning::base_checker::BaseChecker;
+use crate::motion::planning::base_path::MIN_MARGIN;
 use crate::motion::planning::configuration::at_place;
 use crate::motion::planning::drive_plan::plan_drive;
 use crate::motion::trajectories::axis_group::AxisGroup;
@@ -134,7 +135,8 @@ impl BaseMotion {
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let mut checker = BaseChecker::new(world);
         let mut is_free = |place: &[f64]| {
-            <BasePlace>::try_from(place).is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
+            let place = <BasePlace>::try_from(place);
+            place.is_ok_and(|place| checker.blocked(&place, MIN_MARGIN).is_none())
         };
         let trajectory = match base.kind {
             DriveKind::Omnidirectional | DriveKind::Fixed => {

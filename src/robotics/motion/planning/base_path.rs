@@ -43,8 +43,9 @@ pub(super) const MARGIN: f64 = 0.04;
 /// Clearance (m) that it keeps wherever else: with less than half the resolution, the robot could push
 /// something between two checked poses.
 pub(crate) const MIN_MARGIN: f64 = RESOLUTION / 2.0;
-/// No margin is required this close (m) to the start, nor to the goal on the first lattice.
-const NO_MARGIN_WITHIN: f64 = 0.35;
+/// This close (m) to the start, and to the goal on the first lattice, it keeps no more than [`MIN_MARGIN`], and not even
+/// that where start or goal has less.
+const NEAR_END: f64 = 0.35;
 /// Between two checked poses no part of the robot moves by more than this (m).
 const RESOLUTION: f64 = 0.01;
 /// The same where no margin is kept and something is nearer than [`MIN_MARGIN`]: what a corner may cut off another one
@@ -77,6 +78,11 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
     if let Some(p) = blocked(&start, 0.0) {
         return Err(BasePathFailure::StartOccupied(p));
     }
+    let mut margin_near = |end| match blocked(end, MIN_MARGIN) {
+        None => MIN_MARGIN,
+        Some(_) => 0.0,
+    };
+    let near_ends = [margin_near(&start), margin_near(&goal)];
     let mut search = Search {
         start,
         goal,
@@ -84,6 +90,7 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
         drive,
         reach,
         margin: MARGIN,
+        near_ends,
         blocked,
     };
     if search.edge(&start, &goal).is_none() {
@@ -111,6 +118,8 @@ pub(super) struct Search<'a, 'c, P> {
     pub(super) drive: DriveKind,
     reach: f64,
     margin: f64,
+    /// The margins near start and goal (m).
+    near_ends: [f64; 2],
     blocked: &'a mut Check<'c, P>,
 }
 
@@ -118,17 +127,21 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     /// What blocks the pose.
     pub(super) fn place(&mut self, p: &BasePlace) -> Option<P> {
         interruption::look();
-        let margin = if self.keeps_margin(p) {
-            self.margin
-        } else {
-            0.0
-        };
+        let margin = self.margin_at(p);
         (self.blocked)(p, margin)
     }
 
-    /// Whether a margin is kept at the pose.
-    fn keeps_margin(&self, p: &BasePlace) -> bool {
-        !is_near(p, &self.start) && !self.depends_on_goal(p)
+    /// The margin (m) that is kept at the pose.
+    fn margin_at(&self, p: &BasePlace) -> f64 {
+        let [near_start, near_goal] = self.near_ends;
+        let mut margin = self.margin;
+        if is_near(p, &self.start) {
+            margin = margin.min(near_start);
+        }
+        if self.depends_on_goal(p) {
+            margin = margin.min(near_goal);
+        }
+        margin
     }
 
     /// Whether it may depend on the goal what blocks a pose.
@@ -187,7 +200,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
         for i in 0..=parts {
             let place = at(FINE * i);
             let is_close =
-                !self.keeps_margin(&place) && (self.blocked)(&place, MIN_MARGIN).is_some();
+                self.margin_at(&place) < MIN_MARGIN && (self.blocked)(&place, MIN_MARGIN).is_some();
             if i > 0 && (was_close || is_close) {
                 let mut between = FINE * (i - 1) + 1..FINE * i;
                 if let Some(p) = between.find_map(|i| (self.blocked)(&at(i), 0.0)) {
@@ -263,9 +276,9 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     }
 }
 
-/// Whether a pose is so near to another one, start or goal, that no margin is kept.
+/// Whether a pose is so near to another one, start or goal, that its margin counts.
 fn is_near(p: &BasePlace, end: &BasePlace) -> bool {
-    libm::hypot(p[0] - end[0], p[1] - end[1]) < NO_MARGIN_WITHIN
+    libm::hypot(p[0] - end[0], p[1] - end[1]) < NEAR_END
 }
 
 /// The pose at `fraction` of the leg.
@@ -394,6 +407,7 @@ mod tests {
             drive: OMNIDIRECTIONAL,
             reach: 0.7,
             margin: 0.0,
+            near_ends: [0.0; 2],
             blocked: &mut blocked,
         };
         for leg in path.windows(2) {
