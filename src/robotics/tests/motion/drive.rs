@@ -3,9 +3,10 @@
 use super::fixture::Kitchen;
 use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus, plan_drive};
 use crate::robot::Side;
+use crate::world::{AllowedPairs, RobotConfiguration};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
-use spatial::pose::{from_xyz_rpy, yaw};
+use spatial::pose::{from_xy_yaw, from_xyz_rpy, yaw};
 
 /// Where the base is: x and y (m), heading (degrees).
 fn place(kitchen: &Kitchen) -> [f64; 3] {
@@ -284,4 +285,54 @@ fn no_drive_among_furniture_stops_at_once() {
     }
     assert!(arrived > 40, "{arrived}");
     assert!(worst.is_empty(), "{worst:?}");
+}
+
+/// The smallest distance (m) of a robot from furniture, up to 4 cm.
+fn room(kitchen: &Kitchen, robot: &RobotConfiguration) -> f64 {
+    const MOST: f64 = 0.04;
+    let mut checker = kitchen.world.collision_checker();
+    let near = checker.all_hits(robot, &AllowedPairs::none(), MOST);
+    let near = near
+        .into_iter()
+        .filter(|hit| hit.other.robot_link().is_none());
+    near.map(|hit| -hit.depth).fold(MOST, f64::min)
+}
+
+/// What is carried gives way, and so is torn out of a hand, if it grazes an edge less deeply than a step is refused for.
+#[test]
+fn a_drive_that_begins_and_ends_clear_of_furniture_is_so_on_its_whole_way() {
+    let mut rng = Pcg64::seed_from_u64(2);
+    let mut random = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let mut between = |least: f64, most: f64| least + (most - least) * random();
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
+    let (mut drives, mut tight) = (0, Vec::new());
+    for _ in 0..100 {
+        // Close to furniture, but clear of it.
+        let goal = loop {
+            let [x, y] = [between(-2.9, 0.9), between(-0.9, 2.9)];
+            let heading = between(-180.0, 180.0);
+            let mut there = kitchen.world.robot_configuration().clone();
+            there.base = from_xy_yaw(x, y, heading.to_radians());
+            if (0.0055..0.035).contains(&room(&kitchen, &there)) {
+                break [x, y, heading];
+            }
+        };
+        let start = place(&kitchen);
+        let mut drive = kitchen.drive(goal[0], goal[1], goal[2]);
+        let mut least = f64::INFINITY;
+        let (_, end) = drive_watching(&mut kitchen, &mut drive, |kitchen, step| {
+            if step.is_multiple_of(4) {
+                let robot = kitchen.world.robot_configuration();
+                least = least.min(room(kitchen, robot));
+            }
+        });
+        if end == MotionStatus::Done(MotionOutcome::Arrived) {
+            drives += 1;
+            if least < 0.002 {
+                tight.push((start, goal, least));
+            }
+        }
+    }
+    assert!(drives > 40, "{drives}");
+    assert!(tight.is_empty(), "of {drives}: {tight:?}");
 }

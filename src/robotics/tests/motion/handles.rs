@@ -297,6 +297,52 @@ fn a_fridge_door_turns_with_the_hand() {
     assert!(kitchen.position(FRIDGE).abs() < 1e-3);
 }
 
+/// The same way of the door can be followed with the hand turned about its handle by several angles. After some of
+/// them, the wrist is so bent that open fingers would be in the forearm, and the hand is caught.
+#[test]
+fn a_hand_that_has_opened_a_door_can_leave_its_handle() {
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.2);
+    let before = kitchen.world.snapshot();
+    let (joint, handle) = kitchen.joint_and_handle(FRIDGE);
+    let bar = kitchen.world.furniture_pose(handle).translation;
+    let mut opened = 0;
+    for (i, j, k) in
+        (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| (i, j, k))))
+    {
+        kitchen.world.restore(&before);
+        let mut robot = kitchen.world.robot_configuration().clone();
+        let (x, y) = (
+            bar.x - 0.6 + f64::from(i) * 0.1,
+            bar.y + f64::from(j) * 0.15,
+        );
+        robot.base = from_xy_yaw(x, y, f64::from(k) * 0.4);
+        let question = HandleQuestion {
+            part: kitchen.world.part(joint),
+            handle,
+            position: 1.57,
+            arms: vec![Side::Right],
+            grasps: Vec::new(),
+        };
+        let chooser = HandleChooser::new(&kitchen.world, &question, Effort::THOROUGH);
+        let Ok(choice) = chooser.with_base_at(&robot.base) else {
+            continue;
+        };
+        kitchen.world.teleport_robot(&robot);
+        kitchen.take(FRIDGE, &choice, 50.0);
+        assert_eq!(kitchen.pull(choice.side, 1.57), Ok(MotionOutcome::Arrived));
+        let open = kitchen.gripper(choice.side, GripperCommand::Position(0.06));
+        let end = kitchen.run_one(open);
+        assert_eq!(end, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
+        let arm = kitchen.world.models().description.arm(choice.side);
+        let tool = arm.tool_for_wrist(&kitchen.world.link_pose(arm.wrist));
+        let away = tool * Translation3::new(-0.1, 0.0, 0.0);
+        let end = kitchen.run_one(to(choice.side, away));
+        assert_eq!(end, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
+        opened += 1;
+    }
+    assert!(opened > 3, "{opened}");
+}
+
 #[test]
 fn a_restored_hold_goes_on_with_the_same_bits() {
     let (mut kitchen, side) = at_drawer(50.0);
