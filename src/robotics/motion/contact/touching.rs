@@ -9,16 +9,20 @@ use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, InTheWay, Robot
 
 /// A pair may seem to overlap this much (m) more: rounding, not motion.
 const SAME_DEPTH: f64 = 5e-5;
+/// Gap (m) from which on a pair is clear of each other, and stays so unless both ride on the robot: what a hand holds is
+/// torn out of it where it grazes an edge.
+const CLEAR: f64 = 0.001;
 
-/// The pairs that are close at the start, with their initial overlap.
+/// The pairs that are close at the start or at the goal.
 #[derive(Clone, Debug)]
 pub(crate) struct TouchingPairs {
-    hits: Vec<CollisionHit>,
+    /// With the overlap (m) that each may have.
+    close: Vec<(CollisionHit, f64)>,
     /// Pairs that the motion declares.
     allowed: AllowedPairs,
     /// The declared pairs, the pairs that are expected to touch, and the close pairs.
     relaxed: AllowedPairs,
-    /// Overlap (m) that any close pair may have.
+    /// Overlap (m) that a pair that touches may have.
     depth: f64,
     /// Whether every close pair may stay as it is.
     are_all: bool,
@@ -66,8 +70,11 @@ impl TouchingPairs {
         });
         let expected = contacts.touching.iter().cloned();
         let relaxed = expected.fold(relaxed, |all, (a, b)| all.and(a, b));
+        let close = hits
+            .into_iter()
+            .map(|hit| (hit.clone(), overlap(&hit, depth)));
         Self {
-            hits,
+            close: close.collect(),
             allowed: contacts.allowed.clone(),
             relaxed,
             depth,
@@ -80,17 +87,20 @@ impl TouchingPairs {
         self.are_all
     }
 
-    /// Also allows contact for pairs that touch, but do not overlap, in the configuration.
+    /// Pairs that are closer than the margin (m) at the goal, in whose configuration the robot is, may be close on the
+    /// way, too: what rides on the robot may touch the robot, anything else is clear.
     pub(crate) fn expect(
         &mut self,
         checker: &mut CollisionChecker<'_>,
-        robot: &RobotConfiguration,
+        goal: &RobotConfiguration,
         margin: f64,
     ) {
-        for hit in checker.all_hits(robot, &self.relaxed, margin) {
-            if hit.depth <= self.depth {
+        for hit in checker.all_hits(goal, &self.relaxed, margin) {
+            if hit.depth <= if is_own(&hit) { self.depth } else { -CLEAR } {
                 let relaxed = std::mem::take(&mut self.relaxed);
-                self.relaxed = relaxed.and(hit.moving, hit.other);
+                self.relaxed = relaxed.and(hit.moving.clone(), hit.other.clone());
+                let overlap = overlap(&hit, self.depth);
+                self.close.push((hit, overlap));
             }
         }
     }
@@ -139,7 +149,7 @@ impl TouchingPairs {
         checker.is_free(robot, &self.relaxed, margin) && self.first_deep(checker, robot).is_none()
     }
 
-    /// A pair that was close at the start and overlaps more than allowed in the configuration.
+    /// A pair that is close at the start or at the goal, and overlaps more than allowed in the configuration.
     pub(crate) fn first_deep(
         &self,
         checker: &mut CollisionChecker<'_>,
@@ -148,11 +158,13 @@ impl TouchingPairs {
         if self.is_empty() {
             return None;
         }
-        let deep = checker.hits_among(robot, &self.relaxed, &self.allowed, -self.depth);
+        let gaps = self.close.iter().map(|(_, overlap)| -overlap);
+        let margin = gaps.fold(-self.depth, f64::max);
+        let deep = checker.hits_among(robot, &self.relaxed, &self.allowed, margin);
         deep.into_iter().find(|hit| {
-            let mut before = self.hits.iter();
-            let before = before.find(|b| b.moving == hit.moving && b.other == hit.other);
-            hit.depth > before.map_or(0.0, |b| b.depth).max(self.depth) + SAME_DEPTH
+            let mut close = self.close.iter();
+            let close = close.find(|(c, _)| c.moving == hit.moving && c.other == hit.other);
+            hit.depth > close.map_or(self.depth, |(_, overlap)| *overlap) + SAME_DEPTH
         })
     }
 
@@ -169,4 +181,18 @@ impl TouchingPairs {
             Some(checker.as_in_the_way(&deep))
         })
     }
+}
+
+/// The overlap (m) that a pair may have where it is close: more than `depth` only if it has it already, and none if it
+/// is clear.
+fn overlap(pair: &CollisionHit, depth: f64) -> f64 {
+    match pair.depth <= -CLEAR && !is_own(pair) {
+        true => -CLEAR,
+        false => pair.depth.max(depth),
+    }
+}
+
+/// Whether the robot, or what it holds, is close to itself.
+fn is_own(pair: &CollisionHit) -> bool {
+    pair.other.robot_link().is_some()
 }

@@ -7,6 +7,7 @@ use crate::motion::{
     PoseGoal, Put, TcpPath, UnreachableReason,
 };
 use crate::robot::{ArmPositions, Side};
+use crate::world::AllowedPairs;
 use spatial::Pose;
 use spatial::pose::{angle_between, distance_between, from_xyz_rpy};
 
@@ -338,4 +339,66 @@ fn a_torso_goal_beyond_the_limits_is_cropped_and_then_reported() {
     }
     let torso = kitchen.torso(0.33);
     assert_eq!(kitchen.run_one(torso), ARRIVED);
+}
+
+/// What a hand holds gives way where it grazes an edge, and is torn out of the hand.
+#[test]
+fn what_is_carried_is_clear_of_furniture_in_a_posture_or_does_not_get_there() {
+    // Facing the island, with the milk before the right hand.
+    let mut kitchen = Kitchen::parked(0.0, 0.9, 180.0, 0.0);
+    let arm = kitchen.world.models().description.arm(Side::Right);
+    let (palm, lift, park) = (
+        arm.gripper.palm,
+        arm.joints()[1],
+        arm.posture("park").unwrap()[1],
+    );
+    let at = kitchen.world.link_pose(palm) * from_xyz_rpy([0.2, 0.0, 0.0], [0.0; 3]);
+    kitchen
+        .world
+        .spawn("milk-1", "milk", &at, None, None)
+        .unwrap();
+    kitchen.world.attach("milk-1", palm).unwrap();
+    let parked = kitchen.world.robot_configuration().clone();
+    let at = |x: f64| {
+        let mut robot = parked.clone();
+        robot.base.translation.x = x;
+        robot
+    };
+    let gap = |kitchen: &Kitchen, x: f64| {
+        let mut checker = kitchen.world.collision_checker();
+        let near = checker.all_hits(&at(x), &AllowedPairs::none(), 0.01);
+        let near = near
+            .into_iter()
+            .filter(|hit| hit.other.robot_link().is_none());
+        near.map(|hit| -hit.depth).fold(0.01, f64::min)
+    };
+    // Where the two touch.
+    let (mut touching, mut clear) = (-0.4, 0.0);
+    assert!(gap(&kitchen, touching) < 0.0 && gap(&kitchen, clear) > 0.0);
+    while clear - touching > 1e-6 {
+        let middle = (clear + touching) / 2.0;
+        *match gap(&kitchen, middle) > 0.0 {
+            true => &mut clear,
+            false => &mut touching,
+        } = middle;
+    }
+    for (beside, arrives) in [
+        (-0.0004, false),
+        (0.0005, false),
+        (0.0015, true),
+        (0.006, true),
+    ] {
+        let x = clear + beside;
+        let mut raised = at(x);
+        raised.joints.set(lift, park - 0.1);
+        kitchen.world.teleport_robot(&raised);
+        let end = kitchen.run_one(kitchen.park(false, true));
+        assert_eq!(
+            end.is_ok(),
+            arrives,
+            "{beside} m beside: {end:?}, {}",
+            gap(&kitchen, x)
+        );
+        assert_eq!(kitchen.world.support_force("milk-1").unwrap(), 0.0);
+    }
 }
