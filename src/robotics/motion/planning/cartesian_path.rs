@@ -1,6 +1,6 @@
 //! Configurations that move the tools of the arms along straight lines.
 
-use super::configuration_checker::{ConfigurationChecker, PLAN_RESOLUTION};
+use super::configuration_checker::ConfigurationChecker;
 use super::joint_path::{between, is_free_between};
 use super::planning_group::PlanningGroup;
 use crate::robot::description::Arm;
@@ -13,6 +13,8 @@ const STEP: (f64, f64) = (0.01, 0.05);
 /// Largest change (rad) of a joint between neighbouring configurations; more is a jump from
 /// one branch of the inverse kinematics to another.
 const JUMP: f64 = 0.35;
+/// No part moves farther (m) than this without a check between neighbouring configurations.
+const RESOLUTION: f64 = 0.02;
 
 /// A straight line for the tool of one arm, in the frame of the base.
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +125,7 @@ impl CartesianTask<'_> {
         checker: &mut ConfigurationChecker<'_>,
     ) -> bool {
         !checker.is_free_on_way(next)
-            || !is_free_between(&self.group.axes, before, next, PLAN_RESOLUTION, checker)
+            || !is_free_between(&self.group.axes, before, next, RESOLUTION, checker)
     }
 
     /// The configuration at that fraction of the line that is nearest to the seed.

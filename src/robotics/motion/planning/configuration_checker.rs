@@ -13,9 +13,6 @@ use crate::world::{
 
 /// Clearance (m) of planned configurations from everything.
 pub(crate) const PLAN_MARGIN: f64 = 0.004;
-/// Largest motion (m) of any part of the robot between two configurations that are checked on the way: what passes
-/// through a body is closer to it than [`PLAN_MARGIN`] for at least that long, and so is found.
-pub(crate) const PLAN_RESOLUTION: f64 = 2.0 * PLAN_MARGIN;
 /// Overlap (m) accepted for pairs that are close at the start.
 pub(crate) const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 

@@ -6,7 +6,6 @@
 //! is told. All randomness comes from the generator passed in, so the same input gives
 //! the same path. Nothing here knows of robots or time.
 
-use super::configuration_checker::PLAN_RESOLUTION;
 use super::path_test::PathTest;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
@@ -74,7 +73,7 @@ pub(crate) struct JointPathEffort {
 impl Default for JointPathEffort {
     fn default() -> Self {
         Self {
-            resolution: PLAN_RESOLUTION,
+            resolution: 0.01,
             samples: 1500,
             checks: 30_000,
             shortcuts: 40,

@@ -19,9 +19,8 @@ const MIN_HALF: f64 = 1e-4;
 const STRAIGHT: f64 = 1e-9;
 /// How many times a parabola in the way of which there is something is halved.
 const HALVINGS: u32 = 4;
-/// Distance (s) of the points of a parabola that are checked: at 2 m/s, no part of a robot goes farther in between than
-/// from one checked point of its path to the next.
-const CHECK_EVERY: f64 = 0.004;
+/// Distance (s) of the points of a parabola that are checked.
+const CHECK_EVERY: f64 = 0.005;
 /// A parabola that stays this close (rad or m) to its corner is not checked.
 const UNCHECKED: f64 = 2e-4;
 

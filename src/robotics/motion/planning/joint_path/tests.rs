@@ -1,5 +1,4 @@
 use super::*;
-use crate::motion::planning::configuration_checker::PLAN_MARGIN;
 use proptest::prelude::*;
 use rand_pcg::rand_core::SeedableRng;
 
@@ -136,17 +135,5 @@ proptest! {
                 prop_assert!(!is_inside, "{point:?} of {short:?}");
             }
         }
-    }
-}
-
-/// With more than twice the margin between two checked configurations, a part could pass through the tip of a fork.
-#[test]
-fn nothing_is_passed_through_between_two_checked_configurations() {
-    let mut test = |q: &[f64]| (q[0].hypot(q[1]) < PLAN_MARGIN).then_some(());
-    for phase in 0..200 {
-        let from = -0.1 - f64::from(phase) * 1e-4;
-        let ends = [[from, 0.0], [0.13, 0.0]];
-        let free = is_free_between(&PLANE, &ends[0], &ends[1], PLAN_RESOLUTION, &mut test);
-        assert!(!free, "from {from}");
     }
 }
