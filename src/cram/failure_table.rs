@@ -3,12 +3,12 @@
 use lisp::image::Image;
 use lisp::object::defclass;
 use lisp::stream;
+use lisp::typed;
 use lisp::value::Value;
 use lisp::value::function::Function;
 use lisp::value::known;
 use lisp::value::package::PackageId;
 use lisp::value::symbol::Sym;
-use lisp::vm::machine::Machine;
 use lisp::vm::step::Step;
 
 use super::Result;
@@ -378,24 +378,27 @@ fn define_one(
     }
     defclass::define_condition(
         image,
-        &[
-            name.into(),
-            Value::list(parents),
-            Value::list(slots),
-            Value::NIL,
-            Value::NIL,
-            Value::NIL,
-        ],
+        name,
+        &Value::list(parents),
+        &Value::list(slots),
+        &Value::NIL,
+        &Value::NIL,
+        &Value::NIL,
     )?;
     Ok(())
 }
 
-type Report = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step>;
-
-fn report_by(image: &mut Image, home: PackageId, name: &str, report: Report) {
+/// Lets a function of the condition and the stream write the report of a class.
+fn report_by(
+    image: &mut Image,
+    home: PackageId,
+    name: &str,
+    report: impl Fn(&mut Image, &Value, Value) -> Result<Step> + Copy + 'static,
+) {
     let name = image.export_symbol(home, name);
     let function = Function::control_of(name, (2, Some(2)), (), move |(), machine, args| {
-        report(machine, args)
+        let [condition, stream] = args.try_into().map_err(|_| typed::wrong_count())?;
+        report(machine.image, &condition, stream)
     });
     if let Some(class) = image.class(name) {
         *class.report.borrow_mut() = Some(function);
@@ -429,56 +432,44 @@ fn format(stream: Value, control: Value, args: Vec<Value>) -> Step {
 }
 
 fn report_policy(image: &mut Image, home: PackageId, name: &str, text: &'static str) {
-    let name = image.export_symbol(home, name);
-    let function = Function::control_of(name, (2, Some(2)), (), move |(), machine, args| {
-        let slots = ["NAME", "PARAMETERS"];
-        let values = slots.map(|slot| slot_value(machine.image, &args[0], slot));
-        Ok(format(args[1].clone(), text.into(), values.to_vec()))
+    report_by(image, home, name, move |image, condition, stream| {
+        let values = ["NAME", "PARAMETERS"].map(|slot| slot_value(image, condition, slot));
+        Ok(format(stream, text.into(), values.to_vec()))
     });
-    if let Some(class) = image.class(name) {
-        *class.report.borrow_mut() = Some(function);
-    }
 }
 
 /// The format control given to the failure, or else its description.
-fn report_description(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let control = slot_value(machine.image, &args[0], "FORMAT-CONTROL");
+fn report_description(image: &mut Image, failure: &Value, stream: Value) -> Result<Step> {
+    let control = slot_value(image, failure, "FORMAT-CONTROL");
     if control.is_true() {
-        let arguments = slot_value(machine.image, &args[0], "FORMAT-ARGUMENTS");
-        return Ok(format(
-            args[1].clone(),
-            control,
-            arguments.iter_list().collect(),
-        ));
+        let arguments = slot_value(image, failure, "FORMAT-ARGUMENTS");
+        return Ok(format(stream, control, arguments.iter_list().collect()));
     }
-    let description = slot_value(machine.image, &args[0], "DESCRIPTION");
+    let description = slot_value(image, failure, "DESCRIPTION");
     match description.as_text() {
         // A description is a format control, of which only the directives that texts need are
         // supported.
         Some(text) => {
             let text = text.replace("~%", "\n").replace("~~", "~");
-            stream::write(machine.image, &args[1], &text)?;
+            stream::write(image, &stream, &text)?;
             Ok(Step::Return(Value::NIL))
         }
-        None => Ok(format(args[1].clone(), "~a".into(), vec![description])),
+        None => Ok(format(stream, "~a".into(), vec![description])),
     }
 }
 
-fn report_envelope(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let inner = slot_value(machine.image, &args[0], "ERROR");
+fn report_envelope(image: &mut Image, failure: &Value, stream: Value) -> Result<Step> {
+    let inner = slot_value(image, failure, "ERROR");
     let text = "A Lisp error in a task: ~a";
-    Ok(format(args[1].clone(), text.into(), vec![inner]))
+    Ok(format(stream, text.into(), vec![inner]))
 }
 
-fn report_composite(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let failures = slot_value(machine.image, &args[0], "FAILURES");
+fn report_composite(image: &mut Image, failure: &Value, stream: Value) -> Result<Step> {
+    let failures = slot_value(image, failure, "FAILURES");
     if failures.is_nil() {
-        return Ok(format(
-            args[1].clone(),
-            "All alternatives failed: there were none.".into(),
-            Vec::new(),
-        ));
+        let text = "All alternatives failed: there were none.";
+        return Ok(format(stream, text.into(), Vec::new()));
     }
     let text = "All alternatives failed:~{~%  ~a~}";
-    Ok(format(args[1].clone(), text.into(), vec![failures]))
+    Ok(format(stream, text.into(), vec![failures]))
 }

@@ -121,14 +121,10 @@ names! {
         policy = "POLICY",
     }
     keyword {
-        tag = "TAG", call = "CALL", name = "NAME", error = "ERROR", failures = "FAILURES",
-        timeout = "TIMEOUT", value_key = "VALUE", test = "TEST", key = "KEY",
-        handle_missed_pulses = "HANDLE-MISSED-PULSES", never = "NEVER", once = "ONCE",
-        always = "ALWAYS", sync = "SYNC", reason = "REASON", created = "CREATED",
-        running = "RUNNING", suspended = "SUSPENDED", succeeded = "SUCCEEDED", failed = "FAILED",
-        evaporated = "EVAPORATED", waiting = "WAITING", allow_tracing = "ALLOW-TRACING",
-        max_tracing_freq = "MAX-TRACING-FREQ", class = "CLASS", pulse_count = "PULSE-COUNT",
-        wait_status = "WAIT-STATUS",
+        tag = "TAG", call = "CALL", error = "ERROR", failures = "FAILURES", never = "NEVER",
+        once = "ONCE", always = "ALWAYS", created = "CREATED", running = "RUNNING",
+        suspended = "SUSPENDED", succeeded = "SUCCEEDED", failed = "FAILED",
+        evaporated = "EVAPORATED", waiting = "WAITING",
     }
     system {
         sys_run_constrained = "RUN-CONSTRAINED", sys_propagate = "PROPAGATE",

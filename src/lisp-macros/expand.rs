@@ -517,6 +517,22 @@ mod tests {
     }
 
     #[test]
+    fn a_lambda_list_may_leave_out_a_keyword_argument_without_a_meaning() {
+        let code = expansion(
+            quote!(_, "&key a"),
+            quote! {
+                /// Doc.
+                fn f(#[key] a: Option<u8>, #[key] _b: Option<&Value>) {}
+            },
+        );
+        holds(&code, "lambda_list:\"&keya\"");
+        holds(
+            &code,
+            "const{[typed::keyword(\"A\"),typed::keyword(\"B\")]}",
+        );
+    }
+
+    #[test]
     fn what_does_not_fit_is_an_error() {
         let errors = [
             (

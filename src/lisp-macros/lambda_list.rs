@@ -1,6 +1,6 @@
 //! Lambda lists as the manual shows them, without their parentheses.
 
-use crate::parameters::{Arguments, Shape};
+use crate::parameters::{Argument, Arguments, Shape};
 
 /// The lambda list of a function's arguments.
 pub(crate) fn of(arguments: &Arguments) -> String {
@@ -82,8 +82,8 @@ pub(crate) fn mismatch(lambda_list: &str, arguments: &Arguments) -> Option<Strin
         let fits = required <= counts.required && required + optional <= most;
         return (!fits).then(|| "the function has more parameters than the lambda list".to_owned());
     }
-    let key = of_shape(Shape::Key).find(|key| !counts.keys.contains(&key.name().to_uppercase()));
-    if let Some(key) = key {
+    let is_named = |key: &Argument| counts.keys.contains(&key.name().to_uppercase());
+    if let Some(key) = of_shape(Shape::Key).find(|key| !key.is_ignored() && !is_named(key)) {
         return Some(format!("the lambda list lacks &key {}", key.name()));
     }
     let keys = of_shape(Shape::Key).count();

@@ -49,6 +49,7 @@ use syn::{Path, Token};
 /// | `#[default(value)] x: T` | an optional argument with a default value |
 /// | `#[key] x: Option<T>`, `#[key] #[default(value)] x: T` | a keyword argument |
 /// | `#[key("2nd-x")] x: Option<T>` | a keyword argument with another name than the parameter |
+/// | `#[key] _x: Option<&Value>` | one without a meaning, which a lambda list of the attribute may leave out |
 /// | `rest: &[Value]`, `rest: Vec<T>` | all further arguments |
 ///
 /// An argument is converted by `FromValue`, the result by `Into<Value>`.

@@ -51,6 +51,12 @@ impl Argument {
         name.replace('_', "-")
     }
 
+    /// Is it accepted only because calls written for others may have it? The lambda list of an
+    /// attribute need not name such a keyword argument.
+    pub(crate) fn is_ignored(&self) -> bool {
+        self.ident.to_string().starts_with('_')
+    }
+
     /// `T`, if the type is `Option<T>`.
     pub(crate) fn optional_type(&self) -> Option<&Type> {
         inner(&self.ty, "Option")

@@ -7,6 +7,7 @@ use crate::request::Request;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::native::{NativeCall, PureFn};
+use lisp::typed::FromValue;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::function::Body;
@@ -103,25 +104,23 @@ fn not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 /// Waits for so many simulated seconds.
 ///
 /// `(cpl:sleep 3600)` => `NIL`
-#[builtin("SLEEP", "seconds")]
-fn sleep_builtin(args: Vec<Value>) -> Result<Step> {
-    sleep(&args)
-}
-
-/// The step that sleeps for the given time.
-pub(super) fn sleep(args: &[Value]) -> Result<Step> {
-    let seconds = seconds(&args[0])?;
-    Ok(Step::request(Request::Sleep(seconds)))
+#[builtin]
+pub(super) fn sleep(seconds: Seconds) -> Result<Step> {
+    Ok(Step::request(Request::Sleep(seconds.0)))
 }
 
 /// A non-negative number of seconds.
-pub(super) fn seconds(value: &Value) -> Result<f64> {
-    match number::to_f64(value) {
-        Some(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
-        _ => Err(Raise::type_error(
-            value,
-            Value::list([known::REAL.into(), Value::Int(0)]),
-        )),
+pub(super) struct Seconds(pub(super) f64);
+
+impl FromValue<'_> for Seconds {
+    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
+        match number::to_f64(value) {
+            Some(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(Seconds(seconds)),
+            _ => Err(Raise::type_error(
+                value,
+                Value::list([known::REAL.into(), Value::Int(0)]),
+            )),
+        }
     }
 }
 
@@ -163,5 +162,5 @@ pub(crate) static TABLE: &[Builtin] = builtins![
     eq,
     eql,
     not,
-    sleep_builtin,
+    sleep,
 ];

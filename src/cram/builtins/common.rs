@@ -1,6 +1,6 @@
 //! Common Lisp functions that take simulated time.
 
-use super::arithmetic::sleep;
+use super::arithmetic::{self, Seconds};
 use crate::state::Plan;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
@@ -12,9 +12,9 @@ use lisp::vm::step::Step;
 /// Waits for so many simulated seconds.
 ///
 /// `(sleep 1)` => `NIL`
-#[builtin("SLEEP", "seconds")]
-fn sleep_builtin(args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    sleep(&args)
+#[builtin]
+fn sleep(seconds: Seconds) -> Result<Step, Box<Raise>> {
+    arithmetic::sleep(seconds)
 }
 
 /// Simulated seconds since the session began.
@@ -26,7 +26,7 @@ fn clock(image: &mut Image) -> Result<Value, Box<Raise>> {
 }
 
 /// The builtins.
-pub(crate) static TABLE: &[Builtin] = builtins![sleep_builtin,];
+pub(crate) static TABLE: &[Builtin] = builtins![sleep,];
 
 /// The clock of the simulation, in package `SYSTEM`.
 pub(crate) static CLOCK: &[Builtin] = builtins![clock,];

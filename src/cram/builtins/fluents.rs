@@ -1,7 +1,6 @@
 //! Fluents: creating, reading, setting, waiting, callbacks.
 
-use super::arithmetic::seconds;
-use super::networks::fluent_argument;
+use super::arithmetic::Seconds;
 use crate::Result;
 use crate::fluent::{self, FluentRef};
 use crate::request::Request;
@@ -10,7 +9,7 @@ use crate::task::TaskRef;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
+use lisp::typed::FromValue;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::equality;
@@ -25,25 +24,24 @@ use lisp::vm::step::Step;
 ///
 /// `(let ((f (cpl:make-fluent :value 1))) (incf (cpl:value f)) (cpl:value f))` => `2`
 /// `(cpl:value 5)` => `5`
-#[builtin("VALUE", "fluent")]
-fn value_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    value(machine, &args, false)
+#[builtin("VALUE")]
+fn value_builtin(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
+    value(machine, fluent, false)
 }
 
 /// The value of a fluent without taking notice of a pulse.
 ///
 /// `(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:peek-value p) (cpl:value p) (cpl:value p)))` => `(T T NIL)`
-#[builtin(_, "fluent")]
-fn peek_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    value(machine, &args, true)
+#[builtin]
+fn peek_value(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
+    value(machine, fluent, true)
 }
 
 /// Wakes those who wait for pulses of the fluent; its value stays.
 ///
 /// `(cpl:pulse (cpl:make-fluent))` => `NIL`
 #[builtin]
-fn pulse(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent)?;
+fn pulse(machine: &mut Machine<'_>, fluent: FluentRef) -> Result<Step> {
     fluent::pulse(machine, &fluent)
 }
 
@@ -51,48 +49,48 @@ fn pulse(machine: &mut Machine<'_>, fluent: &Value) -> Result<Step> {
 ///
 /// `(cpl:remove-update-callback (cpl:make-fluent) 'see)` => `NIL`
 #[builtin]
-fn remove_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent)?;
-    let removed = fluent.get().remove_callback(name);
-    Ok(Step::Return(Value::bool(removed)))
+fn remove_update_callback(fluent: FluentRef, name: &Value) -> bool {
+    fluent.get().remove_callback(name)
 }
 
 /// The callback of that name, or NIL.
 ///
 /// `(cpl:get-update-callback (cpl:make-fluent) 'see)` => `NIL`
 #[builtin]
-fn get_update_callback(machine: &mut Machine<'_>, fluent: &Value, name: &Value) -> Result<Step> {
-    let fluent = fluent_argument(machine, fluent)?;
-    let callback = fluent.get().callback(name);
-    Ok(Step::Return(callback.unwrap_or(Value::NIL)))
+fn get_update_callback(fluent: FluentRef, name: &Value) -> Option<Value> {
+    fluent.get().callback(name)
 }
 
 /// A fluent that holds a value; TEST (EQL) tells whether a new value is a change.
 ///
 /// `(cpl:make-fluent :name 'door :value :open)` => `#<FLUENT DOOR [:OPEN]>`
 #[builtin(_, "&key name value test")]
-fn make_fluent(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let plan = Plan::of(image);
-    let names = &plan.names;
-    let wanted = [
-        names.name,
-        names.value_key,
-        names.test,
-        names.allow_tracing,
-        names.max_tracing_freq,
-        names.class,
-        names.pulse_count,
-    ];
-    let [name, value, test, ..] = keywords::parse(image, args, wanted)?;
+fn make_fluent(
+    image: &mut Image,
+    #[key] name: Option<Value>,
+    #[key] value: Option<Value>,
+    #[key] test: Option<Value>,
+    #[key] _allow_tracing: Option<&Value>,
+    #[key] _max_tracing_freq: Option<&Value>,
+    #[key] _class: Option<&Value>,
+    #[key] _pulse_count: Option<&Value>,
+) -> Value {
     let value = value.unwrap_or(Value::NIL);
     let test = test.unwrap_or(Value::NIL);
-    Ok(FluentRef::value_fluent(&plan, name, value, test).value())
+    FluentRef::value_fluent(&Plan::of(image), name, value, test).value()
 }
 
-fn value(machine: &mut Machine<'_>, args: &[Value], peek: bool) -> Result<Step> {
-    match FluentRef::from_value(&args[0]) {
+fn value(machine: &mut Machine<'_>, fluent: &Value, peek: bool) -> Result<Step> {
+    match FluentRef::from_value(fluent) {
         Some(fluent) => fluent::read(machine, &fluent, peek),
-        None => Ok(Step::Return(args[0].clone())),
+        None => Ok(Step::Return(fluent.clone())),
+    }
+}
+
+impl FromValue<'_> for FluentRef {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        let fluent = FluentRef::from_value(value);
+        fluent.ok_or_else(|| Raise::type_error(value, Plan::of(image).names.fluent))
     }
 }
 
@@ -135,29 +133,31 @@ fn set_value(machine: &mut Machine<'_>, new_value: Value, fluent_value: Value) -
 /// `(cpl:wait-for (cpl:make-fluent :value 7))` => `7`
 /// `(cpl:wait-for (cpl:make-fluent) :timeout 10)` => `NIL`
 #[builtin(_, "fluent &key timeout")]
-fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let plan = Plan::of(machine.image);
-    let names = [plan.names.timeout, plan.names.wait_status];
-    let [timeout, _] = keywords::parse(machine.image, &args[1..], names)?;
-    let Some(fluent) = FluentRef::from_value(&args[0]) else {
-        if args[0].is_nil() {
+fn wait_for(
+    machine: &mut Machine<'_>,
+    fluent: &Value,
+    #[key] timeout: Option<&Value>,
+    #[key] _wait_status: Option<&Value>,
+) -> Result<Step> {
+    let Some(source) = FluentRef::from_value(fluent) else {
+        if fluent.is_nil() {
             return Err(Raise::simple("wait-for called with nil argument."));
         }
-        return Ok(Step::Return(args[0].clone()));
+        return Ok(Step::Return(fluent.clone()));
     };
     let until = match timeout {
         Some(timeout) if timeout.is_true() => {
             // A timeout of zero or less has already expired.
-            let seconds = if is_negative(&timeout) {
+            let seconds = if is_negative(timeout) {
                 0.0
             } else {
-                seconds(&timeout)?
+                Seconds::from_value(machine.image, timeout)?.0
             };
-            Some(plan.after(seconds)?)
+            Some(Plan::of(machine.image).after(seconds)?)
         }
         _ => None,
     };
-    wait_until_true(machine, fluent, until)
+    wait_until_true(machine, source, until)
 }
 
 fn is_negative(value: &Value) -> bool {
@@ -190,21 +190,19 @@ fn wait_until_true(
 /// Calls the function with the value at each change and pulse of the fluent.
 ///
 /// `(let ((f (cpl:make-fluent)) (seen nil)) (cpl:register-update-callback f 'see (lambda (v) (push v seen))) (setf (cpl:value f) 1) seen)` => `(1)`
-#[builtin("REGISTER-UPDATE-CALLBACK", "fluent name function")]
+#[builtin("REGISTER-UPDATE-CALLBACK")]
 fn register_callback(
     machine: &mut Machine<'_>,
-    fluent_value: Value,
-    name_value: Value,
+    fluent: FluentRef,
+    name: Value,
     function: Value,
 ) -> Result<Step> {
-    let fluent = fluent_argument(machine, &fluent_value)?;
     run(machine, "VALUE", |calls| async move {
         // Changes of a network are relative to its present value.
         fluent::value(&calls, &fluent).await?;
-        if fluent.add_callback(&name_value, &function) {
+        if fluent.add_callback(&name, &function) {
             return Ok(function.clone());
         }
-        let name = name_value.clone();
         let name = calls.with(move |machine| print::to_string(machine.image, &name, false));
         Err(Raise::simple(format!(
             "Callback with name {} is already registered.",

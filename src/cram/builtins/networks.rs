@@ -4,7 +4,6 @@ use crate::Result;
 use crate::fluent::{self, FluentRef, Missed, Operation};
 use crate::state::Plan;
 use lisp::builtin::Builtin;
-use lisp::typed::keywords;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
@@ -35,9 +34,13 @@ fn fl_or(machine: &mut Machine<'_>, values: Vec<Value>) -> Result<Step> {
 /// ones (:ONCE), or for each (:ALWAYS).
 ///
 /// `(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p)))` => `(T NIL)`
-#[builtin("PULSED", "fluent &key handle-missed-pulses")]
-fn pulsed_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    pulsed(machine, args)
+#[builtin("PULSED")]
+fn pulsed_builtin(
+    machine: &mut Machine<'_>,
+    fluent: FluentRef,
+    #[key] handle_missed_pulses: Option<&Value>,
+) -> Result<Step> {
+    pulsed(machine, fluent, handle_missed_pulses)
 }
 
 /// The tail of a list that begins with the item; a fluent if an argument is one.
@@ -137,23 +140,19 @@ fn fl_apply(machine: &mut Machine<'_>, function: Value, arguments: Vec<Value>) -
     })
 }
 
-/// The fluent given as an argument, or a type error.
-pub(super) fn fluent_argument(machine: &Machine<'_>, value: &Value) -> Result<FluentRef> {
-    FluentRef::from_value(value)
-        .ok_or_else(|| Raise::type_error(value, Plan::of(machine.image).names.fluent))
-}
-
 /// A fluent that is true once per pulse: per pulse since its creation (:NEVER), once for all missed
 /// ones (:ONCE), or for each (:ALWAYS).
 ///
 /// `(let* ((f (cpl:make-fluent)) (p (cpl-impl:fl-pulsed f))) (cpl:pulse f) (list (cpl:value p) (cpl:value p)))` => `(T NIL)`
-#[builtin("FL-PULSED", "fluent &key handle-missed-pulses")]
-fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let source = fluent_argument(machine, &args[0])?;
+#[builtin("FL-PULSED")]
+fn pulsed(
+    machine: &mut Machine<'_>,
+    fluent: FluentRef,
+    #[key] handle_missed_pulses: Option<&Value>,
+) -> Result<Step> {
     let plan = Plan::of(machine.image);
     let names = &plan.names;
-    let [mode] = keywords::parse(machine.image, &args[1..], [names.handle_missed_pulses])?;
-    let mode = match &mode {
+    let mode = match handle_missed_pulses {
         None => Missed::Once,
         Some(mode) => match mode.as_symbol() {
             Some(m) if m == names.never => Missed::Never,
@@ -170,27 +169,29 @@ fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     };
     run(machine, "VALUE", |calls| async move {
         // The pulses of a network are counted relative to its present value.
-        fluent::value(&calls, &source).await?;
-        Ok(FluentRef::pulses(&plan, &source, mode).value())
+        fluent::value(&calls, &fluent).await?;
+        Ok(FluentRef::pulses(&plan, &fluent, mode).value())
     })
 }
 
 /// A fluent that is true once after each change of the other's value.
 ///
 /// `(let* ((f (cpl:make-fluent :value 1)) (c (cpl:fl-value-changed f))) (list (cpl:value c) (setf (cpl:value f) 2) (cpl:value c) (cpl:value c)))` => `(NIL 2 T NIL)`
-#[builtin("FL-VALUE-CHANGED", "fluent &key test key")]
-fn value_changed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let source = fluent_argument(machine, &args[0])?;
+#[builtin("FL-VALUE-CHANGED")]
+fn value_changed(
+    machine: &mut Machine<'_>,
+    fluent: FluentRef,
+    #[key] test: Option<Value>,
+    #[key] key: Option<Value>,
+) -> Result<Step> {
     let plan = Plan::of(machine.image);
-    let wanted = [plan.names.test, plan.names.key];
-    let [test, key] = keywords::parse(machine.image, &args[1..], wanted)?;
     let (test, key) = (test.unwrap_or(Value::NIL), key.unwrap_or(Value::NIL));
     run(machine, "FL-VALUE-CHANGED", |calls| async move {
-        let mut old = fluent::value(&calls, &source).await?;
+        let mut old = fluent::value(&calls, &fluent).await?;
         if key.is_true() {
             old = calls.call1(&key, old).await;
         }
-        Ok(FluentRef::change(&plan, &source, test, key, old).value())
+        Ok(FluentRef::change(&plan, &fluent, test, key, old).value())
     })
 }
 

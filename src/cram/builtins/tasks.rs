@@ -1,5 +1,6 @@
 //! Tasks: status, result, evaporating, suspending.
 
+use super::arithmetic::{self, Seconds};
 use crate::Result;
 use crate::fluent::{FluentRef, Operation};
 use crate::request::Request;
@@ -8,7 +9,6 @@ use crate::task::{Status, TaskRef};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::typed::FromValue;
-use lisp::typed::keywords;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
@@ -95,16 +95,22 @@ fn task_failed_p(task: TaskRef) -> bool {
 }
 
 /// Lets a task and all below it hold still.
-#[builtin(_, "task &key reason sync")]
-fn suspend(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let task = told(machine, &args)?;
+#[builtin]
+fn suspend(
+    task: TaskRef,
+    #[key] _reason: Option<&Value>,
+    #[key] _sync: Option<&Value>,
+) -> Result<Step> {
     Ok(Step::request(Request::Suspend(task)))
 }
 
 /// Lets a suspended task and all below it go on.
-#[builtin(_, "task &key reason sync")]
-fn wake_up(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let task = told(machine, &args)?;
+#[builtin]
+fn wake_up(
+    task: TaskRef,
+    #[key] _reason: Option<&Value>,
+    #[key] _sync: Option<&Value>,
+) -> Result<Step> {
     Ok(Step::request(Request::WakeUp(task)))
 }
 
@@ -127,15 +133,15 @@ fn current_task(image: &mut Image) -> Result<Value> {
 /// Waits for so many simulated seconds.
 ///
 /// `(cpl:sleep* 1)` => `NIL`
-#[builtin("SLEEP*", "seconds")]
-fn sleep(args: Vec<Value>) -> Result<Step> {
-    super::arithmetic::sleep(&args)
+#[builtin("SLEEP*")]
+fn sleep(seconds: Seconds) -> Result<Step> {
+    arithmetic::sleep(seconds)
 }
 
 /// Calls the function when the current task is suspended.
-#[builtin(_, "function")]
-fn push_suspension_hook(args: Vec<Value>) -> Result<Step> {
-    Ok(Step::request(Request::Hook(args.into_iter().next())))
+#[builtin]
+fn push_suspension_hook(function: Value) -> Result<Step> {
+    Ok(Step::request(Request::Hook(Some(function))))
 }
 
 /// Forgets the last hook.
@@ -196,22 +202,16 @@ fn status_in(image: &mut Image, value: &Value, list: fn(&Plan) -> Sym) -> Result
     member(image, &[status.into(), list])
 }
 
-/// The task that a request is about, from the arguments `task &key reason sync`.
-fn told(machine: &Machine<'_>, args: &[Value]) -> Result<TaskRef> {
-    let names = Plan::of(machine.image).names;
-    keywords::parse(machine.image, &args[1..], [names.reason, names.sync])?;
-    task(machine.image, &args[0])
-}
-
 /// Ends a task and all below it, running their cleanup forms; waits for that unless SYNC is NIL.
 ///
 /// `(cpl:top-level (cpl:with-tags (cpl:par (:tag a (cpl:sleep 9) :a) (cpl:evaporate a)) (cpl:value (cpl:status a))))` => `:EVAPORATED`
-#[builtin(_, "task &key reason sync")]
-fn evaporate(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let names = Plan::of(machine.image).names;
-    let [_, sync] = keywords::parse(machine.image, &args[1..], [names.reason, names.sync])?;
-    let task = task(machine.image, &args[0])?;
-    let sync = sync.is_none_or(|sync| sync.is_true());
+#[builtin]
+fn evaporate(
+    task: TaskRef,
+    #[key] _reason: Option<&Value>,
+    #[key] sync: Option<bool>,
+) -> Result<Step> {
+    let sync = sync.unwrap_or(true);
     Ok(Step::request(Request::Evaporate { task, sync }))
 }
 

@@ -6,7 +6,7 @@ use crate::packages;
 use lisp::builtin::{Builtin, Operator};
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
+use lisp::typed::FromValue;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::known;
@@ -137,24 +137,26 @@ fn list(items: Vec<Value>) -> Value {
 }
 
 /// The class that a symbol or string names.
-fn class(image: &Image, argument: &Value) -> Result<Class> {
-    let name = match argument {
-        Value::Symbol(sym, ..) => image.name(*sym).to_owned(),
-        Value::Str(text) => text.text(),
-        other => return Err(Raise::type_error(other, known::SYMBOL)),
-    };
-    Class::named(&name).ok_or_else(|| Raise::simple(format!("Designator type `{name}' undefined")))
+impl FromValue<'_> for Class {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        let name = match value {
+            Value::Symbol(sym, ..) => image.name(*sym).to_owned(),
+            Value::Str(text) => text.text(),
+            other => return Err(Raise::type_error(other, known::SYMBOL)),
+        };
+        Class::named(&name)
+            .ok_or_else(|| Raise::simple(format!("Designator type `{name}' undefined")))
+    }
 }
 
 /// What (a TYPE …) expands into; NIL among the properties is left out.
-#[builtin(_, "quantifier class properties")]
+#[builtin]
 fn designator_of_form(
     image: &mut Image,
     quantifier: &Value,
-    class_value: &Value,
+    class: Class,
     properties: &Value,
 ) -> Result<Value> {
-    let class = class(image, class_value)?;
     let quantifier = match quantifier.as_symbol().map(|s| image.name(s)) {
         Some("ALL") => Quantifier::All,
         _ => Quantifier::A,
@@ -167,12 +169,16 @@ fn designator_of_form(
 /// A designator from a list of properties; a parent is equated with it.
 ///
 /// `(desig:desig-prop-value (desig:make-designator :object '((:type :bottle))) :type)` => `:BOTTLE`
-#[builtin(_, "class description &optional parent")]
-fn make_designator(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let class = class(image, &args[0])?;
-    let description = checked_description(image, &args[1])?;
+#[builtin]
+fn make_designator(
+    image: &mut Image,
+    class: Class,
+    description: &Value,
+    parent: Option<&Value>,
+) -> Result<Value> {
+    let description = checked_description(image, description)?;
     let made = Value::foreign(Designator::new(image, class, Quantifier::A, description));
-    if let Some(parent) = keywords::optional(args, 2) {
+    if let Some(parent) = parent.filter(|parent| parent.is_true()) {
         value::designator(image, parent)?;
         value::equate(parent, &made);
     }
@@ -257,21 +263,22 @@ fn like(image: &mut Image, original: &Designator, properties: Vec<Value>) -> Val
 /// A designator of its own; the new properties take the place of those with the same keys.
 ///
 /// `(desig:properties (desig:copy-designator (desig:an object (type a)) :new-description '((:type :b))))` => `((:TYPE :B))`
-#[builtin("COPY-DESIGNATOR", "designator &key new-description")]
-fn copy(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let original = value::designator(image, &args[0])?;
-    let name = image.keyword("NEW-DESCRIPTION");
-    let [new] = keywords::parse(image, &args[1..], [name])?;
-    let new = new.unwrap_or(Value::NIL);
-    let new: Vec<Value> = checked_description(image, &new)?.iter_list().collect();
-    let mut properties: Vec<Value> = original
+#[builtin("COPY-DESIGNATOR")]
+fn copy(
+    image: &mut Image,
+    designator: &Designator,
+    #[key] new_description: Option<Value>,
+) -> Result<Value> {
+    let new = checked_description(image, &new_description.unwrap_or(Value::NIL))?;
+    let new: Vec<Value> = new.iter_list().collect();
+    let mut properties: Vec<Value> = designator
         .description
         .borrow()
         .iter_list()
         .filter(|p| !new.iter().any(|n| n.car_or_nil().is_eql(&p.car_or_nil())))
         .collect();
     properties.extend(new);
-    Ok(like(image, original, properties))
+    Ok(like(image, designator, properties))
 }
 
 /// A designator with more properties.
@@ -308,10 +315,9 @@ fn rename(image: &mut Image, designator: &Designator, old: &Value, new: Value) -
 ///
 /// `(desig:desig-prop-value (desig:merge-designators (desig:an object (type cup)) (desig:an object (color red))) :color)` => `:RED`
 #[builtin("MERGE-DESIGNATORS", "designator other &rest others")]
-fn merge(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let first = value::designator(image, &args[0])?;
+fn merge(image: &mut Image, first: &Designator, others: &[Value]) -> Result<Value> {
     let mut properties: Vec<Value> = first.description.borrow().iter_list().collect();
-    for other in &args[1..] {
+    for other in others {
         let other = value::designator(image, other)?;
         for property in other.description.borrow().iter_list() {
             let key = property.car_or_nil();
@@ -324,25 +330,26 @@ fn merge(image: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 /// A designator equated to the parent that refers to the data object.
-#[builtin(
-    "MAKE-EFFECTIVE-DESIGNATOR",
-    "parent &key new-properties data-object timestamp"
-)]
-fn make_effective(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let parent = value::designator(image, &args[0])?;
-    let names = ["NEW-PROPERTIES", "DATA-OBJECT", "TIMESTAMP"].map(|n| image.keyword(n));
-    let [properties, data, _] = keywords::parse(image, &args[1..], names)?;
-    let properties = match properties {
-        Some(list) => checked_description(image, &list)?.iter_list().collect(),
-        None => parent.description.borrow().iter_list().collect(),
+#[builtin("MAKE-EFFECTIVE-DESIGNATOR")]
+fn make_effective(
+    image: &mut Image,
+    parent: &Value,
+    #[key] new_properties: Option<&Value>,
+    #[key] data_object: Option<Value>,
+    #[key] _timestamp: Option<&Value>,
+) -> Result<Value> {
+    let original = value::designator(image, parent)?;
+    let properties = match new_properties {
+        Some(list) => checked_description(image, list)?.iter_list().collect(),
+        None => original.description.borrow().iter_list().collect(),
     };
-    let made = like(image, parent, properties);
+    let made = like(image, original, properties);
     if let Some(new) = value::as_designator(&made) {
-        *new.data.borrow_mut() = data;
+        *new.data.borrow_mut() = data_object;
         value::note_changed(&made);
         new.is_effective.set(true);
     }
-    value::equate(&args[0], &made);
+    value::equate(parent, &made);
     Ok(made)
 }
 

@@ -28,16 +28,26 @@ const GROUNDING_PRIORITY: i64 = 10;
 /// Lets a function of a location designator resolve locations; low priorities come first. It
 /// returns a list of poses, or a function without arguments that returns the next pose each time,
 /// at last NIL or a text that says why there are no more.
-#[builtin(_, "priority function &optional documentation")]
-fn add_location_generator(image: &mut Image, args: &[Value]) -> Result<Value> {
-    register(image, GENERATORS, args)
+#[builtin]
+fn add_location_generator(
+    image: &mut Image,
+    priority: &Value,
+    function: &Value,
+    documentation: Option<Value>,
+) -> Result<Value> {
+    register(image, GENERATORS, priority, function, documentation)
 }
 
 /// Lets a function of a location designator and a pose judge solutions: :ACCEPT, :MAYBE-REJECT,
 /// :UNKNOWN, or NIL or a text that says why to reject.
-#[builtin(_, "priority function &optional documentation")]
-fn add_location_validator(image: &mut Image, args: &[Value]) -> Result<Value> {
-    register(image, VALIDATORS, args)
+#[builtin]
+fn add_location_validator(
+    image: &mut Image,
+    priority: &Value,
+    function: &Value,
+    documentation: Option<Value>,
+) -> Result<Value> {
+    register(image, VALIDATORS, priority, function, documentation)
 }
 
 /// Forgets a generator.
@@ -133,28 +143,34 @@ pub(super) fn variable(image: &mut Image, name: &str) -> Sym {
     packages::symbol(image, "CRAM-DESIGNATORS", name)
 }
 
-fn register(image: &mut Image, list: &str, args: &[Value]) -> Result<Value> {
-    let Value::Int(priority) = args[0] else {
-        return Err(Raise::type_error(&args[0], known::INTEGER));
+fn register(
+    image: &mut Image,
+    list: &str,
+    priority: &Value,
+    function: &Value,
+    documentation: Option<Value>,
+) -> Result<Value> {
+    let Value::Int(priority) = *priority else {
+        return Err(Raise::type_error(priority, known::INTEGER));
     };
     let entry = Value::list([
-        args[0].clone(),
-        args[1].clone(),
-        args.get(2).cloned().unwrap_or(Value::NIL),
+        priority.into(),
+        function.clone(),
+        documentation.into(),
         Value::T,
     ]);
     let list = variable(image, list);
     let mut entries: Vec<Value> = image
         .special(list)
         .iter_list()
-        .filter(|e| !is_about(e, &args[1]))
+        .filter(|e| !is_about(e, function))
         .collect();
     let place = entries
         .iter()
         .position(|e| matches!(e.car_or_nil(), Value::Int(p) if p > priority));
     entries.insert(place.unwrap_or(entries.len()), entry);
     image.set_special(list, Value::list(entries));
-    Ok(args[1].clone())
+    Ok(function.clone())
 }
 
 fn is_about(entry: &Value, function: &Value) -> bool {

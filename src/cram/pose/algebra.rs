@@ -17,22 +17,19 @@ use spatial::trig;
 /// The sum of vectors.
 ///
 /// `(cl-transforms:v+ (cl-transforms:make-3d-vector 1 2 3) (cl-transforms:make-3d-vector 1 0 0))` => `#<3D-VECTOR (2.0d0 2.0d0 3.0d0)>`
-#[builtin("V+", "vector &rest vectors")]
-fn v_plus(image: &mut Image, vectors: &[Value]) -> Result<Value> {
-    fold(image, vectors, |a, b| a + b)
+#[builtin("V+")]
+fn v_plus(image: &mut Image, vector: Vector3, vectors: &[Value]) -> Result<Value> {
+    fold(image, vector, vectors, |a, b| a + b)
 }
 
 /// The first vector less the others; of one vector, its opposite.
 ///
 /// `(cl-tf:v- (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 1 1))` => `#<3D-VECTOR (0.0d0 1.0d0 2.0d0)>`
 #[builtin("V-", "vector &rest vectors")]
-fn v(image: &mut Image, vectors: &[Value]) -> Result<Value> {
-    match vectors {
-        [only] => {
-            let v = column(image, only)?;
-            vector(-v)
-        }
-        _ => fold(image, vectors, |a, b| a - b),
+fn v_minus(image: &mut Image, first: Vector3, others: &[Value]) -> Result<Value> {
+    match others {
+        [] => vector(-Column::from(first.0)),
+        _ => fold(image, first, others, |a, b| a - b),
     }
 }
 
@@ -216,11 +213,12 @@ fn quaternion(q: &Hamilton<f64>) -> Result<Value> {
 
 fn fold(
     image: &Image,
-    args: &[Value],
+    first: Vector3,
+    others: &[Value],
     combine: fn(Column<f64>, Column<f64>) -> Column<f64>,
 ) -> Result<Value> {
-    let mut result = column(image, &args[0])?;
-    for arg in &args[1..] {
+    let mut result = Column::from(first.0);
+    for arg in others {
         result = combine(result, column(image, arg)?);
     }
     vector(result)
@@ -229,7 +227,7 @@ fn fold(
 /// Functions of package `CL-TRANSFORMS`.
 pub(crate) static TABLE: &[Builtin] = builtins![
     v_plus,
-    v,
+    v_minus,
     v_builtin,
     v_inv,
     v_norm,

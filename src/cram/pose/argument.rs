@@ -1,5 +1,7 @@
 //! Arguments of the functions on poses: numbers of any type, lists instead of vectors.
 
+use std::rc::Rc;
+
 use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
@@ -32,18 +34,15 @@ impl FromValue<'_> for Placement {
     }
 }
 
-/// The name of a frame.
-pub(crate) struct FrameName(pub(crate) String);
+/// The name of a frame: a string.
+pub(crate) struct FrameName(pub(crate) Rc<str>);
 
 impl FromValue<'_> for FrameName {
     fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
-        frame(value).map(FrameName)
+        let name = value.as_text();
+        name.map(|name| FrameName(name.into()))
+            .ok_or_else(|| Raise::type_error(value, known::STRING))
     }
-}
-
-/// A real number.
-pub fn real(value: &Value) -> Result<f64> {
-    number::to_f64(value).ok_or_else(|| Raise::type_error(value, known::REAL))
 }
 
 /// `count` numbers from a list; `what` and `names` describe them in errors.
@@ -142,11 +141,4 @@ pub fn placement(image: &Image, argument: &Value) -> Result<Placement> {
 /// Any pose or transform; `expected` is the type named in errors.
 pub(crate) fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
     value::as_placement(argument).ok_or_else(|| Raise::type_error(argument, expected))
-}
-
-/// The name of a frame: a string.
-pub fn frame(argument: &Value) -> Result<String> {
-    argument
-        .as_text()
-        .ok_or_else(|| Raise::type_error(argument, known::STRING))
 }

@@ -7,7 +7,6 @@ use super::value;
 use super::value::{Placement, Quaternion, Vector3};
 use lisp::builtin::Builtin;
 use lisp::image::Image;
-use lisp::typed::keywords;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
@@ -50,9 +49,12 @@ fn make_identity_rotation() -> Result<Value> {
 /// A pose in no frame.
 ///
 /// `(cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))` => `#<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "origin orientation")]
-fn make_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(value::pose(parts(image, args)?))
+#[builtin]
+fn make_pose(origin: Vector3, orientation: Quaternion) -> Value {
+    value::pose(Placement {
+        position: origin,
+        orientation,
+    })
 }
 
 /// The pose at the origin.
@@ -66,9 +68,12 @@ fn make_identity_pose() -> Result<Value> {
 /// A transform between frames that it does not name.
 ///
 /// `(cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))` => `#<TRANSFORM #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "translation rotation")]
-fn make_transform(image: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(value::transform(parts(image, args)?))
+#[builtin]
+fn make_transform(translation: Vector3, rotation: Quaternion) -> Value {
+    value::transform(Placement {
+        position: translation,
+        orientation: rotation,
+    })
 }
 
 /// The transform that changes nothing.
@@ -146,46 +151,26 @@ fn rotation(transform: &Value) -> Result<Value> {
 /// A pose with another position or orientation.
 ///
 /// `(cl-tf:copy-pose (cl-tf:make-identity-pose) :origin (cl-tf:make-3d-vector 1 2 3))` => `#<POSE #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "pose &key origin orientation")]
-fn copy_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let old = argument::placement(image, &args[0])?;
-    let names = [image.keyword("ORIGIN"), image.keyword("ORIENTATION")];
-    Ok(value::pose(changed(image, old, &args[1..], names)?))
+#[builtin]
+fn copy_pose(
+    pose: Placement,
+    #[key] origin: Option<Vector3>,
+    #[key] orientation: Option<Quaternion>,
+) -> Value {
+    value::pose(pose.with(origin, orientation))
 }
 
 /// A transform with another translation or rotation.
 ///
 /// `(cl-tf:copy-transform (cl-tf:make-identity-transform) :translation (cl-tf:make-3d-vector 1 2 3))` => `#<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>`
-#[builtin(_, "transform &key translation rotation")]
-fn copy_transform(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let old = argument::as_kind(&args[0], names::TRANSFORM)?;
-    let names = [image.keyword("TRANSLATION"), image.keyword("ROTATION")];
-    Ok(value::transform(changed(image, old, &args[1..], names)?))
-}
-
-/// The placement given by two arguments: position and orientation.
-fn parts(image: &Image, args: &[Value]) -> Result<Placement> {
-    Ok(Placement {
-        position: argument::vector(image, &args[0])?,
-        orientation: argument::quaternion(image, &args[1])?,
-    })
-}
-
-/// The placement with the parts that two keyword arguments replace.
-pub(crate) fn changed(
-    image: &Image,
-    mut placement: Placement,
-    args: &[Value],
-    names: [Sym; 2],
-) -> Result<Placement> {
-    let [position, orientation] = keywords::parse(image, args, names)?;
-    if let Some(position) = position {
-        placement.position = argument::vector(image, &position)?;
-    }
-    if let Some(orientation) = orientation {
-        placement.orientation = argument::quaternion(image, &orientation)?;
-    }
-    Ok(placement)
+#[builtin]
+fn copy_transform(
+    transform: &Value,
+    #[key] translation: Option<Vector3>,
+    #[key] rotation: Option<Quaternion>,
+) -> Result<Value> {
+    let old = argument::as_kind(transform, names::TRANSFORM)?;
+    Ok(value::transform(old.with(translation, rotation)))
 }
 
 fn component(image: &Image, argument: &Value, index: usize) -> Result<Value> {
@@ -218,33 +203,33 @@ fn orientation(argument: &Value, expected: Sym) -> Result<Value> {
 /// A vector with some numbers changed.
 ///
 /// `(cl-transforms:copy-3d-vector (cl-transforms:make-3d-vector 1 2 3) :z 0)` => `#<3D-VECTOR (1.0d0 2.0d0 0.0d0)>`
-#[builtin("COPY-3D-VECTOR", "vector &key x y z")]
-fn copy_vector(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Vector3(mut xyz) = argument::vector(image, &args[0])?;
-    let names = ["X", "Y", "Z"].map(|n| image.keyword(n));
-    let given = keywords::parse(image, &args[1..], names)?;
-    for (slot, new) in xyz.iter_mut().zip(given) {
-        if let Some(new) = new {
-            *slot = argument::real(&new)?;
-        }
-    }
-    Ok(value::vector(xyz))
+#[builtin]
+fn copy_3d_vector(
+    vector: Vector3,
+    #[key] x: Option<f64>,
+    #[key] y: Option<f64>,
+    #[key] z: Option<f64>,
+) -> Value {
+    value::vector(replaced(vector.0, [x, y, z]))
 }
 
 /// A quaternion with some numbers changed.
 ///
 /// `(cl-tf:copy-quaternion (cl-tf:make-quaternion 0 0 1 0) :x 1 :z 0)` => `#<QUATERNION (1.0d0 0.0d0 0.0d0 0.0d0)>`
-#[builtin(_, "quaternion &key x y z w")]
-fn copy_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Quaternion(mut xyzw) = argument::quaternion(image, &args[0])?;
-    let names = ["X", "Y", "Z", "W"].map(|n| image.keyword(n));
-    let given = keywords::parse(image, &args[1..], names)?;
-    for (slot, new) in xyzw.iter_mut().zip(given) {
-        if let Some(new) = new {
-            *slot = argument::real(&new)?;
-        }
-    }
-    Ok(value::quaternion(xyzw))
+#[builtin]
+fn copy_quaternion(
+    quaternion: Quaternion,
+    #[key] x: Option<f64>,
+    #[key] y: Option<f64>,
+    #[key] z: Option<f64>,
+    #[key] w: Option<f64>,
+) -> Value {
+    value::quaternion(replaced(quaternion.0, [x, y, z, w]))
+}
+
+/// The numbers, but the new ones where such are given.
+fn replaced<const N: usize>(old: [f64; N], new: [Option<f64>; N]) -> [f64; N] {
+    std::array::from_fn(|i| new[i].unwrap_or(old[i]))
 }
 
 /// Functions of package `CL-TRANSFORMS`.
@@ -265,7 +250,7 @@ pub(crate) static TABLE: &[Builtin] = builtins![
     orientation_builtin,
     translation,
     rotation,
-    copy_vector,
+    copy_3d_vector,
     copy_quaternion,
     copy_pose,
     copy_transform,

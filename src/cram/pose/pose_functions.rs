@@ -101,7 +101,7 @@ pub(crate) fn invert(transform: &Value) -> Result<Value> {
     let placement = argument::as_kind(transform, names::TRANSFORM)?;
     let inverse = Placement::of(&placement.to_pose().inverse());
     Ok(match value::as_transform_stamped(transform) {
-        Some(t) => value::transform_stamped_at(&t.child, &t.frame, t.stamp, inverse),
+        Some(t) => value::transform_stamped_at(t.child, t.frame, t.stamp, inverse),
         None => value::transform(inverse),
     })
 }

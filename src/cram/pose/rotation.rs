@@ -3,14 +3,12 @@
 use crate::pose::value::Vector3;
 use nalgebra::{Matrix3, Quaternion as Hamilton, Rotation3, UnitQuaternion, Vector3 as Column};
 
-use super::argument;
 use super::argument::Result;
 use super::value;
 use super::value::Quaternion;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::print;
-use lisp::typed::keywords;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::number;
@@ -96,43 +94,41 @@ fn radians_to_degrees(radians: f64) -> Result<Value> {
 /// The quaternion of rotations about the fixed axes x, then y, then z (rad).
 ///
 /// `(cl-transforms:euler->quaternion :az 0)` => `#<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>`
-#[builtin("EULER->QUATERNION", "&key ax ay az")]
-fn euler_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let names = ["AX", "AY", "AZ"].map(|n| image.keyword(n));
-    let given = keywords::parse(image, args, names)?;
-    let mut angles = [0.0; 3];
-    for (angle, value) in angles.iter_mut().zip(&given) {
-        if let Some(value) = value {
-            *angle = argument::real(value)?;
-        }
-    }
+#[builtin("EULER->QUATERNION")]
+fn euler_to_quaternion(
+    #[key] ax: Option<f64>,
+    #[key] ay: Option<f64>,
+    #[key] az: Option<f64>,
+) -> Value {
+    let angles = [ax, ay, az].map(Option::unwrap_or_default);
     let turned = pose::from_xyz_rpy([0.0; 3], angles);
-    Ok(value::quaternion(Quaternion::of(&turned.rotation).0))
+    value::quaternion(Quaternion::of(&turned.rotation).0)
 }
 
 /// The angles (rad) about x, y and z of a quaternion: a list (:AX x :AY y :AZ z), or three values.
 ///
 /// `(cl-tf:quaternion->euler (cl-tf:make-identity-rotation))` => `(:AX 0.0d0 :AY 0.0d0 :AZ 0.0d0)`
 // Roll, pitch and yaw about fixed axes, from the rotation's matrix.
-#[builtin("QUATERNION->EULER", "quaternion &key just-values")]
-fn quaternion_to_euler(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let q = argument::quaternion(image, &args[0])?.rotation();
-    let names = [image.keyword("JUST-VALUES")];
-    let [just_values] = keywords::parse(image, &args[1..], names)?;
-    let m = q.to_rotation_matrix();
+#[builtin("QUATERNION->EULER")]
+fn quaternion_to_euler(
+    image: &mut Image,
+    quaternion: Quaternion,
+    #[key] just_values: Option<bool>,
+) -> Value {
+    let m = quaternion.rotation().to_rotation_matrix();
     let m = m.matrix();
     let roll = trig::atan2(m[(2, 1)], m[(2, 2)]);
     let pitch = trig::asin(-m[(2, 0)]);
     let yaw = trig::atan2(m[(1, 0)], m[(0, 0)]);
     // Adding zero turns -0 into 0.
     let angles = [roll, pitch, yaw].map(|a| Value::Double(a + 0.0));
-    if just_values.is_some_and(|v| v.is_true()) {
-        return Ok(Value::values(angles.to_vec()));
+    if just_values == Some(true) {
+        return Value::values(angles.to_vec());
     }
     let [ax, ay, az] = angles;
     let names = ["AX", "AY", "AZ"].map(|n| Value::from(image.keyword(n)));
     let [kx, ky, kz] = names;
-    Ok(Value::list([kx, ax, ky, ay, kz, az]))
+    Value::list([kx, ax, ky, ay, kz, az])
 }
 
 /// The quaternion of a rotation by an angle (rad) about an axis.

@@ -2,7 +2,6 @@
 
 use super::argument;
 use super::argument::Result;
-use super::construct::changed;
 use super::names;
 use super::pose_functions;
 use super::value;
@@ -13,7 +12,6 @@ use crate::pose::value::Vector3;
 use lisp::builtin::Builtin;
 use lisp::image::Image;
 use lisp::typed::FromValue;
-use lisp::typed::keywords;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
@@ -21,19 +19,18 @@ use lisp::value::raise::Raise;
 /// A pose in a frame at a time (s).
 ///
 /// `(cl-transforms-stamped:make-pose-stamped "map" 0.0 (cl-transforms:make-3d-vector 1 0 0) (cl-transforms:make-identity-rotation))` => `#<"map" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "frame-id stamp origin orientation")]
+#[builtin]
 fn make_pose_stamped(
     frame_id: FrameName,
     stamp: Time,
     origin: Vector3,
-    orientation_argument: Quaternion,
-) -> Result<Value> {
+    orientation: Quaternion,
+) -> Value {
     let placement = Placement {
         position: origin,
-        orientation: orientation_argument,
+        orientation,
     };
-    let frame = frame_id.0;
-    Ok(value::pose_stamped_at(&frame, stamp.0, placement))
+    value::pose_stamped_at(frame_id.0, stamp.0, placement)
 }
 
 /// A transform from a frame to a child frame at a time (s).
@@ -46,16 +43,12 @@ fn make_transform_stamped(
     stamp: Time,
     translation: Vector3,
     rotation: Quaternion,
-) -> Result<Value> {
+) -> Value {
     let placement = Placement {
         position: translation,
         orientation: rotation,
     };
-    let (frame, child) = (frame_id.0, child_frame_id.0);
-    let stamp = stamp.0;
-    Ok(value::transform_stamped_at(
-        &frame, &child, stamp, placement,
-    ))
+    value::transform_stamped_at(frame_id.0, child_frame_id.0, stamp.0, placement)
 }
 
 /// The frame of a stamped pose or transform.
@@ -93,26 +86,21 @@ fn stamp(stamped: &Value) -> Result<Value> {
 ///
 /// `(cl-tf:pose->pose-stamped "map" 0.0 (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)))` => `#<"map" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
 #[builtin("POSE->POSE-STAMPED")]
-fn pose_to_pose_stamped(frame_id: FrameName, stamp: Time, pose: Placement) -> Result<Value> {
-    let placement = pose;
-    let frame = frame_id.0;
-    Ok(value::pose_stamped_at(&frame, stamp.0, placement))
+fn pose_to_pose_stamped(frame_id: FrameName, stamp: Time, pose: Placement) -> Value {
+    value::pose_stamped_at(frame_id.0, stamp.0, pose)
 }
 
 /// A transform put between frames.
 ///
 /// `(cl-tf:transform->transform-stamped "map" "base" 0.0 (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)))` => `#<"map" "base" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(
-    "TRANSFORM->TRANSFORM-STAMPED",
-    "frame-id child-frame-id stamp transform"
-)]
-fn transform_to_transform_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let placement = argument::placement(image, &args[3])?;
-    let (frame, child) = (argument::frame(&args[0])?, argument::frame(&args[1])?);
-    let stamp = time(&args[2])?;
-    Ok(value::transform_stamped_at(
-        &frame, &child, stamp, placement,
-    ))
+#[builtin("TRANSFORM->TRANSFORM-STAMPED")]
+fn transform_to_transform_stamped(
+    frame_id: FrameName,
+    child_frame_id: FrameName,
+    stamp: Time,
+    transform: Placement,
+) -> Value {
+    value::transform_stamped_at(frame_id.0, child_frame_id.0, stamp.0, transform)
 }
 
 /// The pose without its frame.
@@ -168,49 +156,34 @@ fn pose_to_transform_stamped(
     child_frame: FrameName,
     stamp: Time,
     pose: Placement,
-) -> Result<Value> {
-    let placement = pose;
-    let (frame, child) = (parent_frame.0, child_frame.0);
-    let stamp = stamp.0;
-    Ok(value::transform_stamped_at(
-        &frame, &child, stamp, placement,
-    ))
+) -> Value {
+    value::transform_stamped_at(parent_frame.0, child_frame.0, stamp.0, pose)
 }
 
 /// The transform from the pose's frame to a child frame that stands in the pose.
 ///
 /// `(cram-tf:pose-stamped->transform-stamped (cl-tf:make-pose-stamped "map" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) "base")` => `#<"map" "base" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
 #[builtin("POSE-STAMPED->TRANSFORM-STAMPED")]
-fn pose_stamped_to_transform_stamped(
-    pose_stamped: PoseStamped,
-    child_frame: FrameName,
-) -> Result<Value> {
+fn pose_stamped_to_transform_stamped(pose_stamped: PoseStamped, child_frame: FrameName) -> Value {
     let pose = pose_stamped;
-    let child = child_frame.0;
-    Ok(value::transform_stamped_at(
-        &pose.frame,
-        &child,
-        pose.stamp,
-        pose.placement,
-    ))
+    value::transform_stamped_at(pose.frame, child_frame.0, pose.stamp, pose.placement)
 }
 
 /// The pose of the child frame.
 ///
 /// `(cram-tf:transform-stamped->pose-stamped (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)))` => `#<"map" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
 #[builtin("TRANSFORM-STAMPED->POSE-STAMPED")]
-fn transform_stamped_to_pose_stamped(transform_stamped: TransformStamped) -> Result<Value> {
+fn transform_stamped_to_pose_stamped(transform_stamped: TransformStamped) -> Value {
     let t = transform_stamped;
-    Ok(value::pose_stamped_at(&t.frame, t.stamp, t.placement))
+    value::pose_stamped_at(t.frame, t.stamp, t.placement)
 }
 
 /// The pose of the child frame in its frame.
 ///
 /// `(cram-tf:strip-transform-stamped (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)))` => `#<"map" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
 #[builtin]
-fn strip_transform_stamped(transform_stamped: TransformStamped) -> Result<Value> {
-    let t = transform_stamped;
-    Ok(value::pose_stamped_at(&t.frame, t.stamp, t.placement))
+fn strip_transform_stamped(transform_stamped: TransformStamped) -> Value {
+    transform_stamped_to_pose_stamped(transform_stamped)
 }
 
 /// The transform back, with the frames exchanged.
@@ -225,9 +198,15 @@ fn transform_stamped_inv(transform_stamped: &Value) -> Result<Value> {
 /// The transform moved along the axes of its frame (m).
 ///
 /// `(cram-tf:translate-transform-stamped (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) :z-offset 1)` => `#<"map" "base" ((1.00000 0.00000 1.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "transform-stamped &key x-offset y-offset z-offset")]
-fn translate_transform_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {
-    translate_pose(image, args)
+#[builtin]
+fn translate_transform_stamped(
+    image: &mut Image,
+    transform_stamped: &Value,
+    #[key] x_offset: Option<f64>,
+    #[key] y_offset: Option<f64>,
+    #[key] z_offset: Option<f64>,
+) -> Result<Value> {
+    translated(image, transform_stamped, &[x_offset, y_offset, z_offset])
 }
 
 /// Are two poses within a distance (m) and an angle (rad) of each other, in the same frame?
@@ -255,21 +234,15 @@ struct Time(f64);
 impl FromValue<'_> for Time {
     const HAS_NIL: bool = true;
 
-    fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
-        time(value).map(Time)
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self> {
+        let seconds = Option::<f64>::from_value(image, value)?;
+        Ok(Time(seconds.unwrap_or_default()))
     }
-}
-
-fn time(argument: &Value) -> Result<f64> {
-    if argument.is_nil() {
-        return Ok(0.0);
-    }
-    argument::real(argument)
 }
 
 impl FromValue<'_> for PoseStamped {
     fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
-        stamped_pose(value)
+        value::as_pose_stamped(value).ok_or_else(|| Raise::type_error(value, names::POSE_STAMPED))
     }
 }
 
@@ -277,10 +250,6 @@ impl FromValue<'_> for TransformStamped {
     fn from_value(_: &mut Image, value: &Value) -> Result<Self> {
         stamped_transform(value)
     }
-}
-
-fn stamped_pose(argument: &Value) -> Result<PoseStamped> {
-    value::as_pose_stamped(argument).ok_or_else(|| Raise::type_error(argument, names::POSE_STAMPED))
 }
 
 fn stamped_transform(argument: &Value) -> Result<TransformStamped> {
@@ -291,99 +260,75 @@ fn stamped_transform(argument: &Value) -> Result<TransformStamped> {
 /// A stamped pose with some parts changed.
 ///
 /// `(cl-tf:copy-pose-stamped (cl-tf:make-pose-stamped "map" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :frame-id "base")` => `#<"base" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "pose-stamped &key frame-id stamp origin orientation")]
-fn copy_pose_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let old = stamped_pose(&args[0])?;
-    let names = ["FRAME-ID", "STAMP", "ORIGIN", "ORIENTATION"].map(|n| image.keyword(n));
-    let [frame, stamp, origin, orientation] = keywords::parse(image, &args[1..], names)?;
-    let frame = frame.map_or(Ok(old.frame.to_string()), |f| argument::frame(&f))?;
-    let stamp = stamp.map_or(Ok(old.stamp), |s| time(&s))?;
-    let mut placement = old.placement;
-    if let Some(origin) = origin {
-        placement.position = argument::vector(image, &origin)?;
-    }
-    if let Some(orientation) = orientation {
-        placement.orientation = argument::quaternion(image, &orientation)?;
-    }
-    Ok(value::pose_stamped_at(&frame, stamp, placement))
+#[builtin]
+fn copy_pose_stamped(
+    pose_stamped: PoseStamped,
+    #[key] frame_id: Option<FrameName>,
+    #[key] stamp: Option<Time>,
+    #[key] origin: Option<Vector3>,
+    #[key] orientation: Option<Quaternion>,
+) -> Value {
+    let old = pose_stamped;
+    value::pose_stamped_at(
+        frame_id.map_or(old.frame, |frame| frame.0),
+        stamp.map_or(old.stamp, |stamp| stamp.0),
+        old.placement.with(origin, orientation),
+    )
 }
 
 /// A stamped transform with some parts changed.
 ///
 /// `(cl-tf:copy-transform-stamped (cl-tf:make-transform-stamped "map" "base" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) :child-frame-id "torso")` => `#<"map" "torso" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(
-    _,
-    "transform-stamped &key frame-id child-frame-id stamp translation rotation"
-)]
-fn copy_transform_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let old = stamped_transform(&args[0])?;
-    let names = [
-        "FRAME-ID",
-        "CHILD-FRAME-ID",
-        "STAMP",
-        "TRANSLATION",
-        "ROTATION",
-    ]
-    .map(|n| image.keyword(n));
-    let [frame, child, stamp, translation, rotation] = keywords::parse(image, &args[1..], names)?;
-    let frame = frame.map_or(Ok(old.frame.to_string()), |f| argument::frame(&f))?;
-    let child = child.map_or(Ok(old.child.to_string()), |f| argument::frame(&f))?;
-    let stamp = stamp.map_or(Ok(old.stamp), |s| time(&s))?;
-    let mut rest = Vec::new();
-    for (name, value) in [(names[3], translation), (names[4], rotation)] {
-        if let Some(value) = value {
-            rest.push(Value::from(name));
-            rest.push(value);
-        }
-    }
-    let placement = changed(image, old.placement, &rest, [names[3], names[4]])?;
-    Ok(value::transform_stamped_at(
-        &frame, &child, stamp, placement,
-    ))
-}
-
-/// The product of two stamped transforms, with new frame names.
-fn product(
-    image: &mut Image,
-    left: &TransformStamped,
-    right: &TransformStamped,
-    frames: (&str, &str),
-    options: &[Value],
-) -> Result<Value> {
-    let names = [image.keyword("RESULT-AS-POSE-OR-TRANSFORM")];
-    let [kind] = keywords::parse(image, options, names)?;
-    let pose = image.keyword("POSE");
-    let placement = Placement::of(&(left.pose() * right.pose()));
-    Ok(if kind.and_then(|k| k.as_symbol()) == Some(pose) {
-        value::pose_stamped_at(frames.0, left.stamp, placement)
-    } else {
-        value::transform_stamped_at(frames.0, frames.1, left.stamp, placement)
-    })
+#[builtin]
+fn copy_transform_stamped(
+    transform_stamped: TransformStamped,
+    #[key] frame_id: Option<FrameName>,
+    #[key] child_frame_id: Option<FrameName>,
+    #[key] stamp: Option<Time>,
+    #[key] translation: Option<Vector3>,
+    #[key] rotation: Option<Quaternion>,
+) -> Value {
+    let old = transform_stamped;
+    value::transform_stamped_at(
+        frame_id.map_or(old.frame, |frame| frame.0),
+        child_frame_id.map_or(old.child, |frame| frame.0),
+        stamp.map_or(old.stamp, |stamp| stamp.0),
+        old.placement.with(translation, rotation),
+    )
 }
 
 /// The transform from x to z by way of y, as a stamped transform or as :POSE.
-#[builtin(
-    "MULTIPLY-TRANSFORM-STAMPEDS",
-    "x-frame z-frame x-y-transform y-z-transform &key result-as-pose-or-transform"
-)]
-fn multiply_stampeds(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let (x, z) = (argument::frame(&args[0])?, argument::frame(&args[1])?);
-    let left = stamped_transform(&args[2])?;
-    let right = stamped_transform(&args[3])?;
-    check_frames("The first transform leads from", &left.frame, &x)?;
-    check_frames("The second transform leads to", &right.child, &z)?;
-    check_meeting(&left, &right)?;
-    product(image, &left, &right, (&x, &z), &args[4..])
+#[builtin]
+fn multiply_transform_stampeds(
+    image: &mut Image,
+    x_frame: FrameName,
+    z_frame: FrameName,
+    x_y_transform: TransformStamped,
+    y_z_transform: TransformStamped,
+    #[key] result_as_pose_or_transform: Option<&Value>,
+) -> Result<Value> {
+    let (left, right) = (x_y_transform, y_z_transform);
+    check_frames("The first transform leads from", &left.frame, &x_frame.0)?;
+    check_frames("The second transform leads to", &right.child, &z_frame.0)?;
+    apply_transform(image, left, right, result_as_pose_or_transform)
 }
 
 /// The product of two stamped transforms that meet in a frame, as a stamped transform or as :POSE.
-#[builtin(_, "left right &key result-as-pose-or-transform")]
-fn apply_transform(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let left = stamped_transform(&args[0])?;
-    let right = stamped_transform(&args[1])?;
+#[builtin]
+fn apply_transform(
+    image: &mut Image,
+    left: TransformStamped,
+    right: TransformStamped,
+    #[key] result_as_pose_or_transform: Option<&Value>,
+) -> Result<Value> {
     check_meeting(&left, &right)?;
-    let (x, z) = (left.frame.clone(), right.child.clone());
-    product(image, &left, &right, (&x, &z), &args[2..])
+    let placement = Placement::of(&(left.pose() * right.pose()));
+    let kind = result_as_pose_or_transform.and_then(Value::as_symbol);
+    Ok(if kind == Some(image.keyword("POSE")) {
+        value::pose_stamped_at(left.frame, left.stamp, placement)
+    } else {
+        value::transform_stamped_at(left.frame, right.child, left.stamp, placement)
+    })
 }
 
 fn check_frames(what: &str, actual: &str, wanted: &str) -> Result<()> {
@@ -408,10 +353,10 @@ fn check_meeting(left: &TransformStamped, right: &TransformStamped) -> Result<()
 /// The same kind of value with another placement.
 fn replaced(original: &Value, placement: Placement) -> Value {
     if let Some(pose) = value::as_pose_stamped(original) {
-        return value::pose_stamped_at(&pose.frame, pose.stamp, placement);
+        return value::pose_stamped_at(pose.frame, pose.stamp, placement);
     }
     if let Some(t) = value::as_transform_stamped(original) {
-        return value::transform_stamped_at(&t.frame, &t.child, t.stamp, placement);
+        return value::transform_stamped_at(t.frame, t.child, t.stamp, placement);
     }
     value::pose(placement)
 }
@@ -419,17 +364,29 @@ fn replaced(original: &Value, placement: Placement) -> Value {
 /// The pose moved along the axes of its frame (m). `:x`, `:y` and `:z` are the same as `:x-offset`, ….
 ///
 /// `(cram-tf:translate-pose (cl-tf:make-pose-stamped "map" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :x-offset 1)` => `#<"map" ((2.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>`
-#[builtin(_, "pose &key x-offset y-offset z-offset x y z")]
-fn translate_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let mut placement = argument::placement(image, &args[0])?;
-    let names = ["X-OFFSET", "Y-OFFSET", "Z-OFFSET", "X", "Y", "Z"].map(|n| image.keyword(n));
-    let offsets = keywords::parse(image, &args[1..], names)?;
+#[builtin]
+fn translate_pose(
+    image: &mut Image,
+    pose: &Value,
+    #[key] x_offset: Option<f64>,
+    #[key] y_offset: Option<f64>,
+    #[key] z_offset: Option<f64>,
+    #[key] x: Option<f64>,
+    #[key] y: Option<f64>,
+    #[key] z: Option<f64>,
+) -> Result<Value> {
+    translated(image, pose, &[x_offset, y_offset, z_offset, x, y, z])
+}
+
+/// The pose moved by offsets along x, y, z, x and so on, as far as they are given.
+fn translated(image: &Image, pose: &Value, offsets: &[Option<f64>]) -> Result<Value> {
+    let mut placement = argument::placement(image, pose)?;
     for (at, offset) in offsets.iter().enumerate() {
         if let Some(offset) = offset {
-            placement.position.0[at % 3] += argument::real(offset)?;
+            placement.position.0[at % 3] += offset;
         }
     }
-    Ok(replaced(&args[0], placement))
+    Ok(replaced(pose, placement))
 }
 
 /// The pose turned about one of its own axes :X :Y :Z by an angle (rad).
@@ -481,7 +438,7 @@ pub(crate) static CRAM_TABLE: &[Builtin] = builtins![
     transform_stamped_to_pose_stamped,
     strip_transform_stamped,
     transform_stamped_inv,
-    multiply_stampeds,
+    multiply_transform_stampeds,
     apply_transform,
     translate_pose,
     rotate_pose,

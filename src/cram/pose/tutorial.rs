@@ -66,7 +66,7 @@ fn make_pose(image: &mut Image, frame: &Value, pose: &Value) -> Result<Value> {
         Some(placement) => placement,
         None => argument::placement_list(image, pose)?,
     };
-    Ok(value::pose_stamped_at(&frame, 0.0, placement))
+    Ok(value::pose_stamped_at(frame, 0.0, placement))
 }
 
 fn coordinate(image: &Image, pose: &Value, index: usize) -> Result<Value> {

@@ -66,6 +66,18 @@ impl Placement {
         orientation: Quaternion::IDENTITY,
     };
 
+    /// With another position or orientation.
+    pub(crate) fn with(
+        self,
+        position: Option<Vector3>,
+        orientation: Option<Quaternion>,
+    ) -> Placement {
+        Placement {
+            position: position.unwrap_or(self.position),
+            orientation: orientation.unwrap_or(self.orientation),
+        }
+    }
+
     /// As a rigid transform.
     pub fn to_pose(self) -> spatial::Pose {
         spatial::Pose::from_parts(
@@ -103,8 +115,6 @@ pub struct PoseStamped {
     /// Where.
     pub placement: Placement,
 }
-
-impl PoseStamped {}
 
 /// A transform from a frame to a child frame.
 #[derive(Clone, PartialEq, Debug)]
@@ -158,7 +168,11 @@ pub fn pose_stamped(frame: &str, pose: &spatial::Pose) -> Value {
 }
 
 /// A pose in a frame at a time (s).
-pub(crate) fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
+pub(crate) fn pose_stamped_at(
+    frame: impl Into<Rc<str>>,
+    stamp: f64,
+    placement: Placement,
+) -> Value {
     Value::foreign(PoseStamped {
         frame: frame.into(),
         stamp,
@@ -173,8 +187,8 @@ pub fn transform_stamped(frame: &str, child: &str, pose: &spatial::Pose) -> Valu
 
 /// A transform from a frame to a child frame at a time (s).
 pub(crate) fn transform_stamped_at(
-    frame: &str,
-    child: &str,
+    frame: impl Into<Rc<str>>,
+    child: impl Into<Rc<str>>,
     stamp: f64,
     placement: Placement,
 ) -> Value {

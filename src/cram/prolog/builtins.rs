@@ -3,6 +3,7 @@
 use super::engine::{Engine, Progress};
 use super::search::{NextProofs, Search};
 use lisp::builtin::Builtin;
+use lisp::image::Image;
 use lisp::typed::{self, builtin, builtins};
 use lisp::value::Value;
 use lisp::value::raise::Raise;
@@ -17,28 +18,24 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// bindings; NIL if there is none.
 ///
 /// `(prolog:prove-one '(prolog:member ?x (1 2)))` => `(((?X . 1)))`
-#[builtin(_, "query &optional bindings")]
-fn prove_one(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let engine = begun(machine, &args)?;
+#[builtin]
+fn prove_one(machine: &mut Machine<'_>, query: &Value, bindings: Option<Value>) -> Result<Step> {
+    let bindings = bindings.unwrap_or(Value::NIL);
+    let engine = Engine::with_bindings(machine.image, query, &bindings)?;
     compute(machine, "PROVE-ONE", Solve::new(engine, 1))
 }
 
 /// A search for proofs.
-#[builtin("%BEGIN-SEARCH", "query bindings")]
-fn begin_search(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let search = Search::new(begun(machine, &args)?);
-    Ok(Step::Return(Value::foreign(search)))
+#[builtin("%BEGIN-SEARCH")]
+fn begin_search(image: &mut Image, query: &Value, bindings: &Value) -> Result<Value> {
+    let engine = Engine::with_bindings(image, query, bindings)?;
+    Ok(Value::foreign(Search::new(engine)))
 }
 
 /// Its next proofs, after whether there may be more.
 #[builtin("%NEXT-PROOFS")]
 fn next_proofs(machine: &mut Machine<'_>, search: Value) -> Result<Step> {
     compute(machine, "PROLOG", NextProofs::of(search))
-}
-
-fn begun(machine: &mut Machine<'_>, args: &[Value]) -> Result<Engine> {
-    let known = args.get(1).cloned().unwrap_or(Value::NIL);
-    Engine::with_bindings(machine.image, &args[0], &known)
 }
 
 /// The list of the bindings of up to `most` solutions.

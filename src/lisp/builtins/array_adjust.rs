@@ -23,10 +23,15 @@ type Outcome = Result<Value, Box<Raise>>;
     _,
     "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset"
 )]
-fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
-    let shape = array_make::shape(&args[1])?;
-    let options = array_make::Options::parse(image, &args[2..])?;
-    let old_shape = dimensions(&args[0])?;
+fn adjust_array(
+    image: &mut Image,
+    array: &Value,
+    new_dimensions: &Value,
+    options: &[Value],
+) -> Outcome {
+    let shape = array_make::shape(new_dimensions)?;
+    let options = array_make::Options::parse(image, options)?;
+    let old_shape = dimensions(array)?;
     if old_shape.len() != shape.len() {
         return Err(Raise::simple(format!(
             "An array of rank {} cannot be given rank {}.",
@@ -34,14 +39,14 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
             shape.len()
         )));
     }
-    let of_type = element_type(&args[0])?;
+    let of_type = element_type(array)?;
     if options.element_type.is_some_and(|wanted| wanted != of_type) {
         return Err(Raise::simple(
             "An array cannot be given another type of elements.",
         ));
     }
     if let Some(displacement) = options.displacement(of_type, &shape)? {
-        return displaced(&args[0], of_type, shape, displacement, &options);
+        return displaced(array, of_type, shape, displacement, &options);
     }
     let items = match &options.contents {
         Some(contents) => array_make::flatten(contents, &shape)?,
@@ -50,14 +55,14 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
                 .element
                 .clone()
                 .unwrap_or_else(|| array_make::filler(of_type));
-            kept_items(&args[0], &old_shape, &shape, filler)
+            kept_items(array, &old_shape, &shape, filler)
         }
     };
     for item in &items {
         checked_element(of_type, item.clone())?;
     }
-    match &args[0] {
-        Value::Str(s) if is_adjustable(&args[0]) => {
+    match array {
+        Value::Str(s) if is_adjustable(array) => {
             let count = items.len();
             let pointer = options.fill_pointer(count)?;
             let length = match pointer {
@@ -66,21 +71,21 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
                 None => count,
             };
             s.replace(&text_of(&items)?, length);
-            Ok(args[0].clone())
+            Ok(array.clone())
         }
-        Value::Vector(v) if is_adjustable(&args[0]) => {
+        Value::Vector(v) if is_adjustable(array) => {
             let count = items.len();
             v.items.own(items);
             if let Some(old) = v.fill_pointer.get() {
                 let pointer = options.fill_pointer(count)?.unwrap_or(old.min(count));
                 v.fill_pointer.set(Some(pointer));
             }
-            Ok(args[0].clone())
+            Ok(array.clone())
         }
         Value::Array(a) if a.adjustable => {
             *a.dimensions.borrow_mut() = shape;
             a.items.own(items);
-            Ok(args[0].clone())
+            Ok(array.clone())
         }
         Value::Array(a) => Ok(Value::Array(Rc::new(Array {
             adjustable: options.adjustable,

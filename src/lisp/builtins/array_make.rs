@@ -274,9 +274,9 @@ fn no_fill_pointer(options: &Options) -> Result<(), Box<Raise>> {
     _,
     "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset"
 )]
-fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
-    let shape = shape(&args[0])?;
-    let options = Options::parse(image, &args[1..])?;
+fn make_array(image: &mut Image, dimensions: &Value, options: &[Value]) -> Outcome {
+    let shape = shape(dimensions)?;
+    let options = Options::parse(image, options)?;
     let total: usize = shape.iter().product();
     let of_type = options.element_type.unwrap_or(ElementType::T);
     if let Some(displacement) = options.displacement(of_type, &shape)? {

@@ -4,7 +4,6 @@ use std::slice;
 
 use super::array_index;
 use crate::builtin::Builtin;
-use crate::image::Image;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
@@ -240,18 +239,17 @@ fn array_total_size(array: &Value) -> Outcome {
 /// Is there an element at these subscripts?
 ///
 /// `(array-in-bounds-p #(1 2 3) 3)` => `NIL`
-#[builtin(_, "array &rest subscripts")]
-fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
-    let dimensions = dimensions(&args[0])?;
-    if dimensions.len() != args.len() - 1 {
+#[builtin]
+fn array_in_bounds_p(array: &Value, subscripts: &[Value]) -> Result<bool, Box<Raise>> {
+    let dimensions = dimensions(array)?;
+    if dimensions.len() != subscripts.len() {
         // The wrong number of subscripts is an error, not out of bounds.
-        row_major_index(&args[0], &args[1..])?;
+        row_major_index(array, subscripts)?;
     }
-    let inside = args[1..].iter().zip(dimensions).all(|(i, size)| match i {
+    Ok(subscripts.iter().zip(dimensions).all(|(i, size)| match i {
         Value::Int(n) => usize::try_from(*n).is_ok_and(|n| n < size),
         _ => false,
-    });
-    Ok(Value::bool(inside))
+    }))
 }
 
 /// The type of the elements.

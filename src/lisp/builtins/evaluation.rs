@@ -14,7 +14,7 @@ use crate::value::Value;
 use crate::value::function::{Body, Function};
 use crate::value::known;
 use crate::value::raise::Raise;
-use crate::value::symbol::FunctionCell;
+use crate::value::symbol::{FunctionCell, Sym};
 use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
@@ -241,12 +241,12 @@ fn constantly(value_value: Value) -> Result<Value> {
 /// The function that is true when the function is false.
 ///
 /// `(funcall (complement #'oddp) 2)` => `T`
-#[builtin(_, "function")]
-fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
+#[builtin]
+fn complement(function: Value) -> Result<Value> {
     let complement = Function::control_of(
         known::COMPLEMENT,
         (0, None),
-        args[0].clone(),
+        function,
         |function, machine, args| {
             let function = function.clone();
             run(machine, "COMPLEMENT", |calls| async move {
@@ -347,25 +347,20 @@ fn special_operator_p(image: &mut Image, symbol: &Value) -> Result<Value> {
 /// The expander of a macro, or NIL.
 ///
 /// `(macro-function 'car)` => `NIL`
-#[builtin(_, "symbol &optional environment")]
-fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
-    if let Some(local) = args
-        .get(1)
-        .and_then(|scope| compile::local_macro(scope, name))
-    {
+#[builtin]
+fn macro_function(image: &mut Image, symbol: Sym, environment: Option<&Value>) -> Result<Value> {
+    if let Some(local) = environment.and_then(|scope| compile::local_macro(scope, symbol)) {
         return Ok(local);
     }
-    Ok(match &image.symbol(name).function {
+    Ok(match &image.symbol(symbol).function {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
-        FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
+        FunctionCell::Builtin => match image.operator(symbol).and_then(|o| o.expand) {
             Some(expand) => {
-                let function = Function::pure_of(name, (2, Some(2)), (), move |(), image, args| {
-                    let environment = args.get(1).cloned().unwrap_or(Value::NIL);
-                    image.expand_with(expand, &args[0], environment)
-                });
+                let function =
+                    Function::pure_of(symbol, (2, Some(2)), (), move |(), image, args| {
+                        let environment = args.get(1).cloned().unwrap_or(Value::NIL);
+                        image.expand_with(expand, &args[0], environment)
+                    });
                 Value::Function(function)
             }
             None => Value::NIL,

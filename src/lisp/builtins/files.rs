@@ -13,7 +13,6 @@ use crate::files::{Contents, Files, Opening, utf8};
 use crate::image::Image;
 use crate::stream::{Stream, StreamKind};
 use crate::typed::FromValue;
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -80,36 +79,31 @@ fn elements(size: &Value) -> Elements {
 /// characters.
 ///
 /// `(system::%open-file "no-such-file.txt" nil :if-does-not-exist nil)` => `NIL`
-#[builtin(
-    "%OPEN-FILE",
-    "name size &key direction if-exists if-does-not-exist element-type external-format"
-)]
-fn open(image: &mut Image, args: &[Value]) -> Outcome {
-    let [direction, if_exists, if_does_not_exist, _, _] = keywords::parse(
-        image,
-        &args[2..],
-        [
-            known::K_DIRECTION,
-            known::K_IF_EXISTS,
-            known::K_IF_DOES_NOT_EXIST,
-            known::K_ELEMENT_TYPE,
-            known::K_EXTERNAL_FORMAT,
-        ],
-    )?;
-    let path = path(&args[0])?;
-    let elements = elements(&args[1]);
-    let kind = match direction.as_ref() {
+#[builtin("%OPEN-FILE")]
+fn open(
+    image: &mut Image,
+    name: &Value,
+    size: &Value,
+    #[key] direction: Option<&Value>,
+    #[key] if_exists: Option<&Value>,
+    #[key] if_does_not_exist: Option<&Value>,
+    #[key] _element_type: Option<&Value>,
+    #[key] _external_format: Option<&Value>,
+) -> Outcome {
+    let path = path(name)?;
+    let elements = elements(size);
+    let kind = match direction {
         None | Some(Value::Symbol(known::K_INPUT, ..)) => {
-            open_input(&*image.files, &path, elements, if_does_not_exist.as_ref())?
+            open_input(&*image.files, &path, elements, if_does_not_exist)?
         }
         Some(Value::Symbol(known::K_OUTPUT, ..)) => {
-            open_output(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
+            open_output(image, &path, if_exists, if_does_not_exist)?
         }
         Some(Value::Symbol(known::K_IO, ..)) => {
-            open_both(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
+            open_both(image, &path, if_exists, if_does_not_exist)?
         }
         Some(Value::Symbol(known::K_PROBE, ..)) => {
-            open_probe(&*image.files, &path, if_does_not_exist.as_ref())?
+            open_probe(&*image.files, &path, if_does_not_exist)?
         }
         Some(other) => {
             return Err(Raise::simple(format!(

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::builtin::{Builtin, Operator};
 use crate::image::Image;
-use crate::object::combination::{define_combination, expand_define_method_combination};
+use crate::object::combination::{self, expand_define_method_combination};
 use crate::object::combine::{invoke_method, no_next_method};
 use crate::object::dispatch::no_applicable_method_error;
 use crate::object::effective::applicable_methods;
@@ -23,14 +23,22 @@ use crate::value::generic::{GenericFunction, Method};
 use crate::value::known;
 use crate::value::raise::Raise;
 
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
 /// Called when no method of a generic function applies. Add methods to do something else.
 ///
 /// `(progn (defgeneric weigh (x)) (defmethod no-applicable-method ((g (eql #'weigh)) &rest args) (list :cannot args)) (weigh 1))` => `(:CANNOT (1))`
-#[builtin(_, "generic-function &rest arguments")]
-fn no_applicable_method(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let function = args[0].clone();
-    let rest = args[1..].to_vec();
-    Err(no_applicable_method_error(machine.image, function, rest))
+#[builtin]
+fn no_applicable_method(
+    machine: &mut Machine<'_>,
+    generic_function: Value,
+    arguments: Vec<Value>,
+) -> Result<Step> {
+    Err(no_applicable_method_error(
+        machine.image,
+        generic_function,
+        arguments,
+    ))
 }
 
 /// The error that CALL-NEXT-METHOD has nothing to call.
@@ -40,7 +48,7 @@ fn no_next_method_builtin(
     generic_function: &Value,
     _method: &Value,
     _arguments: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     Err(no_next_method(machine.image, generic_function))
 }
 
@@ -50,7 +58,7 @@ fn add_method_builtin(
     image: &mut Image,
     generic_function: &Value,
     method: &Rc<Method>,
-) -> Result<Value, Box<Raise>> {
+) -> Result<Value> {
     let function = generic_of(image, generic_function)?;
     let required = as_generic(&function)?.parameters.borrow().required;
     let count = method.specializers.len();
@@ -70,7 +78,7 @@ fn remove_method_builtin(
     image: &mut Image,
     generic_function: &Value,
     method: &Rc<Method>,
-) -> Result<Value, Box<Raise>> {
+) -> Result<Value> {
     let function = generic_of(image, generic_function)?;
     if let Some(generic) = function.as_generic() {
         remove_method(generic, method);
@@ -86,7 +94,7 @@ fn compute_applicable_methods(
     image: &mut Image,
     generic_function: Generic,
     arguments: &Value,
-) -> Result<Value, Box<Raise>> {
+) -> Result<Value> {
     let function = generic_function.0;
     let arguments: Vec<Value> = arguments.iter_list().collect();
     let generic = as_generic(&function)?;
@@ -98,7 +106,7 @@ fn compute_applicable_methods(
 ///
 /// `(function-keywords (defmethod poured (x &key (into 'cup)) (list x into)))` => `(:INTO) ; NIL`
 #[builtin]
-fn function_keywords(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
+fn function_keywords(method: &Rc<Method>) -> Result<Value> {
     let parameters = &method.parameters;
     let keys = parameters.keys.iter().flatten().copied();
     Ok(Value::values(vec![
@@ -111,54 +119,20 @@ fn function_keywords(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
 ///
 /// `(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x)))` => `(:BEFORE)`
 #[builtin]
-fn method_qualifiers(method: &Rc<Method>) -> Result<Value, Box<Raise>> {
+fn method_qualifiers(method: &Rc<Method>) -> Result<Value> {
     Ok(Value::list(method.qualifiers.clone()))
-}
-
-/// Defines a method as DEFMETHOD describes it.
-#[builtin(
-    "%ADD-METHOD",
-    "name qualifiers specializers lambda-list takes-next documentation function"
-)]
-fn add_method3(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    defmethod::add_method(image, args)
-}
-
-/// Defines a generic function as DEFGENERIC describes it.
-#[builtin(
-    "%ENSURE-GENERIC",
-    "name lambda-list combination documentation precedence keeps-methods"
-)]
-fn ensure_generic(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    defmethod::ensure_generic_function(image, args)
-}
-
-/// Notes that a method was made by a DEFGENERIC.
-#[builtin("%OWN-METHOD", "method")]
-fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    defmethod::own_method(image, args)
-}
-
-/// Defines a method combination as DEFINE-METHOD-COMBINATION describes it.
-#[builtin("%DEFINE-COMBINATION", "name operator identity-with-one-argument")]
-fn define_combination_builtin(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    define_combination(image, args)
 }
 
 /// Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.
 #[builtin("%INVOKE-METHOD")]
-fn invoke_method_builtin(
-    method: &Rc<Method>,
-    arguments: &Value,
-    next: Value,
-) -> Result<Step, Box<Raise>> {
+fn invoke_method_builtin(method: &Rc<Method>, arguments: &Value, next: Value) -> Result<Step> {
     let arguments = arguments.iter_list().collect();
     Ok(invoke_method(method, arguments, next))
 }
 
 /// The error that CALL-NEXT-METHOD has nothing to call.
 #[builtin("%NO-NEXT-METHOD")]
-fn no_next_method3(image: &mut Image, name: &Value) -> Result<Value, Box<Raise>> {
+fn no_next_method3(image: &mut Image, name: &Value) -> Result<Value> {
     Err(no_next_method(image, name))
 }
 
@@ -193,18 +167,18 @@ pub(crate) static OPERATORS: &[Operator] = &[
 pub(super) struct Generic(pub(super) Rc<Function>);
 
 impl<'a> FromValue<'a> for Generic {
-    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+    fn from_value(image: &mut Image, value: &'a Value) -> Result<Self> {
         generic_of(image, value).map(Generic)
     }
 }
 
 impl<'a> FromValue<'a> for &'a Rc<Method> {
-    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self, Box<Raise>> {
+    fn from_value(_: &mut Image, value: &'a Value) -> Result<Self> {
         method_argument(value)
     }
 }
 
-fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction, Box<Raise>> {
+fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction> {
     function.as_generic().ok_or_else(|| {
         Raise::type_error(
             &Value::Function(function.clone()),
@@ -213,7 +187,7 @@ fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction, Box<Raise>> {
     })
 }
 
-pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> {
+pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>> {
     value
         .as_foreign::<MethodObject>()
         .map(|object| &object.0)
@@ -221,11 +195,7 @@ pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> 
 }
 
 /// Checks that a method is not one of another generic function.
-fn check_owner(
-    image: &Image,
-    function: &Rc<Function>,
-    method: &Rc<Method>,
-) -> Result<(), Box<Raise>> {
+fn check_owner(image: &Image, function: &Rc<Function>, method: &Rc<Method>) -> Result<()> {
     let owner = generic_named(image, &method.name);
     let other = owner.filter(|owner| !Rc::ptr_eq(owner, function));
     let other = other.as_ref().and_then(|other| other.as_generic());
@@ -252,34 +222,40 @@ fn wrong_count(image: &Image, function: &Value, required: usize, count: usize) -
 ///
 /// `(progn (defgeneric f (x)) (find-method #'f '() (list (find-class 'string)) nil))` => `NIL`
 #[builtin(_, "generic-function qualifiers specializers &optional (errorp t)")]
-fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let function = generic_of(image, &args[0])?;
-    let qualifiers: Vec<Value> = args[1].iter_list().collect();
-    let specializers = args[2]
+fn find_method(
+    image: &mut Image,
+    generic_function: &Value,
+    qualifiers: &Value,
+    specializers: &Value,
+    #[default(true)] errorp: bool,
+) -> Result<Value> {
+    let function = generic_of(image, generic_function)?;
+    let wanted_qualifiers: Vec<Value> = qualifiers.iter_list().collect();
+    let wanted = specializers
         .iter_list()
         .map(|s| specializer(image, &s))
-        .collect::<Result<Vec<_>, _>>()?;
+        .collect::<Result<Vec<_>>>()?;
     let required = as_generic(&function)?.parameters.borrow().required;
-    if specializers.len() != required {
-        return Err(wrong_count(image, &args[0], required, specializers.len()));
+    if wanted.len() != required {
+        return Err(wrong_count(image, generic_function, required, wanted.len()));
     }
     let methods = as_generic(&function)?.methods.borrow();
     let found = methods.iter().find(|m| {
-        has_qualifiers(m, &qualifiers)
-            && m.specializers.len() == specializers.len()
+        has_qualifiers(m, &wanted_qualifiers)
+            && m.specializers.len() == wanted.len()
             && m.specializers
                 .iter()
-                .zip(&specializers)
+                .zip(&wanted)
                 .all(|(a, b)| a.is_same(b))
     });
     match found {
         Some(method) => Ok(method_value(method)),
-        None if args.get(3).is_some_and(Value::is_nil) => Ok(Value::NIL),
+        None if !errorp => Ok(Value::NIL),
         None => Err(Raise::simple(format!(
             "There is no method on {} with qualifiers {} and specializers {}.",
-            text(image, &args[0]),
-            text(image, &args[1]),
-            text(image, &args[2])
+            text(image, generic_function),
+            text(image, qualifiers),
+            text(image, specializers)
         ))),
     }
 }
@@ -298,10 +274,10 @@ pub(crate) static TABLE: &[Builtin] = builtins![
 
 /// Builtins of the package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
-    add_method3,
-    ensure_generic,
-    own_method,
-    define_combination_builtin,
+    defmethod::add_method,
+    defmethod::ensure_generic_function,
+    defmethod::own_method,
+    combination::define_combination,
     invoke_method_builtin,
     no_next_method3,
 ];

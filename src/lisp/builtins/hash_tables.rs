@@ -2,12 +2,11 @@
 
 use std::rc::Rc;
 
-use super::lists::size;
+use super::lists::Size;
 use super::shown::shown;
 use crate::builtin::Builtin;
 use crate::guard::reserve;
 use crate::image::Image;
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::cycles;
@@ -42,19 +41,15 @@ const TESTS: &[(HashTest, Sym)] = &[
 ///
 /// `(hash-table-count (make-hash-table :test 'equal))` => `0`
 #[builtin("MAKE-HASH-TABLE", "&key test size rehash-size rehash-threshold")]
-pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
-    let [test, wanted_size, ..] = keywords::parse(
-        image,
-        args,
-        [
-            known::K_TEST,
-            known::K_SIZE,
-            known::K_REHASH_SIZE,
-            known::K_REHASH_THRESHOLD,
-            known::K_WEAKNESS,
-            known::K_SYNCHRONIZED,
-        ],
-    )?;
+fn make(
+    image: &mut Image,
+    #[key] test: Option<Value>,
+    #[key] size: Option<Size>,
+    #[key] _rehash_size: Option<&Value>,
+    #[key] _rehash_threshold: Option<&Value>,
+    #[key] _weakness: Option<&Value>,
+    #[key] _synchronized: Option<&Value>,
+) -> Outcome {
     let test = test.unwrap_or(Value::symbol(known::EQL));
     let name = test.as_symbol().or_else(|| builtin_name(&test));
     let Some((test, _)) = TESTS.iter().find(|(_, sym)| Some(*sym) == name) else {
@@ -64,8 +59,8 @@ pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
         )));
     };
     let table = HashTable::new(*test);
-    if let Some(wanted) = wanted_size {
-        table.size.set(size(&wanted)?);
+    if let Some(Size(size)) = size {
+        table.size.set(size);
     }
     Ok(Value::Hash(Rc::new(table)))
 }

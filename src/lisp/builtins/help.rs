@@ -80,19 +80,21 @@ pub fn topics_of(image: &Image, sym: Sym) -> String {
 ///
 /// `(null (search "(first list)" (with-output-to-string (s) (describe 'first s))))` => `NIL`
 // Calls the methods that a program has added to `describe-object`, if there are any.
-#[builtin(_, "object &optional stream")]
-fn describe(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+#[builtin]
+fn describe(
+    machine: &mut Machine<'_>,
+    object: Value,
+    #[default(&Value::NIL)] stream: &Value,
+) -> Result<Step, Box<Raise>> {
     let Some(function) = extended_function(machine.image, known::DESCRIBE_OBJECT) else {
-        return describe_object(machine.image, &args).map(Step::from);
+        return describe_object(machine.image, &object, stream).map(Step::from);
     };
-    let stream = match args.get(1) {
-        None | Some(Value::Symbol(known::NIL, ..)) => {
-            machine.image.special(known::V_STANDARD_OUTPUT).clone()
-        }
-        Some(Value::Symbol(known::T, ..)) => machine.image.special(known::V_TERMINAL_IO).clone(),
-        Some(stream) => stream.clone(),
+    let stream = match stream {
+        Value::Symbol(known::NIL, ..) => machine.image.special(known::V_STANDARD_OUTPUT),
+        Value::Symbol(known::T, ..) => machine.image.special(known::V_TERMINAL_IO),
+        stream => stream,
     };
-    let object = args[0].clone();
+    let stream = stream.clone();
     run(machine, "DESCRIBE", |calls| async move {
         calls.call(&function, Args::Two([object, stream])).await;
         Ok(Value::values(Vec::new()))
@@ -103,15 +105,14 @@ fn describe(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
 /// classes otherwise.
 ///
 /// `(progn (defclass mug () ()) (defmethod describe-object ((m mug) s) (princ "a mug" s)) (with-output-to-string (s) (describe (make-instance 'mug) s)))` => `"a mug"`
-#[builtin(_, "object stream")]
-fn describe_object(image: &mut Image, args: &[Value]) -> Outcome {
-    let text = match &args[0] {
+#[builtin]
+fn describe_object(image: &mut Image, object: &Value, stream: &Value) -> Outcome {
+    let text = match object {
         Value::Symbol(sym, ..) => of_symbol(image, *sym) + &topics_of(image, *sym),
         other => of_value(image, other),
     };
-    let to = args.get(1).cloned().unwrap_or(Value::NIL);
-    stream::fresh_line(image, &to)?;
-    stream::write(image, &to, &text)?;
+    stream::fresh_line(image, stream)?;
+    stream::write(image, stream, &text)?;
     Ok(Value::values(Vec::new()))
 }
 
@@ -440,9 +441,9 @@ fn slot_values(image: &Image, instance: &Instance) -> String {
 }
 
 /// The symbols whose names contain the text, whatever the case: by name, then by package.
-fn found(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
-    let text = designated(image, &args[0])?.to_uppercase();
-    let mut symbols: Vec<Sym> = match args.get(1) {
+fn found(image: &Image, text: &Value, package: Option<&Value>) -> Result<Vec<Sym>, Box<Raise>> {
+    let text = designated(image, text)?.to_uppercase();
+    let mut symbols: Vec<Sym> = match package {
         Some(package) if package.is_true() => {
             packages::accessible(image, packages::designated(image, package)?)
         }
@@ -473,12 +474,13 @@ fn found(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
 /// The symbols whose names contain the text; those of all packages, or those accessible in one.
 ///
 /// `(apropos-list "cdaa" :cl)` => `(CDAAAR CDAADR CDAAR)`
-#[builtin(_, "text &optional package")]
-fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let symbols = found(image, args)?;
-    Ok(Value::list(
-        symbols.into_iter().map(Value::symbol).collect::<Vec<_>>(),
-    ))
+#[builtin]
+fn apropos_list(
+    image: &mut Image,
+    text: &Value,
+    package: Option<&Value>,
+) -> Result<Vec<Sym>, Box<Raise>> {
+    found(image, text, package)
 }
 
 /// Writes the symbols whose names contain the text, and what they mean: actions, motions and types of
@@ -489,16 +491,16 @@ fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
 /// (with-output-to-string (*standard-output*) (apropos "rotatef")) => "ROTATEF (macro)
 /// "
 /// ```
-#[builtin(_, "text &optional package")]
-fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
+#[builtin]
+fn apropos(image: &mut Image, text: &Value, package: Option<&Value>) -> Outcome {
     let is_all = |package: &Value| match package {
         Value::Symbol(sym, ..) => image.is_keyword(*sym) && image.name(*sym) == "ALL",
         _ => false,
     };
-    let (symbols, shows_all) = match args {
-        [text, package] if is_all(package) => (found(image, std::slice::from_ref(text))?, true),
-        [_, package] if package.is_true() => (found(image, args)?, true),
-        _ => (found(image, args)?, !image.has_locks()),
+    let (symbols, shows_all) = match package {
+        Some(package) if is_all(package) => (found(image, text, None)?, true),
+        Some(package) if package.is_true() => (found(image, text, Some(package))?, true),
+        _ => (found(image, text, None)?, !image.has_locks()),
     };
     let mut lines: Vec<(bool, String)> = Vec::new();
     let mut left_out = 0;
@@ -523,19 +525,19 @@ fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
     if !shows_all {
         lines.sort_by_key(|(is_other, _)| *is_other);
     }
-    let mut text = String::new();
+    let mut listing = String::new();
     for (_, line) in lines {
-        text.push_str(&line);
-        text.push('\n');
+        listing.push_str(&line);
+        listing.push('\n');
     }
     if left_out > 0 {
-        let wanted = print::to_string(image, &args[0], true);
-        text.push_str(&format!(
+        let wanted = print::to_string(image, text, true);
+        listing.push_str(&format!(
             "; {left_out} more that are internal or mean nothing: (apropos {wanted} :all)\n"
         ));
     }
     stream::fresh_line(image, &Value::NIL)?;
-    stream::write(image, &Value::NIL, &text)?;
+    stream::write(image, &Value::NIL, &listing)?;
     Ok(Value::values(Vec::new()))
 }
 

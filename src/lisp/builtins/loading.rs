@@ -162,66 +162,68 @@ fn restore(machine: &mut Machine<'_>) {
 
 /// Evaluates all forms of a file; T. A file that another file loads is looked for beside that one
 /// first; the tutorial's files, such as `plans/tutorial/skills.plan`, are built in.
-#[builtin(_, "file &key verbose print if-does-not-exist external-format")]
-fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    if let Value::Stream(stream) = &args[0] {
+#[builtin]
+fn load(
+    machine: &mut Machine<'_>,
+    file: &Value,
+    #[key] verbose: Option<&Value>,
+    #[key] print: Option<&Value>,
+    #[key] if_does_not_exist: Option<&Value>,
+    #[key] _external_format: Option<&Value>,
+) -> Result<Step> {
+    if let Value::Stream(stream) = file {
         let name = stream.file.as_deref().unwrap_or("stream").to_owned();
-        let (text, from) = crate::stream::rest(machine.image, &args[0])?;
+        let (text, from) = crate::stream::rest(machine.image, file)?;
         let text = text.get(from..).unwrap_or_default();
-        crate::stream::advance(machine.image, &args[0], text.len())?;
-        let shows_values = announce(machine, &name, &args[1..])?;
+        crate::stream::advance(machine.image, file, text.len())?;
+        let shows_values = announce(machine, &name, verbose, print)?;
         let source = machine.image.sources.add(&name, text);
         return load_source(machine, &name, source, shows_values);
     }
-    let Some(path) = file_name(&args[0]) else {
-        return Err(Raise::type_error(&args[0], known::STRING));
+    let Some(path) = file_name(file) else {
+        return Err(Raise::type_error(file, known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
     if machine.image.files.facts(&path).is_err()
         && let Some((name, text)) = built_in(machine, &path)
     {
         refuse_circle(machine, &name)?;
-        let shows_values = announce(machine, &name, &args[1..])?;
+        let shows_values = announce(machine, &name, verbose, print)?;
         let source = machine.image.sources.add(&name, text);
         return load_source(machine, &name, source, shows_values);
     }
     refuse_circle(machine, &path)?;
     let text = match read_file(machine.image, &path) {
-        Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
+        Err(_) if if_does_not_exist.is_some_and(Value::is_nil) => {
+            return Ok(Step::Return(Value::NIL));
+        }
         result => result?,
     };
-    let shows_values = announce(machine, &path, &args[1..])?;
+    let shows_values = announce(machine, &path, verbose, print)?;
     let source = machine.image.sources.add(&path, &text);
     machine.image.sources.note_loaded(source);
     load_source(machine, &path, source, shows_values)
 }
 
 /// Says what is loaded, if that is wanted. Are the values of its forms wanted, too?
-fn announce(machine: &mut Machine<'_>, name: &str, args: &[Value]) -> Result<bool> {
-    let wanted = |key: Sym, variable: Sym| {
-        let mut pairs = args.chunks(2);
-        let given = pairs.find(|pair| pair[0].as_symbol() == Some(key));
-        let given = given.and_then(|pair| pair.get(1).cloned());
-        given.unwrap_or_else(|| machine.image.special(variable).clone())
+fn announce(
+    machine: &mut Machine<'_>,
+    name: &str,
+    verbose: Option<&Value>,
+    print: Option<&Value>,
+) -> Result<bool> {
+    let is_wanted = |given: Option<&Value>, variable: Sym| {
+        let value = given.unwrap_or_else(|| machine.image.special(variable));
+        // The variables have no values before somebody uses them.
+        value.is_true() && !matches!(value, Value::Unbound)
     };
-    // The variables have no values before somebody uses them.
-    let is_wanted = |value: Value| value.is_true() && !matches!(value, Value::Unbound);
-    let shows_name = is_wanted(wanted(known::K_VERBOSE, known::V_LOAD_VERBOSE));
-    let shows_values = is_wanted(wanted(known::K_PRINT, known::V_LOAD_PRINT));
+    let shows_name = is_wanted(verbose, known::V_LOAD_VERBOSE);
+    let shows_values = is_wanted(print, known::V_LOAD_PRINT);
     if shows_name {
         let text = format!("; Loading {name}\n");
         crate::stream::write(machine.image, &Value::NIL, &text)?;
     }
     Ok(shows_values)
-}
-
-/// Do the arguments say that LOAD returns NIL if there is no such file?
-fn may_be_missing(args: &[Value]) -> bool {
-    let mut pairs = args.chunks(2);
-    pairs.any(|pair| match pair {
-        [Value::Symbol(known::K_IF_DOES_NOT_EXIST, ..), value] => value.is_nil(),
-        _ => false,
-    })
 }
 
 /// The file of that name in the folder of the file whose form is being evaluated, if there

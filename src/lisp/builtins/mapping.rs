@@ -13,7 +13,7 @@ use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
-type Outcome = Result<Value, Box<Raise>>;
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// What a mapping function passes on, and what it makes of the results.
 #[derive(Clone, Copy)]
@@ -34,7 +34,7 @@ enum Collect {
 }
 
 /// The next arguments, or none when a list is at its end.
-fn next_args(lists: &mut [Value], tails: bool) -> Result<Option<Args>, Box<Raise>> {
+fn next_args(lists: &mut [Value], tails: bool) -> Result<Option<Args>> {
     match lists {
         [list] => Ok(step(list, tails)?.map(|a| Args::One([a]))),
         [first, second] => {
@@ -55,7 +55,7 @@ fn next_args(lists: &mut [Value], tails: bool) -> Result<Option<Args>, Box<Raise
 }
 
 /// Takes the first element of a list, or the whole list, and advances to its rest.
-fn step(list: &mut Value, tails: bool) -> Result<Option<Value>, Box<Raise>> {
+fn step(list: &mut Value, tails: bool) -> Result<Option<Value>> {
     let (item, rest) = match &*list {
         Value::Cons(cons) if tails => (list.clone(), cons.cdr()),
         Value::Cons(cons) => (cons.car(), cons.cdr()),
@@ -66,7 +66,7 @@ fn step(list: &mut Value, tails: bool) -> Result<Option<Value>, Box<Raise>> {
     Ok(Some(item))
 }
 
-async fn map(calls: Calls, function: Value, mut lists: Vec<Value>, mode: Mode) -> Outcome {
+async fn map(calls: Calls, function: Value, mut lists: Vec<Value>, mode: Mode) -> Result<Value> {
     let first = lists.first().cloned().unwrap_or(Value::NIL);
     let mut results = ListBuilder::new();
     let mut parts = Vec::new();
@@ -88,13 +88,13 @@ async fn map(calls: Calls, function: Value, mut lists: Vec<Value>, mode: Mode) -
 
 fn mapping(
     machine: &mut Machine<'_>,
-    args: &[Value],
+    function: &Value,
+    lists: Vec<Value>,
     name: &'static str,
     tails: bool,
     collect: Collect,
-) -> Result<Step, Box<Raise>> {
-    let function = callable(machine.image, &args[0])?;
-    let lists = args[1..].to_vec();
+) -> Result<Step> {
+    let function = callable(machine.image, function)?;
     let mode = Mode { tails, collect };
     run(machine, name, |calls| map(calls, function, lists, mode))
 }
@@ -104,48 +104,48 @@ fn mapping(
 /// `(mapcar #'1+ '(1 2 3))` => `(2 3 4)`
 /// `(mapcar #'+ '(1 2 3) '(10 20))` => `(11 22)`
 #[builtin(_, "function list &rest lists")]
-fn mapcar(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPCAR", false, Collect::List)
+fn mapcar(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPCAR", false, Collect::List)
 }
 
 /// Calls a function for the elements of lists; returns the first list.
 ///
 /// `(mapc #'identity '(1 2))` => `(1 2)`
 #[builtin(_, "function list &rest lists")]
-fn mapc(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPC", false, Collect::Nothing)
+fn mapc(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPC", false, Collect::Nothing)
 }
 
 /// Like `mapcar`, but joins the results, which must be fresh lists.
 ///
 /// `(mapcan #'list '(1 2) '(a b))` => `(1 A 2 B)`
 #[builtin(_, "function list &rest lists")]
-fn mapcan(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPCAN", false, Collect::Joined)
+fn mapcan(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPCAN", false, Collect::Joined)
 }
 
 /// Like `mapcar`, but hands out the list, its rest, and so on.
 ///
 /// `(maplist #'length '(a b c))` => `(3 2 1)`
 #[builtin(_, "function list &rest lists")]
-fn maplist(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPLIST", true, Collect::List)
+fn maplist(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPLIST", true, Collect::List)
 }
 
 /// Calls a function for a list, its rest, and so on; returns the list.
 ///
 /// `(mapl #'identity '(1 2))` => `(1 2)`
 #[builtin(_, "function list &rest lists")]
-fn mapl(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPL", true, Collect::Nothing)
+fn mapl(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPL", true, Collect::Nothing)
 }
 
 /// Like `maplist`, but joins the results, which must be fresh lists.
 ///
 /// `(mapcon #'list '(1 2))` => `((1 2) (2))`
 #[builtin(_, "function list &rest lists")]
-fn mapcon(machine: &mut Machine<'_>, lists: Vec<Value>) -> Result<Step, Box<Raise>> {
-    mapping(machine, &lists, "MAPCON", true, Collect::Joined)
+fn mapcon(machine: &mut Machine<'_>, function: &Value, lists: Vec<Value>) -> Result<Step> {
+    mapping(machine, function, lists, "MAPCON", true, Collect::Joined)
 }
 
 /// Mapping over lists.

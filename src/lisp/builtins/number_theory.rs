@@ -1,10 +1,11 @@
 //! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
+use std::rc::Rc;
+
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::reader::numeric::parse_integer as read_integer;
 use crate::typed::FromValue;
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -12,6 +13,8 @@ use crate::value::number;
 use crate::value::number::ByteSpecifier;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
+use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -442,32 +445,26 @@ fn float(number_value: &Value, prototype_value: Option<&Value>) -> Outcome {
 ///
 /// `(parse-integer " 42 ")` => `42 ; 4`
 /// `(parse-integer "ff" :radix 16)` => `255 ; 2`
-#[builtin(_, "string &key start end radix junk-allowed")]
-fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Str(string) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::STRING));
-    };
-    let [start, end, radix, junk_allowed] = keywords::parse(
-        image,
-        args.get(1..).unwrap_or(&[]),
-        [
-            known::K_START,
-            known::K_END,
-            known::K_RADIX,
-            known::K_JUNK_ALLOWED,
-        ],
-    )?;
-    let sequence = crate::value::sequence::Sequence::Str(string.clone());
-    let bounds = crate::value::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+#[builtin]
+fn parse_integer(
+    image: &mut Image,
+    string: &Rc<LispString>,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+    #[key] radix: Option<&Value>,
+    #[key] junk_allowed: Option<bool>,
+) -> Outcome {
+    let sequence = Sequence::Str(string.clone());
+    let bounds = Bounds::new(&sequence, start, end)?;
     let radix = match radix {
         None => 10,
-        Some(Value::Int(n @ 2..=36)) => u32::try_from(n).unwrap_or(10),
+        Some(Value::Int(n @ 2..=36)) => u32::try_from(*n).unwrap_or(10),
         Some(other) => {
             let range = [known::INTEGER.into(), Value::Int(2), Value::Int(36)];
-            return Err(Raise::type_error(&other, Value::list(range)));
+            return Err(Raise::type_error(other, Value::list(range)));
         }
     };
-    let junk_allowed = junk_allowed.is_some_and(|v| v.is_true());
+    let junk_allowed = junk_allowed == Some(true);
     let text = string.text();
     let chars: Vec<char> = text
         .chars()
@@ -503,12 +500,15 @@ fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
             known::SIMPLE_PARSE_ERROR,
             format!(
                 "no non-whitespace characters in string {}.",
-                super::shown::shown(image, &args[0])
+                super::shown::shown(image, &sequence.value())
             ),
         )),
         _ => Err(Raise::new(
             known::SIMPLE_PARSE_ERROR,
-            format!("junk in string {}", super::shown::shown(image, &args[0])),
+            format!(
+                "junk in string {}",
+                super::shown::shown(image, &sequence.value())
+            ),
         )),
     }
 }

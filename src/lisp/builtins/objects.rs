@@ -12,14 +12,17 @@ use crate::value::Value;
 use crate::value::class::Instance;
 use crate::value::known;
 use crate::value::raise::Raise;
+use crate::value::symbol::Sym;
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Makes an instance of a class.
 ///
 /// `(progn (defclass cup () ((size :initarg :size))) (slot-value (make-instance 'cup :size 3) 'size))` => `3`
 #[builtin(_, "class &rest initargs")]
-fn make_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+fn make_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step> {
     instance::make_instance(machine, initargs)
 }
 
@@ -27,7 +30,7 @@ fn make_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step
 ///
 /// `(progn (defclass tray () ((load :initform 1))) (slot-boundp (allocate-instance (find-class 'tray)) 'load))` => `NIL`
 #[builtin(_, "class &rest initargs")]
-fn allocate_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+fn allocate_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step> {
     instance::allocate_instance(machine, initargs)
 }
 
@@ -35,10 +38,7 @@ fn allocate_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<
 ///
 /// `(progn (defclass lamp () ((lit :initarg :lit))) (defmethod initialize-instance :after ((x lamp) &key) (setf (slot-value x 'lit) :off)) (slot-value (make-instance 'lamp :lit :on) 'lit))` => `:OFF`
 #[builtin(_, "instance &rest initargs")]
-fn initialize_instance(
-    machine: &mut Machine<'_>,
-    initargs: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+fn initialize_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step> {
     instance::initialize_instance(machine, initargs)
 }
 
@@ -46,16 +46,13 @@ fn initialize_instance(
 ///
 /// `(progn (defclass cup () ((size :initarg :size))) (slot-value (reinitialize-instance (make-instance 'cup) :size 5) 'size))` => `5`
 #[builtin(_, "instance &rest initargs")]
-fn reinitialize_instance(
-    machine: &mut Machine<'_>,
-    initargs: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+fn reinitialize_instance(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step> {
     instance::reinitialize_instance(machine, initargs)
 }
 
 /// Sets slots by initargs, and the named ones (all if T) that have no value by their initforms.
 #[builtin(_, "instance slot-names &rest initargs")]
-fn shared_initialize(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step, Box<Raise>> {
+fn shared_initialize(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<Step> {
     instance::shared_initialize(machine, initargs)
 }
 
@@ -63,11 +60,7 @@ fn shared_initialize(machine: &mut Machine<'_>, initargs: Vec<Value>) -> Result<
 ///
 /// `(progn (defclass cup () ((size :initform 1))) (slot-value (make-instance 'cup) 'size))` => `1`
 #[builtin]
-fn slot_value(
-    machine: &mut Machine<'_>,
-    object: &Value,
-    slot_name: &Value,
-) -> Result<Step, Box<Raise>> {
+fn slot_value(machine: &mut Machine<'_>, object: &Value, slot_name: &Value) -> Result<Step> {
     access::slot_value(machine, object, slot_name)
 }
 
@@ -75,11 +68,7 @@ fn slot_value(
 ///
 /// `(progn (defclass cup () (size)) (slot-boundp (make-instance 'cup) 'size))` => `NIL`
 #[builtin]
-fn slot_boundp(
-    machine: &mut Machine<'_>,
-    object: &Value,
-    slot_name: &Value,
-) -> Result<Step, Box<Raise>> {
+fn slot_boundp(machine: &mut Machine<'_>, object: &Value, slot_name: &Value) -> Result<Step> {
     access::slot_boundp(machine, object, slot_name)
 }
 
@@ -87,11 +76,7 @@ fn slot_boundp(
 ///
 /// `(progn (defclass jar () ((lid :initform 1))) (slot-boundp (slot-makunbound (make-instance 'jar) 'lid) 'lid))` => `NIL`
 #[builtin]
-fn slot_makunbound(
-    machine: &mut Machine<'_>,
-    object: &Value,
-    slot_name: &Value,
-) -> Result<Step, Box<Raise>> {
+fn slot_makunbound(machine: &mut Machine<'_>, object: &Value, slot_name: &Value) -> Result<Step> {
     access::slot_makunbound(machine, object, slot_name)
 }
 
@@ -99,14 +84,14 @@ fn slot_makunbound(
 ///
 /// `(slot-exists-p 5 'size)` => `NIL`
 #[builtin]
-fn slot_exists_p(object: &Value, slot_name: &Value) -> Result<Value, Box<Raise>> {
+fn slot_exists_p(object: &Value, slot_name: &Value) -> Result<Value> {
     let slot = access::slot_name(slot_name)?;
     Ok(Value::bool(access::slot_exists(object, slot)))
 }
 
 /// Called when a slot without a value is read. Add methods to give it one.
 #[builtin]
-fn slot_unbound(_class: &Value, object: &Value, slot_name: &Value) -> Result<Step, Box<Raise>> {
+fn slot_unbound(_class: &Value, object: &Value, slot_name: &Value) -> Result<Step> {
     Err(access::unbound_slot(object, access::slot_name(slot_name)?))
 }
 
@@ -114,7 +99,7 @@ fn slot_unbound(_class: &Value, object: &Value, slot_name: &Value) -> Result<Ste
 ///
 /// `(class-name (class-of '(1)))` => `CONS`
 #[builtin("CLASS-OF")]
-fn class_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Raise>> {
+fn class_of_builtin(image: &mut Image, object: &Value) -> Result<Value> {
     Ok(Value::Class(class_of(image, object)))
 }
 
@@ -122,7 +107,7 @@ fn class_of_builtin(image: &mut Image, object: &Value) -> Result<Value, Box<Rais
 ///
 /// `(class-name (find-class 'list))` => `LIST`
 #[builtin(_, "class")]
-fn class_name(class_value: &Value) -> Result<Value, Box<Raise>> {
+fn class_name(class_value: &Value) -> Result<Value> {
     match class_value {
         Value::Class(class) => Ok(class.class_name()),
         other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
@@ -134,7 +119,7 @@ fn class_name(class_value: &Value) -> Result<Value, Box<Raise>> {
 fn update_instance_for_redefined_class(
     machine: &mut Machine<'_>,
     initargs: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     let mut rest = initargs;
     rest.drain(2..4.min(rest.len()));
     instance::shared_initialize(machine, rest)
@@ -142,7 +127,7 @@ fn update_instance_for_redefined_class(
 
 /// The names of the slots that instances of a class have.
 #[builtin("%SLOT-NAMES", "class")]
-fn slot_names(class_value: &Value) -> Result<Value, Box<Raise>> {
+fn slot_names(class_value: &Value) -> Result<Value> {
     match class_value {
         Value::Class(class) => {
             let names: Vec<Value> = class.slots.borrow().iter().map(|s| s.name.into()).collect();
@@ -150,24 +135,6 @@ fn slot_names(class_value: &Value) -> Result<Value, Box<Raise>> {
         }
         other => Err(Raise::type_error(other, known::CLASS)),
     }
-}
-
-/// Defines a class as DEFCLASS describes it.
-#[builtin(
-    "%DEFINE-CLASS",
-    "name superclasses slots default-initargs documentation last"
-)]
-fn define_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    defclass::define_standard_class(image, args)
-}
-
-/// Defines a condition as DEFINE-CONDITION describes it.
-#[builtin(
-    "%DEFINE-CONDITION",
-    "name superclasses slots default-initargs documentation report"
-)]
-fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    defclass::define_condition(image, args)
 }
 
 /// The macros.
@@ -199,7 +166,7 @@ fn set_slot_value_builtin(
     value: Value,
     object: &Value,
     slot_name: &Value,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     set_slot_value(machine, value, object, slot_name)
 }
 
@@ -210,7 +177,7 @@ fn set_slot_value(
     value: Value,
     object: &Value,
     slot_name: &Value,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     access::set_slot_value(machine, value, object, slot_name)
 }
 
@@ -223,7 +190,7 @@ fn slot_missing(
     slot_name: &Value,
     operation: &Value,
     new_value: Option<&Value>,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     let slot = access::slot_name(slot_name)?;
     let operation = match operation.as_symbol() {
         Some(known::SETF) => access::Access::Write,
@@ -246,7 +213,7 @@ fn slot_missing(
 ///
 /// `(progn (defclass keg () ()) (make-instances-obsolete 'keg))` => `KEG`
 #[builtin(_, "class")]
-fn make_instances_obsolete(image: &mut Image, class_value: &Value) -> Result<Value, Box<Raise>> {
+fn make_instances_obsolete(image: &mut Image, class_value: &Value) -> Result<Value> {
     let class = match class_value {
         Value::Class(class) => class.clone(),
         Value::Symbol(name, ..) => {
@@ -263,20 +230,22 @@ fn make_instances_obsolete(image: &mut Image, class_value: &Value) -> Result<Val
 ///
 /// `(find-class 'no-such-class nil)` => `NIL`
 #[builtin(_, "symbol &optional (errorp t) environment")]
-fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
-    };
-    match image.class(name) {
+fn find_class(
+    image: &mut Image,
+    symbol: Sym,
+    #[default(true)] errorp: bool,
+    _environment: Option<&Value>,
+) -> Result<Value> {
+    match image.class(symbol) {
         Some(class) if class.is_defined.get() => Ok(Value::Class(class.clone())),
-        _ if args.get(1).is_some_and(Value::is_nil) => Ok(Value::NIL),
-        _ => Err(no_class(image, name)),
+        _ if !errorp => Ok(Value::NIL),
+        _ => Err(no_class(image, symbol)),
     }
 }
 
 /// Changes what `class-name` returns; `find-class` goes on finding the class under its old name.
 #[builtin("CLASS-NAME", "name class")]
-fn set_class_name(name: &Value, class_value: &Value) -> Result<Value, Box<Raise>> {
+fn set_class_name(name: &Value, class_value: &Value) -> Result<Value> {
     match class_value {
         Value::Class(class) => {
             *class.given_name.borrow_mut() = Some(name.clone());
@@ -294,7 +263,7 @@ fn set_find_class(
     symbol: &Value,
     _errorp: Option<&Value>,
     _environment: Option<&Value>,
-) -> Result<Value, Box<Raise>> {
+) -> Result<Value> {
     let Some(name) = symbol.as_symbol() else {
         return Err(Raise::type_error(symbol, Value::symbol(known::SYMBOL)));
     };
@@ -311,24 +280,17 @@ fn set_find_class(
     Ok(class_value.clone())
 }
 
-fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
-    match value {
-        Value::Instance(instance) => Ok(instance),
-        other => Err(Raise::type_error(
-            other,
-            Value::symbol(known::STANDARD_OBJECT),
-        )),
-    }
-}
-
 /// Makes an instance one of another class; slots of the same name keep their values.
 ///
 /// `(progn (defclass raw () ((mass :initform 2))) (defclass cooked () (mass)) (slot-value (change-class (make-instance 'raw) 'cooked) 'mass))` => `2`
-#[builtin(_, "instance new-class &rest initargs")]
-fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let class = instance::instantiable_class(machine.image, &args[1])?;
-    let instance = instance_argument(&args[0])?;
-    let initargs = args[2..].to_vec();
+#[builtin]
+fn change_class(
+    machine: &mut Machine<'_>,
+    instance: &Rc<Instance>,
+    new_class: &Value,
+    initargs: Vec<Value>,
+) -> Result<Step> {
+    let class = instance::instantiable_class(machine.image, new_class)?;
     if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
@@ -343,17 +305,14 @@ fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
 }
 
 /// Called by CHANGE-CLASS. Add methods to do more.
-#[builtin(
-    "UPDATE-INSTANCE-FOR-DIFFERENT-CLASS",
-    "previous current &rest initargs"
-)]
+#[builtin("UPDATE-INSTANCE-FOR-DIFFERENT-CLASS")]
 fn update_for_different_class(
     machine: &mut Machine<'_>,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
-    let previous = instance_argument(&args[0])?;
-    let current = instance_argument(&args[1])?;
-    update::initialize_new_slots(machine, previous, current, &args[2..])
+    previous: &Rc<Instance>,
+    current: &Rc<Instance>,
+    initargs: &[Value],
+) -> Result<Step> {
+    update::initialize_new_slots(machine, previous, current, initargs)
 }
 
 /// The builtins.
@@ -379,8 +338,12 @@ pub(crate) static TABLE: &[Builtin] = builtins![
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] =
-    builtins![slot_names, set_slot_value, define_class, define_condition,];
+pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
+    slot_names,
+    set_slot_value,
+    defclass::define_class,
+    defclass::define_condition
+];
 
 /// What `setf` of the functions here calls: the new value comes first.
 pub(crate) static SETTERS: &[Builtin] =

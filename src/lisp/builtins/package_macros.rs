@@ -2,8 +2,7 @@
 
 use super::package_symbols::{import_one, shadow_one};
 use super::packages::{
-    accessible, delete_package, designated, make, make_package, one_or_more, package_error, status,
-    use_one,
+    self, accessible, designated, make, one_or_more, package_error, status, use_one,
 };
 use super::shown::shown;
 use super::strings;
@@ -269,26 +268,10 @@ fn package_iterator(image: &mut Image, packages: &Value, kinds_value: &Value) ->
     Ok(Value::cons(Value::list(entries), Value::NIL))
 }
 
-/// A new package.
-///
-/// `(package-name (system::%make-package :made-below))` => `"MADE-BELOW"`
-#[builtin("%MAKE-PACKAGE", "name &key nicknames use")]
-fn make_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
-    make_package(image, args)
-}
-
-/// Deletes a package.
-///
-/// `(progn (make-package :short) (system::%delete-package :short))` => `T`
-#[builtin("%DELETE-PACKAGE", "package")]
-fn delete_package_builtin(image: &mut Image, args: &[Value]) -> Outcome {
-    delete_package(image, args)
-}
-
 /// What the expansions call; in `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = builtins![
-    make_package_builtin,
-    delete_package_builtin,
+    packages::make_package,
+    packages::delete_package,
     define_package,
     existing_package,
     package_symbols,

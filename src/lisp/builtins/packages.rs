@@ -6,7 +6,6 @@ use std::rc::Rc;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::typed::FromValue;
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -230,16 +229,20 @@ pub fn make(image: &mut Image, name: &str, nicknames: &[String]) -> Result<Packa
     })
 }
 
-pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
-    let [nicknames, used, _] = keywords::parse(
-        image,
-        &args[1..],
-        [known::K_NICKNAMES, known::K_USE, known::K_SIZE],
-    )?;
-    let name = super::strings::designated(image, &args[0])?;
-    let nicknames = names(image, nicknames.as_ref())?;
-    let used: Result<Vec<PackageId>, _> = used
-        .map_or(Ok(Vec::new()), |u| one_or_more(&u))?
+/// A new package.
+///
+/// `(package-name (system::%make-package :made-below))` => `"MADE-BELOW"`
+#[builtin("%MAKE-PACKAGE", "name &key nicknames use")]
+pub(super) fn make_package(
+    image: &mut Image,
+    name: String,
+    #[key] nicknames: Option<&Value>,
+    #[key] r#use: Option<&Value>,
+    #[key] _size: Option<&Value>,
+) -> Outcome {
+    let nicknames = names(image, nicknames)?;
+    let used: Result<Vec<PackageId>, _> = r#use
+        .map_or(Ok(Vec::new()), one_or_more)?
         .iter()
         .map(|u| designated(image, u))
         .collect();
@@ -275,18 +278,22 @@ fn rename_package(
     }
 }
 
-pub(super) fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
-    if let Value::Package(id) = &args[0]
+/// Deletes a package.
+///
+/// `(progn (make-package :short) (system::%delete-package :short))` => `T`
+#[builtin("%DELETE-PACKAGE")]
+pub(super) fn delete_package(image: &mut Image, package: &Value) -> Outcome {
+    if let Value::Package(id) = package
         && image.packages.is_deleted(*id)
     {
         return Ok(Value::NIL);
     }
-    let id = designated(image, &args[0])?;
+    let id = designated(image, package)?;
     let name = image.packages.get(id).name.clone();
     if id <= PackageTable::SYSTEM {
         return Err(package_error(
             format!("The package {name} is part of the system and cannot be deleted."),
-            &args[0],
+            package,
         ));
     }
     let users: Vec<PackageId> = image.packages.ids().collect();

@@ -1,5 +1,7 @@
 //! Writing values and characters to streams: `print`, `princ`, `write-line`, …
 
+use std::rc::Rc;
+
 use super::composing::compose;
 use super::streams::or_method;
 use crate::builtin::Builtin;
@@ -13,12 +15,13 @@ use crate::value::known;
 use crate::value::package::PackageTable;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
 use crate::value::symbol::Sym;
 use crate::vm::calls::{Args, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
-type Outcome = Result<Value, Box<Raise>>;
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Writes a newline, the object so that it can be read back, and a blank.
 ///
@@ -26,25 +29,25 @@ type Outcome = Result<Value, Box<Raise>>;
 /// (with-output-to-string (s) (print "a" s)) => "
 /// \"a\" "
 /// ```
-#[builtin(_, "object &optional stream")]
-fn print(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(machine, args, Manner::Print)
+#[builtin]
+fn print(machine: &mut Machine<'_>, object: Value, stream: Option<Value>) -> Result<Step> {
+    write_object(machine, object, stream, Manner::Print)
 }
 
 /// Writes the object so that it can be read back.
 ///
 /// `(with-output-to-string (s) (prin1 "a" s))` => `"\"a\""`
-#[builtin(_, "object &optional stream")]
-fn prin1(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(machine, args, Manner::Prin1)
+#[builtin]
+fn prin1(machine: &mut Machine<'_>, object: Value, stream: Option<Value>) -> Result<Step> {
+    write_object(machine, object, stream, Manner::Prin1)
 }
 
 /// Writes the object for people.
 ///
 /// `(with-output-to-string (s) (princ '("a" #\b) s))` => `"(a b)"`
-#[builtin(_, "object &optional stream")]
-fn princ(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(machine, args, Manner::Princ)
+#[builtin]
+fn princ(machine: &mut Machine<'_>, object: Value, stream: Option<Value>) -> Result<Step> {
+    write_object(machine, object, stream, Manner::Princ)
 }
 
 /// Writes a newline and the object with line breaks.
@@ -53,25 +56,27 @@ fn princ(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 /// (with-output-to-string (s) (pprint '(a b) s)) => "
 /// (A B)"
 /// ```
-#[builtin(_, "object &optional stream")]
-fn pprint(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    write_object(machine, args, Manner::Pprint)
+#[builtin]
+fn pprint(machine: &mut Machine<'_>, object: Value, stream: Option<Value>) -> Result<Step> {
+    write_object(machine, object, stream, Manner::Pprint)
 }
 
 /// The text that PRIN1 writes.
 ///
 /// `(prin1-to-string '(a "b"))` => `"(A \"b\")"`
-#[builtin(_, "object")]
-fn prin1_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    to_string(machine, args, Some(true))
+#[builtin]
+fn prin1_to_string(machine: &mut Machine<'_>, object: Value) -> Result<Step> {
+    let settings = Settings::of(machine.image).with_escape(true);
+    to_string(machine, object, settings)
 }
 
 /// The text that PRINC writes.
 ///
 /// `(princ-to-string '(a "b"))` => `"(A b)"`
-#[builtin(_, "object")]
-fn princ_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    to_string(machine, args, Some(false))
+#[builtin]
+fn princ_to_string(machine: &mut Machine<'_>, object: Value) -> Result<Step> {
+    let settings = Settings::of(machine.image).with_escape(false);
+    to_string(machine, object, settings)
 }
 
 /// The text that WRITE writes.
@@ -81,16 +86,26 @@ fn princ_to_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, 
     _,
     "object &key escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch"
 )]
-fn write_to_string(m: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    to_string(m, args, None)
+fn write_to_string(machine: &mut Machine<'_>, object: Value, options: &[Value]) -> Result<Step> {
+    if let Some(step) = with_dispatch(machine.image, &object, options, "WRITE-TO-STRING") {
+        return Ok(step);
+    }
+    let (settings, _) = write_settings(machine.image, options)?;
+    to_string(machine, object, settings)
 }
 
 /// Writes the string as it is.
 ///
 /// `(with-output-to-string (s) (write-string "abc" s :start 1))` => `"bc"`
-#[builtin("WRITE-STRING", "string &optional stream &key start end")]
-fn write_string_builtin(image: &mut Image, args: &[Value]) -> Outcome {
-    write_string(image, args, "")
+#[builtin]
+fn write_string(
+    image: &mut Image,
+    string: &Rc<LispString>,
+    #[default(&Value::NIL)] stream: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Result<Value> {
+    write_part(image, string, stream, [start, end], "")
 }
 
 /// Writes the string and a newline.
@@ -99,21 +114,28 @@ fn write_string_builtin(image: &mut Image, args: &[Value]) -> Outcome {
 /// (with-output-to-string (s) (write-line "abc" s)) => "abc
 /// "
 /// ```
-#[builtin(_, "string &optional stream &key start end")]
-fn write_line(image: &mut Image, args: &[Value]) -> Outcome {
-    write_string(image, args, "\n")
+#[builtin]
+fn write_line(
+    image: &mut Image,
+    string: &Rc<LispString>,
+    #[default(&Value::NIL)] stream: &Value,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+) -> Result<Value> {
+    write_part(image, string, stream, [start, end], "\n")
 }
 
 /// Writes the character.
 ///
 /// `(with-output-to-string (s) (write-char #\a s))` => `"a"`
-#[builtin(_, "character &optional stream")]
-fn write_char(image: &mut Image, args: &[Value]) -> Outcome {
-    let Value::Char(c) = args[0] else {
-        return Err(Raise::type_error(&args[0], known::CHARACTER));
-    };
-    stream::write(image, &stream_argument(args, 1), c.encode_utf8(&mut [0; 4]))?;
-    Ok(args[0].clone())
+#[builtin]
+fn write_char(
+    image: &mut Image,
+    character: char,
+    #[default(&Value::NIL)] stream: &Value,
+) -> Result<char> {
+    stream::write(image, stream, character.encode_utf8(&mut [0; 4]))?;
+    Ok(character)
 }
 
 /// Writes a newline.
@@ -122,18 +144,17 @@ fn write_char(image: &mut Image, args: &[Value]) -> Outcome {
 /// (with-output-to-string (s) (terpri s)) => "
 /// "
 /// ```
-#[builtin(_, "&optional stream")]
-fn terpri(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::write(image, &stream_argument(args, 0), "\n")?;
-    Ok(Value::NIL)
+#[builtin]
+fn terpri(image: &mut Image, #[default(&Value::NIL)] stream: &Value) -> Result<()> {
+    stream::write(image, stream, "\n")
 }
 
 /// Writes a newline unless at the start of a line; was one written?
 ///
 /// `(with-output-to-string (s) (fresh-line s))` => `""`
-#[builtin(_, "&optional stream")]
-fn fresh_line(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::fresh_line(image, &stream_argument(args, 0)).map(Value::bool)
+#[builtin]
+fn fresh_line(image: &mut Image, #[default(&Value::NIL)] stream: &Value) -> Result<bool> {
+    stream::fresh_line(image, stream)
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -156,26 +177,25 @@ impl Manner {
     }
 }
 
-fn stream_argument(args: &[Value], index: usize) -> Value {
-    args.get(index).cloned().unwrap_or(Value::NIL)
-}
-
 /// The column of a stream, zero if that is not known.
-fn column(image: &Image, stream: &Value) -> Result<usize, Box<Raise>> {
+fn column(image: &Image, stream: &Value) -> Result<usize> {
     Ok(stream::column(image, stream)?.unwrap_or(0))
 }
 
 fn write_object(
     machine: &mut Machine<'_>,
-    args: Vec<Value>,
+    object: Value,
+    stream: Option<Value>,
     manner: Manner,
-) -> Result<Step, Box<Raise>> {
-    let target = stream_argument(&args, 1);
-    let object = args[0].clone();
+) -> Result<Step> {
+    let target = stream.clone().unwrap_or(Value::NIL);
     let mut settings = Settings::of(machine.image).with_escape(manner != Manner::Princ);
     let mut start = match column(machine.image, &target) {
         Ok(start) => start,
-        Err(raise) => return or_method(raise, manner.function(), args),
+        Err(raise) => {
+            let args = std::iter::once(object).chain(stream).collect();
+            return or_method(raise, manner.function(), args);
+        }
     };
     if matches!(manner, Manner::Print | Manner::Pprint) {
         start = 0;
@@ -224,7 +244,7 @@ fn write_object(
 }
 
 /// The settings of `write`, and the stream.
-fn write_settings(image: &Image, args: &[Value]) -> Result<(Settings, Value), Box<Raise>> {
+fn write_settings(image: &Image, args: &[Value]) -> Result<(Settings, Value)> {
     let given = keywords::parse(
         image,
         args,
@@ -311,7 +331,7 @@ fn write_settings(image: &Image, args: &[Value]) -> Result<(Settings, Value), Bo
     Ok((settings, stream.unwrap_or(Value::NIL)))
 }
 
-fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<(), Box<Raise>> {
+fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<()> {
     *place = match value {
         None => return Ok(()),
         Some(Value::Symbol(known::NIL, ..)) => None,
@@ -322,8 +342,7 @@ fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<(), Box<Rais
 }
 
 /// A call with another dispatch table binds the variable; `None` if that is not wanted.
-fn with_dispatch(image: &Image, args: &[Value], writer: &str) -> Option<Step> {
-    let (object, options) = args.split_first()?;
+fn with_dispatch(image: &Image, object: &Value, options: &[Value], writer: &str) -> Option<Step> {
     let mut pairs = options.chunks_exact(2);
     let table = pairs.find(|pair| pair[0].as_symbol() == Some(known::K_PPRINT_DISPATCH))?;
     let writer = image.packages.find_symbol(PackageTable::CL, writer)?.0;
@@ -346,15 +365,14 @@ fn with_dispatch(image: &Image, args: &[Value], writer: &str) -> Option<Step> {
     _,
     "object &key stream escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch"
 )]
-fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    if let Some(step) = with_dispatch(machine.image, &args, "WRITE") {
+fn write(machine: &mut Machine<'_>, object: Value, options: &[Value]) -> Result<Step> {
+    if let Some(step) = with_dispatch(machine.image, &object, options, "WRITE") {
         return Ok(step);
     }
-    let object = args[0].clone();
-    let (settings, target) = write_settings(machine.image, args.get(1..).unwrap_or(&[]))?;
+    let (settings, target) = write_settings(machine.image, options)?;
     let start = match column(machine.image, &target) {
         Ok(start) => start,
-        Err(raise) => return or_method(raise, known::WRITE, args),
+        Err(raise) => return or_method(raise, known::WRITE, [&[object], options].concat()),
     };
     let printed = object.clone();
     if let Some(stream) = stream::pretty(machine.image, &target) {
@@ -379,24 +397,11 @@ fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
     )
 }
 
-fn to_string(
-    machine: &mut Machine<'_>,
-    args: Vec<Value>,
-    escape: Option<bool>,
-) -> Result<Step, Box<Raise>> {
-    if escape.is_none()
-        && let Some(step) = with_dispatch(machine.image, &args, "WRITE-TO-STRING")
-    {
-        return Ok(step);
-    }
-    let settings = match escape {
-        Some(escape) => Settings::of(machine.image).with_escape(escape),
-        None => write_settings(machine.image, args.get(1..).unwrap_or(&[]))?.0,
-    };
+fn to_string(machine: &mut Machine<'_>, object: Value, settings: Settings) -> Result<Step> {
     compose(
         machine,
         "WRITE-TO-STRING",
-        move |image, calls| Ok(print::write(image, &args[0], &settings, 0, calls)),
+        move |image, calls| Ok(print::write(image, &object, &settings, 0, calls)),
         |_, text| Ok(Step::Return(Value::string(text))),
     )
 }
@@ -405,20 +410,19 @@ fn to_string(
 ///
 /// `(with-output-to-string (s) (print-object 'a s))` => `"A"`
 // What the default method does: prints the object's default form.
-#[builtin(_, "object stream")]
-fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+#[builtin]
+fn print_object(machine: &mut Machine<'_>, object: Value, stream: Value) -> Result<Step> {
     let settings = Settings::of(machine.image);
-    let target = args[1].clone();
-    let start = match column(machine.image, &target) {
+    let start = match column(machine.image, &stream) {
         Ok(start) => start,
-        Err(raise) => return or_method(raise, known::PRINT_OBJECT, args),
+        Err(raise) => return or_method(raise, known::PRINT_OBJECT, vec![object, stream]),
     };
-    let object = args[0].clone();
+    let (printed, target) = (object.clone(), stream);
     if let Some(stream) = stream::pretty(machine.image, &target) {
         return compose(
             machine,
             "PRINT-OBJECT",
-            move |image, calls| Ok(print::document_default(image, &args[0], &settings, calls)),
+            move |image, calls| Ok(print::document_default(image, &printed, &settings, calls)),
             move |_, text| {
                 stream.with_document(|document| document.append(&text));
                 Ok(Step::Return(object))
@@ -430,7 +434,7 @@ fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
         "PRINT-OBJECT",
         move |image, calls| {
             Ok(print::write_default(
-                image, &args[0], &settings, start, calls,
+                image, &printed, &settings, start, calls,
             ))
         },
         move |machine, text| {
@@ -440,14 +444,16 @@ fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
     )
 }
 
-fn write_string(image: &mut Image, args: &[Value], end_of_line: &str) -> Outcome {
-    let Value::Str(string) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::STRING));
-    };
-    let names: [Sym; 2] = [known::K_START, known::K_END];
-    let [start, end] = keywords::parse(image, args.get(2..).unwrap_or(&[]), names)?;
+/// Writes the part of a string between two bounds, and the end of a line; the string.
+fn write_part(
+    image: &mut Image,
+    string: &Rc<LispString>,
+    stream: &Value,
+    [start, end]: [Option<&Value>; 2],
+    end_of_line: &str,
+) -> Result<Value> {
     let sequence = Sequence::Str(string.clone());
-    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let bounds = Bounds::new(&sequence, start, end)?;
     let text = string.text();
     let part: String = match (bounds.start, bounds.end) {
         (0, None) => text,
@@ -456,29 +462,31 @@ fn write_string(image: &mut Image, args: &[Value], end_of_line: &str) -> Outcome
             text.chars().skip(start).take(end - start).collect()
         }
     };
-    stream::write(
-        image,
-        &stream_argument(args, 1),
-        &format!("{part}{end_of_line}"),
-    )?;
-    Ok(args[0].clone())
+    stream::write(image, stream, &format!("{part}{end_of_line}"))?;
+    Ok(sequence.value())
 }
 
 /// Writes #<…> with the object's type, what the body writes, and a made-up address.
 #[builtin(_, "object stream type identity body")]
-fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let [object, target, with_type, with_identity, body] = args.as_slice() else {
-        return Err(Raise::program(format!(
-            "invalid number of arguments: {}",
-            args.len()
-        )));
-    };
+fn write_unreadable(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    target: &Value,
+    with_type: &Value,
+    with_identity: &Value,
+    body: &Value,
+) -> Result<Step> {
     let image = &mut *machine.image;
     if image.special(known::V_PRINT_READABLY).is_true() {
         return Err(print::not_readable(object));
     }
     if let Err(raise) = stream::output_stream(image, target) {
-        return or_method(raise, known::WRITE_UNREADABLE, args.clone());
+        let args = [object, target, with_type, with_identity, body];
+        return or_method(
+            raise,
+            known::WRITE_UNREADABLE,
+            args.map(Value::clone).into(),
+        );
     }
     let mut start = String::from("#<");
     if with_type.is_true() {
@@ -524,7 +532,7 @@ pub(crate) static TABLE: &[Builtin] = builtins![
     princ_to_string,
     write_to_string,
     print_object,
-    write_string_builtin,
+    write_string,
     write_line,
     write_char,
     terpri,

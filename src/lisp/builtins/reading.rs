@@ -9,34 +9,45 @@ use crate::print;
 use crate::reader::readtable::{LetterCase, Readtable};
 use crate::reader::{Completeness, ReadError, Reader, is_complete};
 use crate::stream::{self, Stream};
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
 use crate::value::raise::Raise;
 use crate::value::sequence::{Bounds, Sequence};
+use crate::value::string::LispString;
 use crate::vm::computation::{Computation, Progress, compute};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
-type Outcome = Result<Value, Box<Raise>>;
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Reads a form from a stream.
 ///
 /// `(with-input-from-string (s "(1 2) 3") (read s))` => `(1 2)`
-#[builtin("READ", "&optional stream eof-error-p eof-value recursive-p")]
-fn read_builtin(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+#[builtin("READ")]
+fn read_builtin(
+    machine: &mut Machine<'_>,
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    recursive_p: Option<&Value>,
+) -> Result<Step> {
+    let args = [stream, eof_error_p, eof_value, recursive_p];
     read(machine, args, false)
 }
 
 /// Like READ, without reading the blank after the form.
 ///
 /// `(with-input-from-string (s "a b") (list (read-preserving-whitespace s) (read-char s) (read s)))` => `(A #\  B)`
-#[builtin(_, "&optional stream eof-error-p eof-value recursive-p")]
+#[builtin]
 fn read_preserving_whitespace(
     machine: &mut Machine<'_>,
-    args: Vec<Value>,
-) -> Result<Step, Box<Raise>> {
+    stream: Option<&Value>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    recursive_p: Option<&Value>,
+) -> Result<Step> {
+    let args = [stream, eof_error_p, eof_value, recursive_p];
     read(machine, args, true)
 }
 
@@ -54,7 +65,7 @@ fn readtablep(object: &Value) -> bool {
 /// `(readtable-case *readtable*)` => `:UPCASE`
 /// `(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :preserve) (symbol-name (read-from-string "Cup")))` => `"Cup"`
 #[builtin]
-fn readtable_case(readtable: &Value) -> Outcome {
+fn readtable_case(readtable: &Value) -> Result<Value> {
     match readtable.as_foreign::<Readtable>() {
         Some(table) => Ok(table.case.get().keyword().into()),
         None => Err(Raise::type_error(readtable, known::READTABLE)),
@@ -72,32 +83,29 @@ fn whole_form_p(text: &Value) -> bool {
 }
 
 /// Lets a character mean what it means in the standard syntax.
-#[builtin("%RESET-MACRO-CHARACTER", "character readtable")]
-fn reset_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    with_readtable(image, args.get(1), |table| {
-        table.macros.borrow_mut().remove(&c);
-        table.constituents.borrow_mut().remove(&c);
+#[builtin("%RESET-MACRO-CHARACTER")]
+fn reset_macro_character(image: &mut Image, character: char, readtable: &Value) -> Result<Value> {
+    with_readtable(image, Some(readtable), |table| {
+        table.macros.borrow_mut().remove(&character);
+        table.constituents.borrow_mut().remove(&character);
         Value::T
     })
 }
 
 /// Has a character been made a part of symbols like a letter?
-#[builtin("%CONSTITUENT-P", "character readtable")]
-fn is_constituent(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    with_readtable(image, args.get(1), |table| {
-        Value::bool(table.constituents.borrow().contains(&c))
+#[builtin("%CONSTITUENT-P")]
+fn is_constituent(image: &mut Image, character: char, readtable: &Value) -> Result<Value> {
+    with_readtable(image, Some(readtable), |table| {
+        Value::bool(table.constituents.borrow().contains(&character))
     })
 }
 
 /// Lets a character be a part of symbols like a letter.
-#[builtin("%SET-CONSTITUENT", "character readtable")]
-fn set_constituent(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    with_readtable(image, args.get(1), |table| {
-        table.macros.borrow_mut().remove(&c);
-        table.constituents.borrow_mut().insert(c);
+#[builtin("%SET-CONSTITUENT")]
+fn set_constituent(image: &mut Image, character: char, readtable: &Value) -> Result<Value> {
+    with_readtable(image, Some(readtable), |table| {
+        table.macros.borrow_mut().remove(&character);
+        table.constituents.borrow_mut().insert(character);
         Value::T
     })
 }
@@ -105,31 +113,39 @@ fn set_constituent(image: &mut Image, args: &[Value]) -> Outcome {
 /// The function that a program has set for two characters, or NIL.
 ///
 /// `(system::%dispatch-macro-character #\# #\? nil)` => `NIL`
-#[builtin("%DISPATCH-MACRO-CHARACTER", "character sub-character readtable")]
-fn dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let key = (character(&args[0])?, upper(character(&args[1])?));
-    with_readtable(image, args.get(2), |table| {
+#[builtin("%DISPATCH-MACRO-CHARACTER")]
+fn dispatch_macro_character(
+    image: &mut Image,
+    character: char,
+    sub_character: char,
+    readtable: &Value,
+) -> Result<Value> {
+    let key = (character, sub_character.to_ascii_uppercase());
+    with_readtable(image, Some(readtable), |table| {
         let functions = table.dispatch.borrow();
         functions.get(&key).cloned().unwrap_or(Value::NIL)
     })
 }
 
 /// Sets the function of two characters.
-#[builtin(
-    "%SET-DISPATCH-MACRO-CHARACTER",
-    "character sub-character function readtable"
-)]
-fn set_dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let key = (character(&args[0])?, upper(character(&args[1])?));
-    with_readtable(image, args.get(3), |table| {
-        table.dispatch.borrow_mut().insert(key, args[2].clone());
+#[builtin("%SET-DISPATCH-MACRO-CHARACTER")]
+fn set_dispatch_macro_character(
+    image: &mut Image,
+    character: char,
+    sub_character: char,
+    function: Value,
+    readtable: &Value,
+) -> Result<Value> {
+    let key = (character, sub_character.to_ascii_uppercase());
+    with_readtable(image, Some(readtable), |table| {
+        table.dispatch.borrow_mut().insert(key, function);
         Value::T
     })
 }
 
 /// Sets what the reader does with letters.
 #[builtin("READTABLE-CASE", "case readtable")]
-fn set_readtable_case(case_value: &Value, readtable: &Value) -> Outcome {
+fn set_readtable_case(case_value: &Value, readtable: &Value) -> Result<Value> {
     let Some(table) = readtable.as_foreign::<Readtable>() else {
         return Err(Raise::type_error(readtable, known::READTABLE));
     };
@@ -197,14 +213,14 @@ enum Eof {
 }
 
 impl Eof {
-    fn of(args: &[Value], stream: Value) -> Eof {
-        match args.first() {
-            Some(error) if error.is_nil() => Eof::Value(args.get(1).cloned().unwrap_or(Value::NIL)),
+    fn of(error: Option<&Value>, value: Option<&Value>, stream: Value) -> Eof {
+        match error {
+            Some(error) if error.is_nil() => Eof::Value(value.cloned().unwrap_or(Value::NIL)),
             _ => Eof::Error(stream),
         }
     }
 
-    fn value(&self, image: &Image) -> Outcome {
+    fn value(&self, image: &Image) -> Result<Value> {
         match self {
             Eof::Value(value) => Ok(value.clone()),
             Eof::Error(stream) => Err(end_of_file(image, stream)),
@@ -225,7 +241,7 @@ impl Computation for Reading {
         &mut self,
         machine: &mut Machine<'_>,
         answer: Option<Value>,
-    ) -> Result<Progress<Value>, Box<Raise>> {
+    ) -> Result<Progress<Value>> {
         let image = &mut *machine.image;
         if let Some(value) = answer {
             let outcome = self.reader.supply(image, value);
@@ -250,8 +266,8 @@ impl Reading {
     fn take(
         &mut self,
         image: &mut Image,
-        outcome: Result<crate::reader::Outcome, ReadError>,
-    ) -> Result<Option<Progress<Value>>, Box<Raise>> {
+        outcome: std::result::Result<crate::reader::Outcome, ReadError>,
+    ) -> Result<Option<Progress<Value>>> {
         use crate::reader::Outcome;
         let form = match outcome {
             Ok(Outcome::Evaluate(form)) => {
@@ -320,7 +336,7 @@ impl Reading {
     }
 
     /// Tells the stream how much was read.
-    fn advance_stream(&self, image: &mut Image) -> Result<(), Box<Raise>> {
+    fn advance_stream(&self, image: &mut Image) -> Result<()> {
         let stream = match &self.then {
             After::Stream(from) => &from.stream,
             After::List { stream, .. } => stream,
@@ -331,7 +347,7 @@ impl Reading {
     }
 
     /// The list, if what is being read is one and its end comes next.
-    fn end_of_list(&mut self, image: &mut Image) -> Result<Option<Value>, Box<Raise>> {
+    fn end_of_list(&mut self, image: &mut Image) -> Result<Option<Value>> {
         let After::List { end, items, stream } = &mut self.then else {
             return Ok(None);
         };
@@ -347,7 +363,7 @@ impl Reading {
     }
 }
 
-fn reading_of_stream(image: &mut Image, then: After) -> Result<Reading, Box<Raise>> {
+fn reading_of_stream(image: &mut Image, then: After) -> Result<Reading> {
     let stream = match &then {
         After::Stream(from) => &from.stream,
         After::List { stream, .. } => stream,
@@ -374,29 +390,39 @@ fn reading_of_stream(image: &mut Image, then: After) -> Result<Reading, Box<Rais
 
 fn read(
     machine: &mut Machine<'_>,
-    args: Vec<Value>,
+    args: [Option<&Value>; 4],
     preserve_whitespace: bool,
-) -> Result<Step, Box<Raise>> {
-    let designator = args.first().cloned().unwrap_or(Value::NIL);
-    let stream = match stream::input_stream(machine.image, &designator) {
+) -> Result<Step> {
+    let [designator, eof_error_p, eof_value, recursive_p] = args;
+    let designator = designator.unwrap_or(&Value::NIL);
+    let stream = match stream::input_stream(machine.image, designator) {
         Ok(stream) => Value::Stream(stream),
-        Err(raise) if preserve_whitespace => {
-            return or_method(raise, known::READ_PRESERVING_WHITESPACE, args);
+        Err(raise) => {
+            let name = if preserve_whitespace {
+                known::READ_PRESERVING_WHITESPACE
+            } else {
+                known::READ
+            };
+            return or_method(raise, name, given(args));
         }
-        Err(raise) => return or_method(raise, known::READ, args),
     };
     // In a recursive call, the blank after the form is left to the outer read.
-    let is_recursive = args.get(3).is_some_and(Value::is_true);
+    let is_recursive = recursive_p.is_some_and(Value::is_true);
     let then = After::Stream(FromStream {
-        eof: Eof::of(args.get(1..).unwrap_or(&[]), stream.clone()),
+        eof: Eof::of(eof_error_p, eof_value, stream.clone()),
         stream,
         preserve_whitespace: preserve_whitespace || is_recursive,
     });
-    if stream::is_standard_input(machine.image, &designator) {
+    if stream::is_standard_input(machine.image, designator) {
         ask_for_form(machine.image);
     }
     let reading = reading_of_stream(machine.image, then)?;
     compute(machine, "READ", reading)
+}
+
+/// The arguments of a call, as far as they are given.
+fn given<const N: usize>(args: [Option<&Value>; N]) -> Vec<Value> {
+    args.into_iter().flatten().cloned().collect()
 }
 
 /// Has a person type until there is a whole form, or they type no more.
@@ -413,21 +439,18 @@ fn ask_for_form(image: &Image) {
 /// Reads a form from a string; also where reading ended.
 ///
 /// `(read-from-string "(a b) c")` => `(A B) ; 6`
-#[builtin(
-    _,
-    "string &optional eof-error-p eof-value &key start end preserve-whitespace"
-)]
-fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let Value::Str(string) = &args[0] else {
-        return Err(Raise::type_error(&args[0], known::STRING));
-    };
-    let [start, end, preserve_whitespace] = keywords::parse(
-        machine.image,
-        args.get(3..).unwrap_or(&[]),
-        [known::K_START, known::K_END, known::K_PRESERVE_WHITESPACE],
-    )?;
+#[builtin]
+fn read_from_string(
+    machine: &mut Machine<'_>,
+    string: &Rc<LispString>,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+    #[key] start: Option<&Value>,
+    #[key] end: Option<&Value>,
+    #[key] preserve_whitespace: Option<bool>,
+) -> Result<Step> {
     let sequence = Sequence::Str(string.clone());
-    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let bounds = Bounds::new(&sequence, start, end)?;
     let text: Rc<str> = match bounds.end {
         None => string.text().into(),
         Some(end) => {
@@ -446,9 +469,9 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         start: 0,
         then: After::String {
             before: bounds.start,
-            eof: Eof::of(args.get(1..).unwrap_or(&[]), stream.clone()),
+            eof: Eof::of(eof_error_p, eof_value, stream.clone()),
             stream,
-            preserve_whitespace: preserve_whitespace.is_some_and(|v| v.is_true()),
+            preserve_whitespace: preserve_whitespace == Some(true),
         },
     };
     compute(machine, "READ", reading)
@@ -457,33 +480,28 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
 /// Reads forms up to a character.
 ///
 /// `(with-input-from-string (s "1 2 ]") (read-delimited-list #\] s))` => `(1 2)`
-#[builtin(_, "character &optional stream recursive-p")]
-fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let end = character(&args[0])?;
-    let designator = args.get(1).cloned().unwrap_or(Value::NIL);
-    let stream = match stream::input_stream(machine.image, &designator) {
+#[builtin]
+fn read_delimited_list(
+    machine: &mut Machine<'_>,
+    character: char,
+    stream: Option<&Value>,
+    recursive_p: Option<&Value>,
+) -> Result<Step> {
+    let stream = match stream::input_stream(machine.image, stream.unwrap_or(&Value::NIL)) {
         Ok(stream) => Value::Stream(stream),
-        Err(raise) => return or_method(raise, known::READ_DELIMITED_LIST, args),
+        Err(raise) => {
+            let args = given([Some(&character.into()), stream, recursive_p]);
+            return or_method(raise, known::READ_DELIMITED_LIST, args);
+        }
     };
     let then = After::List {
-        end,
+        end: character,
         items: Vec::new(),
         stream,
     };
     let mut reading = reading_of_stream(machine.image, then)?;
-    reading.reader = reading.reader.with_terminator(end);
+    reading.reader = reading.reader.with_terminator(character);
     compute(machine, "READ", reading)
-}
-
-fn character(value: &Value) -> Result<char, Box<Raise>> {
-    match value {
-        Value::Char(c) => Ok(*c),
-        other => Err(Raise::type_error(other, known::CHARACTER)),
-    }
-}
-
-fn upper(c: char) -> char {
-    c.to_ascii_uppercase()
 }
 
 /// Accesses the readtable of an argument, or the current one.
@@ -491,7 +509,7 @@ fn with_readtable<R>(
     image: &Image,
     argument: Option<&Value>,
     look: impl FnOnce(&Readtable) -> R,
-) -> Result<R, Box<Raise>> {
+) -> Result<R> {
     let table = match argument {
         Some(table) if table.is_true() => table,
         _ => image.special(known::V_READTABLE),
@@ -510,7 +528,7 @@ fn copy_readtable(
     image: &mut Image,
     readtable: Option<&Value>,
     to_value: Option<&Value>,
-) -> Outcome {
+) -> Result<Value> {
     let copy = if readtable.is_some_and(Value::is_nil) {
         Readtable::default()
     } else {
@@ -533,7 +551,7 @@ fn set_macro_character(
     function: Value,
     #[default(false)] non_terminating_p: bool,
     readtable: Option<&Value>,
-) -> Outcome {
+) -> Result<Value> {
     let c = character;
     let inside = non_terminating_p;
     with_readtable(image, readtable, |table| {
@@ -547,11 +565,10 @@ fn set_macro_character(
 /// symbol.
 ///
 /// `(system::%macro-character #\! nil)` => `NIL ; NIL`
-#[builtin("%MACRO-CHARACTER", "character readtable")]
-fn macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let c = character(&args[0])?;
-    with_readtable(image, args.get(1), |table| {
-        let (function, inside) = match table.macros.borrow().get(&c) {
+#[builtin("%MACRO-CHARACTER")]
+fn macro_character(image: &mut Image, character: char, readtable: &Value) -> Result<Value> {
+    with_readtable(image, Some(readtable), |table| {
+        let (function, inside) = match table.macros.borrow().get(&character) {
             Some((function, inside)) => (function.clone(), *inside),
             None => (Value::NIL, false),
         };

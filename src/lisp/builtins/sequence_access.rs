@@ -65,10 +65,9 @@ fn set_elt(value: &Value, sequence_value: &Value, index_value: &Value) -> Outcom
 ///
 /// `(subseq '(1 2 3 4) 1 3)` => `(2 3)`
 /// `(subseq "hello" 2)` => `"llo"`
-#[builtin(_, "sequence start &optional end")]
-fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
-    let sequence = Sequence::of(&args[0])?;
-    let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
+#[builtin]
+fn subseq(sequence: Sequence, start: &Value, end: Option<&Value>) -> Outcome {
+    let bounds = Bounds::new(&sequence, Some(start), end)?;
     if let Sequence::Str(string) = &sequence {
         return Ok(Value::string(string.slice(bounds.start, bounds.end)));
     }
@@ -77,13 +76,12 @@ fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
 
 /// Replaces elements of a sequence.
 // `(setf (subseq sequence start end) new)`.
-#[builtin("SUBSEQ", "value sequence start &optional end")]
-fn set_subseq(_: &mut Image, args: &[Value]) -> Outcome {
-    let target = Sequence::of(&args[1])?;
-    let bounds = Bounds::new(&target, args.get(2), args.get(3))?;
-    let new = Sequence::of(&args[0])?;
-    overwrite(&target, bounds, new.items(Bounds::ALL)?)?;
-    Ok(args[0].clone())
+#[builtin("SUBSEQ")]
+fn set_subseq(value: &Value, sequence: Sequence, start: &Value, end: Option<&Value>) -> Outcome {
+    let bounds = Bounds::new(&sequence, Some(start), end)?;
+    let new = Sequence::of(value)?;
+    overwrite(&sequence, bounds, new.items(Bounds::ALL)?)?;
+    Ok(value.clone())
 }
 
 /// Overwrites a part of a sequence with items, as far as both reach.
@@ -194,11 +192,11 @@ fn replace(
 ///
 /// `(concatenate 'string "foo" "bar")` => `"foobar"`
 /// `(concatenate 'list '(1) #(2))` => `(1 2)`
-#[builtin(_, "result-type &rest sequences")]
-fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
-    let result = sequence_type(image, &args[0])?;
-    if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
-        let strings = || args[1..].iter().filter_map(Value::as_string);
+#[builtin]
+fn concatenate(image: &mut Image, result_type: &Value, sequences: &[Value]) -> Outcome {
+    let result = sequence_type(image, result_type)?;
+    if result.kind == Kind::Str && sequences.iter().all(|s| matches!(s, Value::Str(_))) {
+        let strings = || sequences.iter().filter_map(Value::as_string);
         let bytes = strings().map(|string| string.borrow().len()).sum();
         reserve(bytes);
         let mut text = String::with_capacity(bytes);
@@ -209,7 +207,7 @@ fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
         return Ok(Value::string(text));
     }
     let mut items = Vec::new();
-    for part in &args[1..] {
+    for part in sequences {
         items.extend(Sequence::of(part)?.all()?);
     }
     result.make(items)

@@ -16,6 +16,8 @@ use crate::vm::calls::{Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
 struct Duplicates {
     sequence: Sequence,
     bounds: Bounds,
@@ -26,7 +28,7 @@ struct Duplicates {
 }
 
 impl Duplicates {
-    async fn run(self, calls: Calls) -> Result<Value, Box<Raise>> {
+    async fn run(self, calls: Calls) -> Result<Value> {
         let items = self.sequence.all()?;
         let end = self.bounds.end_of(items.len());
         let part = items.get(self.bounds.start..end).unwrap_or(&[]);
@@ -94,14 +96,15 @@ async fn tested_duplicates(
 
 fn duplicates(
     machine: &mut Machine<'_>,
-    args: &[Value],
+    sequence: Sequence,
+    options: &[Value],
     name: &'static str,
     in_place: bool,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     let image = &machine.image;
     let [key, start, end, from_end, test, test_not] = keywords::parse(
         image,
-        &args[1..],
+        options,
         [
             known::K_KEY,
             known::K_START,
@@ -111,7 +114,6 @@ fn duplicates(
             known::K_TEST_NOT,
         ],
     )?;
-    let sequence = Sequence::of(&args[0])?;
     let duplicates = Duplicates {
         bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
         from_end: from_end.is_some_and(|v| v.is_true()),
@@ -127,16 +129,24 @@ fn duplicates(
 ///
 /// `(remove-duplicates '(1 2 1 3 2))` => `(1 3 2)`
 #[builtin(_, "sequence &key key start end from-end test test-not")]
-fn remove_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    duplicates(machine, &args, "REMOVE-DUPLICATES", false)
+fn remove_duplicates(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    options: &[Value],
+) -> Result<Step> {
+    duplicates(machine, sequence, options, "REMOVE-DUPLICATES", false)
 }
 
 /// Like `remove-duplicates`, but may change the sequence; use the result.
 ///
 /// `(delete-duplicates (list 1 2 1))` => `(2 1)`
 #[builtin(_, "sequence &key key start end from-end test test-not")]
-fn delete_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    duplicates(machine, &args, "DELETE-DUPLICATES", true)
+fn delete_duplicates(
+    machine: &mut Machine<'_>,
+    sequence: Sequence,
+    options: &[Value],
+) -> Result<Step> {
+    duplicates(machine, sequence, options, "DELETE-DUPLICATES", true)
 }
 
 /// Removing duplicates.

@@ -14,14 +14,14 @@ use crate::vm::calls::{Args, Calls, run};
 use crate::vm::machine::Machine;
 use crate::vm::step::Step;
 
-type Outcome = Result<Value, Box<Raise>>;
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Several sequences walked side by side.
 struct Side(Vec<Walk>);
 
 impl Side {
-    fn new(sequences: &[Value]) -> Result<Side, Box<Raise>> {
-        let walks: Result<Vec<Walk>, _> = sequences
+    fn new(sequences: &[Value]) -> Result<Side> {
+        let walks: Result<Vec<Walk>> = sequences
             .iter()
             .map(|s| Ok(Sequence::of(s)?.walk(Bounds::ALL)))
             .collect();
@@ -29,7 +29,7 @@ impl Side {
     }
 
     /// The next element of each, or none when one is at its end.
-    fn next(&mut self) -> Result<Option<Args>, Box<Raise>> {
+    fn next(&mut self) -> Result<Option<Args>> {
         if let [walk] = self.0.as_mut_slice() {
             return Ok(walk.next()?.map(|item| Args::One([item])));
         }
@@ -50,13 +50,18 @@ impl Side {
 /// `(map 'vector #'1+ '(1 2 3))` => `#(2 3 4)`
 /// `(map 'list #'+ #(1 2) '(10 20))` => `(11 22)`
 #[builtin(_, "result-type function sequence &rest sequences")]
-fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let result = match &args[0] {
+fn map(
+    machine: &mut Machine<'_>,
+    result_type: &Value,
+    function: &Value,
+    sequences: &[Value],
+) -> Result<Step> {
+    let result = match result_type {
         Value::Symbol(known::NIL, ..) => None,
         specifier => Some(sequence_type(machine.image, specifier)?),
     };
-    let function = callable(machine.image, &args[1])?;
-    let mut side = Side::new(&args[2..])?;
+    let function = callable(machine.image, function)?;
+    let mut side = Side::new(sequences)?;
     run(machine, "MAP", |calls| async move {
         let mut items = Vec::new();
         while let Some(args) = side.next()? {
@@ -75,11 +80,15 @@ fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> 
 /// Writes the results of a function for the elements of sequences into a sequence.
 ///
 /// `(map-into (list 0 0) #'+ '(1 2) '(10 20))` => `(11 22)`
-#[builtin(_, "target function &rest sequences")]
-fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let target = Sequence::of(&args[0])?;
-    let function = callable(machine.image, &args[1])?;
-    let mut side = Side::new(&args[2..])?;
+#[builtin]
+fn map_into(
+    machine: &mut Machine<'_>,
+    target: Sequence,
+    function: &Value,
+    sequences: &[Value],
+) -> Result<Step> {
+    let function = callable(machine.image, function)?;
+    let mut side = Side::new(sequences)?;
     // A vector with a fill pointer is filled up to its full size.
     let room = match &target {
         Sequence::Vector(vector) => vector.items.len(),
@@ -127,7 +136,7 @@ async fn quantified(
     function: Value,
     mut side: Side,
     quantifier: Quantifier,
-) -> Outcome {
+) -> Result<Value> {
     while let Some(args) = side.next()? {
         let value = calls.call(&function, args).await;
         match quantifier {
@@ -146,12 +155,13 @@ async fn quantified(
 
 fn quantify(
     machine: &mut Machine<'_>,
-    args: &[Value],
+    predicate: &Value,
+    sequences: &[Value],
     name: &'static str,
     quantifier: Quantifier,
-) -> Result<Step, Box<Raise>> {
-    let function = callable(machine.image, &args[0])?;
-    let side = Side::new(&args[1..])?;
+) -> Result<Step> {
+    let function = callable(machine.image, predicate)?;
+    let side = Side::new(sequences)?;
     run(machine, name, |calls| {
         quantified(calls, function, side, quantifier)
     })
@@ -161,32 +171,38 @@ fn quantify(
 ///
 /// `(every #'evenp '(2 4))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn every(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &sequences, "EVERY", Quantifier::Every)
+fn every(machine: &mut Machine<'_>, predicate: &Value, sequences: &[Value]) -> Result<Step> {
+    quantify(machine, predicate, sequences, "EVERY", Quantifier::Every)
 }
 
 /// The first true result of a predicate for the elements, or `NIL`.
 ///
 /// `(some #'evenp '(1 2))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn some(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &sequences, "SOME", Quantifier::Some)
+fn some(machine: &mut Machine<'_>, predicate: &Value, sequences: &[Value]) -> Result<Step> {
+    quantify(machine, predicate, sequences, "SOME", Quantifier::Some)
 }
 
 /// Does no element satisfy a predicate?
 ///
 /// `(notany #'evenp '(1 3))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn notany(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &sequences, "NOTANY", Quantifier::NotAny)
+fn notany(machine: &mut Machine<'_>, predicate: &Value, sequences: &[Value]) -> Result<Step> {
+    quantify(machine, predicate, sequences, "NOTANY", Quantifier::NotAny)
 }
 
 /// Is there an element that does not satisfy a predicate?
 ///
 /// `(notevery #'evenp '(2 3))` => `T`
 #[builtin(_, "predicate sequence &rest sequences")]
-fn notevery(machine: &mut Machine<'_>, sequences: Vec<Value>) -> Result<Step, Box<Raise>> {
-    quantify(machine, &sequences, "NOTEVERY", Quantifier::NotEvery)
+fn notevery(machine: &mut Machine<'_>, predicate: &Value, sequences: &[Value]) -> Result<Step> {
+    quantify(
+        machine,
+        predicate,
+        sequences,
+        "NOTEVERY",
+        Quantifier::NotEvery,
+    )
 }
 
 /// Combines the elements of a sequence two by two.
@@ -203,7 +219,7 @@ fn reduce(
     #[key] start: Option<Value>,
     #[key] end: Option<Value>,
     #[key] initial_value: Option<Value>,
-) -> Result<Step, Box<Raise>> {
+) -> Result<Step> {
     let image = &machine.image;
     let function = callable(image, &function)?;
     let key = Key::new(image, key)?;

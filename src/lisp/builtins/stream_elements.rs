@@ -75,11 +75,16 @@ fn write_sequence(
 ///
 /// `(handler-case (read-byte (make-string-input-stream "a")) (stream-error () 'characters))` => `CHARACTERS`
 // `(read-byte stream eof-error-p eof-value)`.
-#[builtin(_, "stream &optional eof-error-p eof-value")]
-fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
-    match stream::read_byte(image, stream_of(&args[0])?)? {
+#[builtin]
+fn read_byte(
+    image: &mut Image,
+    stream: &Value,
+    eof_error_p: Option<&Value>,
+    eof_value: Option<&Value>,
+) -> Outcome {
+    match stream::read_byte(image, stream_of(stream)?)? {
         Some(byte) => Ok(byte),
-        None => at_end(image, args.first(), args.get(1), args.get(2)),
+        None => at_end(image, Some(stream), eof_error_p, eof_value),
     }
 }
 

@@ -7,7 +7,7 @@ use super::streams::stream_of;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Stream, StreamKind};
-use crate::typed::keywords;
+use crate::typed::FromValue;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -23,10 +23,9 @@ fn made(stream: Stream) -> Value {
 /// A stream that collects what is written.
 ///
 /// `(let ((s (make-string-output-stream))) (princ 1 s) (get-output-stream-string s))` => `"1"`
-#[builtin(_, "&key element-type")]
-fn make_string_output_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    keywords::parse(image, args, [known::K_ELEMENT_TYPE])?;
-    Ok(made(Stream::to_text()))
+#[builtin]
+fn make_string_output_stream(#[key] _element_type: Option<&Value>) -> Value {
+    made(Stream::to_text())
 }
 
 /// Takes the text that a string output stream has collected.
@@ -74,38 +73,38 @@ fn make_fill_pointer_stream(string_argument: &Rc<LispString>) -> Outcome {
     })))
 }
 
-/// The streams that one is made of; all must be usable in its direction.
-fn parts(
-    image: &Image,
-    args: &[Value],
-    is_usable: fn(&Stream) -> bool,
-    predicate: &str,
-) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
-    let usable = |arg| {
-        let stream = stream_of(arg)?;
-        if is_usable(stream) {
-            Ok(stream.clone())
-        } else {
-            Err(stream::not_usable(stream, predicate, image))
+/// A stream that another one is to read.
+struct Input(Rc<Stream>);
+
+impl FromValue<'_> for Input {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        let stream = stream_of(value)?;
+        match stream.is_input() {
+            true => Ok(Input(stream.clone())),
+            false => Err(stream::not_usable(stream, "INPUT-STREAM-P", image)),
         }
-    };
-    args.iter().map(usable).collect()
+    }
 }
 
-fn inputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
-    parts(image, args, Stream::is_input, "INPUT-STREAM-P")
-}
+/// A stream that another one is to write.
+struct Output(Rc<Stream>);
 
-fn outputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
-    parts(image, args, Stream::is_output, "OUTPUT-STREAM-P")
+impl FromValue<'_> for Output {
+    fn from_value(image: &mut Image, value: &Value) -> Result<Self, Box<Raise>> {
+        let stream = stream_of(value)?;
+        match stream.is_output() {
+            true => Ok(Output(stream.clone())),
+            false => Err(stream::not_usable(stream, "OUTPUT-STREAM-P", image)),
+        }
+    }
 }
 
 /// A stream that writes to several others.
 ///
 /// `(princ 1 (make-broadcast-stream))` => `1`
 #[builtin]
-fn make_broadcast_stream(image: &mut Image, streams: &[Value]) -> Outcome {
-    let targets = outputs(image, streams)?;
+fn make_broadcast_stream(streams: Vec<Output>) -> Outcome {
+    let targets: Vec<_> = streams.into_iter().map(|output| output.0).collect();
     let kind = StreamKind::Broadcast {
         targets: targets.clone(),
     };
@@ -116,8 +115,8 @@ fn make_broadcast_stream(image: &mut Image, streams: &[Value]) -> Outcome {
 ///
 /// `(read-line (make-concatenated-stream (make-string-input-stream "a") (make-string-input-stream "b")))` => `"ab" ; T`
 #[builtin]
-fn make_concatenated_stream(image: &mut Image, streams: &[Value]) -> Outcome {
-    let inputs = inputs(image, streams)?;
+fn make_concatenated_stream(streams: Vec<Input>) -> Outcome {
+    let inputs: Vec<_> = streams.into_iter().map(|input| input.0).collect();
     let kind = StreamKind::Concatenated {
         inputs: inputs.clone(),
         unread: None,
@@ -129,35 +128,30 @@ fn make_concatenated_stream(image: &mut Image, streams: &[Value]) -> Outcome {
     Ok(made(stream))
 }
 
-fn two_way(image: &Image, args: &[Value], echo: bool) -> Outcome {
-    let mut parts = inputs(image, &args[..1])?;
-    parts.extend(outputs(image, &args[1..2])?);
-    let [input, output] = parts.as_slice() else {
-        return Err(Raise::type_error(&args[0], known::STREAM));
-    };
+fn two_way(Input(input): Input, Output(output): Output, echo: bool) -> Outcome {
     let kind = StreamKind::TwoWay {
         input: input.clone(),
         output: output.clone(),
         echo,
         unread: None,
     };
-    Stream::compound(kind, &parts).map(made)
+    Stream::compound(kind, &[input, output]).map(made)
 }
 
 /// A stream that reads one stream and writes another.
 ///
 /// `(read-char (make-two-way-stream (make-string-input-stream "a") (make-broadcast-stream)))` => `#\a`
-#[builtin(_, "input output")]
-fn make_two_way_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    two_way(image, args, false)
+#[builtin]
+fn make_two_way_stream(input: Input, output: Output) -> Outcome {
+    two_way(input, output, false)
 }
 
 /// A stream that writes what it reads to another.
 ///
 /// `(let* ((out (make-string-output-stream)) (s (make-echo-stream (make-string-input-stream "ab") out))) (read-char s) (get-output-stream-string out))` => `"a"`
-#[builtin(_, "input output")]
-fn make_echo_stream(image: &mut Image, args: &[Value]) -> Outcome {
-    two_way(image, args, true)
+#[builtin]
+fn make_echo_stream(input: Input, output: Output) -> Outcome {
+    two_way(input, output, true)
 }
 
 /// A stream that stands for the value of a variable.

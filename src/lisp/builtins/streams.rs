@@ -5,7 +5,6 @@ use std::rc::Rc;
 use crate::builtin::Builtin;
 use crate::image::Image;
 use crate::stream::{self, Elements, Stream, StreamKind};
-use crate::typed::keywords;
 use crate::typed::{self, builtin, builtins};
 use crate::value::Value;
 use crate::value::known;
@@ -113,10 +112,9 @@ fn external_format(image: &mut Image, _stream: &Rc<Stream>) -> Outcome {
 /// Closes a stream; was it open?
 ///
 /// `(close (make-string-input-stream "x"))` => `T`
-#[builtin(_, "stream &key abort")]
-fn close(image: &mut Image, args: &[Value]) -> Outcome {
-    keywords::parse(image, &args[1..], [known::K_ABORT])?;
-    stream::close(stream_of(&args[0])?).map(Value::bool)
+#[builtin]
+fn close(stream: &Rc<Stream>, #[key] _abort: Option<&Value>) -> Result<bool, Box<Raise>> {
+    stream::close(stream)
 }
 
 /// Writes out what is held back.

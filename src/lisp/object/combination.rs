@@ -1,6 +1,7 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
 use crate::image::Image;
+use crate::typed::{self, builtin};
 use crate::value::Value;
 use crate::value::form::{form, quote};
 use crate::value::generic::Combination;
@@ -91,14 +92,17 @@ pub(crate) fn expand_define_method_combination(
     ])
 }
 
-/// The builtin behind it: `(name operator identity)`; returns the name.
-pub(crate) fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
-    };
-    let kept = Value::cons(args[1].clone(), args[2].clone());
+/// Defines a method combination as DEFINE-METHOD-COMBINATION describes it.
+#[builtin("%DEFINE-COMBINATION")]
+pub(crate) fn define_combination(
+    image: &mut Image,
+    name: Sym,
+    operator: Value,
+    identity_with_one_argument: Value,
+) -> Sym {
+    let kept = Value::cons(operator, identity_with_one_argument);
     let data = image.symbols.get_mut(name);
     data.plist =
         Value::list_with_tail([known::METHOD_COMBINATION.into(), kept], data.plist.clone());
-    Ok(args[0].clone())
+    name
 }

@@ -4,6 +4,7 @@ use super::define::ClassDefinition;
 use super::method::{MethodDefinition, define_method, remove_method};
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
 use crate::image::Image;
+use crate::typed::{self, builtin};
 use crate::value::Value;
 use crate::value::class::{Class, ClassKind};
 use crate::value::form::{doc_form, form, quote};
@@ -184,31 +185,48 @@ impl Definition {
     }
 }
 
-/// The builtin behind `defclass`: returns the class.
-pub(crate) fn define_standard_class(
+/// Defines a class as DEFCLASS describes it.
+#[builtin("%DEFINE-CLASS")]
+pub(crate) fn define_class(
     image: &mut Image,
-    args: &[Value],
+    name: Sym,
+    superclasses: &Value,
+    slots: &Value,
+    default_initargs: &Value,
+    documentation: &Value,
+    _last: &Value,
 ) -> Result<Value, Box<Raise>> {
-    define(image, args, ClassKind::Standard).map(Value::Class)
+    let rest = [slots, default_initargs, documentation];
+    define(image, ClassKind::Standard, name, superclasses, rest).map(Value::Class)
 }
 
-/// The builtin behind `define-condition`: returns the name.
-pub fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let class = define(image, args, ClassKind::Condition)?;
-    *class.report.borrow_mut() = match args.get(5) {
-        Some(Value::Function(report)) => Some(report.clone()),
+/// Defines a condition as DEFINE-CONDITION describes it.
+#[builtin("%DEFINE-CONDITION")]
+pub fn define_condition(
+    image: &mut Image,
+    name: Sym,
+    superclasses: &Value,
+    slots: &Value,
+    default_initargs: &Value,
+    documentation: &Value,
+    report: &Value,
+) -> Result<Sym, Box<Raise>> {
+    let rest = [slots, default_initargs, documentation];
+    let class = define(image, ClassKind::Condition, name, superclasses, rest)?;
+    *class.report.borrow_mut() = match report {
+        Value::Function(report) => Some(report.clone()),
         _ => None,
     };
-    Ok(class.name.into())
+    Ok(class.name)
 }
 
-fn define(image: &mut Image, args: &[Value], kind: ClassKind) -> Result<Rc<Class>, Box<Raise>> {
-    let [name, superclasses, slots, default_initargs, doc, ..] = args else {
-        return Err(Raise::program("invalid number of arguments: 0"));
-    };
-    let Some(name) = name.as_symbol() else {
-        return Err(Raise::type_error(name, Value::symbol(known::SYMBOL)));
-    };
+fn define(
+    image: &mut Image,
+    kind: ClassKind,
+    name: Sym,
+    superclasses: &Value,
+    [slots, default_initargs, doc]: [&Value; 3],
+) -> Result<Rc<Class>, Box<Raise>> {
     let slots: Vec<DefinedSlot> = slots
         .iter_list()
         .filter_map(|s| evaluated_slot(&s))

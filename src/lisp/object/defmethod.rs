@@ -4,11 +4,14 @@ use std::rc::Rc;
 
 use super::combination::combination_named;
 use super::method::{
-    MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
+    MethodDefinition, MethodObject, changed, define_method, ensure_generic, method_value,
+    specializer,
 };
 use crate::image::Image;
+use crate::typed::{self, builtin};
 use crate::value::Value;
 use crate::value::form::{doc_form, form, quote, split_body};
+use crate::value::function::Function;
 use crate::value::known;
 use crate::value::parameters::Parameters;
 use crate::value::raise::Raise;
@@ -198,23 +201,18 @@ fn any_part(form: &Value, test: impl Fn(&Value) -> bool) -> bool {
     false
 }
 
-/// The builtin behind `defmethod`: returns the method.
-pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let [
-        name,
-        qualifiers,
-        specializers,
-        lambda_list,
-        takes_next,
-        doc,
-        function,
-    ] = args
-    else {
-        return Err(Raise::program("invalid number of arguments: 0"));
-    };
-    let Value::Function(function) = function else {
-        return Err(Raise::type_error(function, Value::symbol(known::FUNCTION)));
-    };
+/// Defines a method as DEFMETHOD describes it.
+#[builtin("%ADD-METHOD")]
+pub(crate) fn add_method(
+    image: &mut Image,
+    name: Value,
+    qualifiers: &Value,
+    specializers: &Value,
+    lambda_list: &Value,
+    takes_next: bool,
+    documentation: &Value,
+    function: Rc<Function>,
+) -> Result<Value, Box<Raise>> {
     let specializers = specializers
         .iter_list()
         .map(|s| specializer(image, &s))
@@ -223,14 +221,14 @@ pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box
     let method = define_method(
         image,
         MethodDefinition {
-            name: name.clone(),
+            name,
             qualifiers: qualifiers.iter_list().collect(),
             specializers,
             parameters,
-            function: function.clone(),
-            takes_next: takes_next.is_true(),
+            function,
+            takes_next,
             accessor: None,
-            doc: doc.as_text().map(Into::into),
+            doc: documentation.as_text().map(Into::into),
         },
     )?;
     Ok(method_value(&method))
@@ -307,18 +305,20 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
     Ok(form![known::PROG1, ensure; Value::list(ignored)])
 }
 
-/// The builtin behind `defgeneric`: returns the generic function.
+/// Defines a generic function as DEFGENERIC describes it.
+#[builtin("%ENSURE-GENERIC")]
 pub(crate) fn ensure_generic_function(
     image: &mut Image,
-    args: &[Value],
+    name: &Value,
+    lambda_list: &Value,
+    combination: &Value,
+    documentation: &Value,
+    precedence: &Value,
+    keeps_methods: bool,
 ) -> Result<Value, Box<Raise>> {
-    let [name, lambda_list, combination, doc, order, keep] = args else {
-        return Err(Raise::program("invalid number of arguments: 0"));
-    };
-    let keeps_methods = keep.is_true();
     let parameters = Parameters::parse(image, lambda_list)?;
     let found = combination_named(image, &combination.car_or_nil())?;
-    let precedence = precedence_order(image, lambda_list, order, parameters.required)?;
+    let precedence = precedence_order(image, lambda_list, precedence, parameters.required)?;
     let function = ensure_generic(image, name, &parameters)?;
     if let Some(generic) = function.as_generic() {
         let own = if keeps_methods {
@@ -351,7 +351,7 @@ pub(crate) fn ensure_generic_function(
                 .most_specific_last
                 .set(order == Some(known::K_MOST_SPECIFIC_LAST));
         }
-        if let Some(text) = doc.as_text() {
+        if let Some(text) = documentation.as_text() {
             *generic.doc.borrow_mut() = Some(text.into());
         }
         changed(generic);
@@ -387,15 +387,13 @@ fn precedence_order(
         })
 }
 
-/// Records that a method was made by the `defgeneric` of its own generic function.
-pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    if let Some(object) = args
-        .first()
-        .and_then(|a| a.as_foreign::<super::method::MethodObject>())
+/// Notes that a method was made by a DEFGENERIC.
+#[builtin("%OWN-METHOD")]
+pub(crate) fn own_method(image: &mut Image, method: &Value) {
+    if let Some(object) = method.as_foreign::<MethodObject>()
         && let Some(function) = image.named_function(&object.0.name)
         && let Some(generic) = function.as_generic()
     {
         generic.own_methods.borrow_mut().push(object.0.clone());
     }
-    Ok(Value::NIL)
 }

@@ -8,7 +8,7 @@ use crate::value::symbol::Sym;
 
 /// The values of the keyword arguments `names` in `args`, which holds nothing but keyword
 /// arguments; the first of several counts.
-pub fn parse<const N: usize>(
+pub(crate) fn parse<const N: usize>(
     image: &Image,
     args: &[Value],
     names: [Sym; N],
@@ -58,9 +58,4 @@ pub(crate) fn given<'a, const N: usize>(
         }
         _ => Ok(values),
     }
-}
-
-/// An optional argument of a builtin by position: its value, or `None` if it is not given or `NIL`.
-pub fn optional(args: &[Value], index: usize) -> Option<&Value> {
-    args.get(index).filter(|value| value.is_true())
 }

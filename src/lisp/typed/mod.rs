@@ -3,7 +3,7 @@
 
 mod from_value;
 mod host;
-pub mod keywords;
+pub(crate) mod keywords;
 mod returned;
 
 pub use planwright_lisp_macros::{builtin, builtins};
