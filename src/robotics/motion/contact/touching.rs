@@ -1,4 +1,4 @@
-//! Pairs that touch before a motion begins.
+//! Pairs that touch before a motion begins, or at its goal.
 //!
 //! Such pairs must be able to separate, wherever the contact came from, but a motion must not
 //! press them together any further.
@@ -9,8 +9,8 @@ use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, InTheWay, Robot
 
 /// A pair may seem to overlap this much (m) more: rounding, not motion.
 const SAME_DEPTH: f64 = 5e-5;
-/// Gap (m) from which on a pair is clear of each other, and stays so unless both ride on the robot: what a hand holds is
-/// torn out of it where it grazes an edge.
+/// Gap (m) from which on a pair is clear of each other, and stays so unless both ride on the robot or the motion expects
+/// them to touch: what a hand holds is torn out of it where it grazes an edge.
 const CLEAR: f64 = 0.001;
 
 /// The pairs that are close at the start or at the goal.
@@ -29,8 +29,8 @@ pub(crate) struct TouchingPairs {
 }
 
 impl TouchingPairs {
-    /// The pairs closer than `margin` (m) in the robot's present configuration; each may overlap
-    /// by `depth` (m), or as much as it already does.
+    /// The pairs closer than `margin` (m) in the robot's present configuration; each that touches or is expected to
+    /// may overlap by `depth` (m), or as much as it already does.
     pub(crate) fn new(
         checker: &mut CollisionChecker<'_>,
         robot: &RobotConfiguration,
@@ -70,9 +70,14 @@ impl TouchingPairs {
         });
         let expected = contacts.touching.iter().cloned();
         let relaxed = expected.fold(relaxed, |all, (a, b)| all.and(a, b));
-        let close = hits
-            .into_iter()
-            .map(|hit| (hit.clone(), overlap(&hit, depth)));
+        let close = hits.into_iter().map(|hit| {
+            let mut expected = contacts.touching.iter();
+            let is_expected = expected.any(|(a, b)| {
+                (*a == hit.moving && *b == hit.other) || (*a == hit.other && *b == hit.moving)
+            });
+            let overlap = overlap(&hit, depth, is_expected || is_own(&hit));
+            (hit, overlap)
+        });
         Self {
             close: close.collect(),
             allowed: contacts.allowed.clone(),
@@ -96,10 +101,11 @@ impl TouchingPairs {
         margin: f64,
     ) {
         for hit in checker.all_hits(goal, &self.relaxed, margin) {
-            if hit.depth <= if is_own(&hit) { self.depth } else { -CLEAR } {
+            let is_own = is_own(&hit);
+            if hit.depth <= if is_own { self.depth } else { -CLEAR } {
                 let relaxed = std::mem::take(&mut self.relaxed);
                 self.relaxed = relaxed.and(hit.moving.clone(), hit.other.clone());
-                let overlap = overlap(&hit, self.depth);
+                let overlap = overlap(&hit, self.depth, is_own);
                 self.close.push((hit, overlap));
             }
         }
@@ -184,9 +190,9 @@ impl TouchingPairs {
 }
 
 /// The overlap (m) that a pair may have where it is close: more than `depth` only if it has it already, and none if it
-/// is clear.
-fn overlap(pair: &CollisionHit, depth: f64) -> f64 {
-    match pair.depth <= -CLEAR && !is_own(pair) {
+/// is clear, unless it may touch.
+fn overlap(pair: &CollisionHit, depth: f64, may_touch: bool) -> f64 {
+    match pair.depth <= -CLEAR && !may_touch {
         true => -CLEAR,
         false => pair.depth.max(depth),
     }

@@ -1,5 +1,7 @@
 //! Arms: joint goals, hand goals of one and of both arms, putting down, and what is refused.
 
+use nalgebra::Translation3;
+
 use super::fixture::{Kitchen, Outcome};
 use crate::motion::planning::cartesian_path::tcp_in_base;
 use crate::motion::{
@@ -400,5 +402,27 @@ fn what_is_carried_is_clear_of_furniture_in_a_posture_or_does_not_get_there() {
             gap(&kitchen, x)
         );
         assert_eq!(kitchen.world.support_force("milk-1").unwrap(), 0.0);
+    }
+}
+
+#[test]
+fn what_is_put_down_from_just_above_its_place_gets_there() {
+    let mut kitchen = Kitchen::parked(0.0, 0.9, 180.0, 0.2);
+    kitchen.spawn_bottle(-0.75, 1.1, 0.96);
+    let arm = kitchen.world.models().description.arm(Side::Right);
+    let (palm, wrist) = (arm.gripper.palm, arm.wrist);
+    let stands = arm.tool_for_wrist(&kitchen.world.link_pose(wrist));
+    kitchen.world.attach("bottle-1", palm).unwrap();
+    for (above, is_carried) in [(0.003, false), (0.0, true)] {
+        let goal = PoseGoal::InMap(Translation3::new(0.0, 0.0, above) * stands);
+        let motion = MoveTcp::new(
+            None,
+            Some(goal),
+            TcpPath::Straight,
+            CollisionMode::AllowHand,
+        );
+        assert_eq!(kitchen.run_one(motion), ARRIVED);
+        let force = kitchen.world.support_force("bottle-1").unwrap();
+        assert_eq!(force > 0.0, is_carried, "{above} m above: {force} N");
     }
 }
