@@ -71,7 +71,7 @@ pub enum ReadErrorKind {
         token: String,
     },
     /// A character that symbols and numbers cannot have unless it is escaped.
-    #[error("invalid constituent character: #\\{}", char_name(*.0).unwrap_or_else(|| .0.to_string()))]
+    #[error("invalid constituent character: #\\{}", named(*.0))]
     InvalidConstituent(char),
     /// `package:` without a name.
     #[error("illegal terminating character after a colon in \"{token}\"")]
@@ -128,10 +128,10 @@ pub enum ReadErrorKind {
         before: &'static str,
     },
     /// `#<`, which nothing can read back.
-    #[error("illegal sharp macro character: #\\{0}")]
+    #[error("illegal sharp macro character: #\\{}", named(*.0))]
     IllegalDispatch(char),
     /// A letter after `#` that means nothing.
-    #[error("no dispatch function defined for #\\{0}")]
+    #[error("no dispatch function defined for #\\{}", named(*.0))]
     UnknownDispatch(char),
     /// `#'` and the like with an unexpected or missing number.
     #[error("#{letter} needs a number before the letter: {reason}")]
@@ -253,4 +253,9 @@ impl ReadError {
         };
         Raise::new(class, self.to_string()).at(self.place)
     }
+}
+
+/// What is written after `#\` for a character.
+fn named(c: char) -> String {
+    char_name(c).unwrap_or_else(|| c.to_string())
 }

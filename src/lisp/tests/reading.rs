@@ -45,6 +45,20 @@ fn what_symbols_cannot_have_is_an_error() {
 }
 
 #[test]
+fn a_character_that_cannot_be_seen_is_named() {
+    check(&[
+        (
+            "(read-from-string (coerce '(#\\# #\\1 #\\Newline) 'string))",
+            "!! illegal sharp macro character: #\\Newline",
+        ),
+        (
+            "(read-from-string (coerce '(#\\# #\\Backspace) 'string))",
+            "!! no dispatch function defined for #\\Backspace",
+        ),
+    ]);
+}
+
+#[test]
 fn a_readtable_is_copied_into_another_one() {
     check(&[
         (
