@@ -1,7 +1,8 @@
 //! Pulling or pushing a drawer or door by the handle that a hand holds, or turning a knob.
 //!
 //! The hand moves along the way that the joint prescribes: straight, or on an arc, on which it
-//! turns with the door or, within what the pads yield, about the bar. The joint itself follows the
+//! turns with the door or, within what the pads yield, about the bar: so that it can open and withdraw
+//! afterwards, if that is possible. The joint itself follows the
 //! hand (`world::handle_hold`). The motion does not begin if the arm is too short, or if something
 //! is in the way of the drawer or door, and stops when something turns out to be.
 
@@ -22,7 +23,8 @@ use crate::motion::trajectories::axis_group::AxisGroup;
 use crate::motion::trajectories::speeds;
 use crate::motion::trajectories::trajectory::Trajectory;
 use crate::robot::{ArmPositions, JointKind, Side};
-use crate::world::{CollisionHit, HandleHold, World};
+use crate::world::{AllowedPairs, CollisionHit, HandleHold, World};
+use spatial::Pose;
 use spatial::pose::distance_between;
 
 /// How far (m or rad) from its goal the joint may be at the end.
@@ -62,19 +64,18 @@ impl PullGoal {
             .ok_or(MotionFailure::HoldsNoHandle { side })
     }
 
-    /// The arm's way to the goal while the hand turns about the bar from one angle (rad) to another.
+    /// The arm's way along poses of the tool.
     fn arm_way(
         &self,
         world: &World,
         grip: &BarGrip,
         way: &PartWay<'_>,
-        turn: [f64; 2],
+        tools: &[Pose],
     ) -> Result<Vec<ArmPositions>, WayObstacle> {
         let models = world.models();
         let robot = world.robot_configuration();
         let start = models.description.arm(self.side).positions(&robot.joints);
-        let tools = way.tools(grip, turn);
-        let points = follow_tools(models, robot, self.side, &tools, &start, 1.0);
+        let points = follow_tools(models, robot, self.side, tools, &start, 1.0);
         let hand = (self.side, grip.handle);
         if let Some((i, hit)) = robot_obstacle(world, robot, hand, way, &points) {
             return Err(WayObstacle::Hit(i, hit));
@@ -125,16 +126,17 @@ impl JointGoal for PullGoal {
             _ => PIVOTS.iter().map(|pivot| sign * pivot).collect(),
         };
         let mut farthest: Option<(usize, WayObstacle)> = None;
-        // A way after which the hand cannot leave the handle.
+        let close = close_links(world, &[self.side]);
+        // The first way after which the hand cannot leave the handle.
         let mut caught = None;
         for pivot in pivots {
-            let turn = [now, pivot];
-            let obstacle = match self.arm_way(world, &grip, &way, turn) {
-                Ok(points) if self.can_leave(world, &grip, &way, (&points, turn)) => {
-                    return Ok(self.follower(world, &grip, &way, (&points, turn)));
+            let tools = way.tools(&grip, [now, pivot]);
+            let obstacle = match self.arm_way(world, &grip, &way, &tools) {
+                Ok(points) if self.can_leave(world, &way, (&points, &tools), &close) => {
+                    return Ok(self.follower(world, (&points, &tools)));
                 }
                 Ok(points) => {
-                    caught.get_or_insert((points, turn));
+                    caught.get_or_insert((points, tools));
                     continue;
                 }
                 Err(obstacle) => obstacle,
@@ -146,8 +148,8 @@ impl JointGoal for PullGoal {
                 farthest = Some((got, obstacle));
             }
         }
-        if let Some((points, turn)) = &caught {
-            return Ok(self.follower(world, &grip, &way, (points, *turn)));
+        if let Some((points, tools)) = &caught {
+            return Ok(self.follower(world, (points, tools)));
         }
         Err(match farthest {
             Some((i, WayObstacle::Hit(_, hit))) => stopped((i, hit)),
@@ -190,48 +192,32 @@ impl JointGoal for PullGoal {
 }
 
 impl PullGoal {
-    /// Whether the hand can open at the end of a way and withdraw.
+    /// Whether the hand can open at the end of a way and withdraw; what is close in any case does not count.
     fn can_leave(
         &self,
         world: &World,
-        grip: &BarGrip,
         way: &PartWay<'_>,
-        (points, turn): (&[ArmPositions], [f64; 2]),
+        (points, tools): (&[ArmPositions], &[Pose]),
+        close: &AllowedPairs,
     ) -> bool {
-        let tools = way.tools(grip, turn);
         let (Some(end), Some(tool), Some(part)) = (points.last(), tools.last(), way.parts.last())
         else {
             return false;
         };
-        let robot = with_open_hand(world, world.robot_configuration(), self.side);
+        let (models, side) = (world.models(), self.side);
+        let robot = with_open_hand(world, world.robot_configuration(), side);
         let tools = withdrawal(tool);
-        let back = follow_tools(
-            world.models(),
-            &robot,
-            self.side,
-            &tools,
-            end,
-            APPROACH_JUMP,
-        );
-        let close = close_links(world, &[self.side]);
-        back.len() == tools.len()
-            && obstacle(world, (&robot, self.side), part, &close, &back).is_none()
+        let back = follow_tools(models, &robot, side, &tools, end, APPROACH_JUMP);
+        back.len() == tools.len() && obstacle(world, (&robot, side), part, close, &back).is_none()
     }
 
-    /// A trajectory through the points, on which the tool is no faster than on straight lines.
-    fn follower(
-        &self,
-        world: &World,
-        grip: &BarGrip,
-        way: &PartWay<'_>,
-        (points, turn): (&[ArmPositions], [f64; 2]),
-    ) -> JointPlan {
+    /// A trajectory through the points, on which the tool is no faster than on straight lines between its poses.
+    fn follower(&self, world: &World, (points, tools): (&[ArmPositions], &[Pose])) -> JointPlan {
         let group = PlanningGroup::new(world, false, &[self.side]);
         let mut limits = speeds::limits_of(&world.models().description, &group.joints);
         let hand = speeds::HAND;
         let axis = group.joints.len();
         limits.push(AxisGroup::single(axis, hand.velocity, hand.acceleration));
-        let tools = way.tools(grip, turn);
         let mut length = 0.0;
         let mut path = vec![
             group

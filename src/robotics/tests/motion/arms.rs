@@ -9,7 +9,6 @@ use crate::motion::{
     PoseGoal, Put, TcpPath, UnreachableReason,
 };
 use crate::robot::{ArmPositions, Side};
-use crate::world::AllowedPairs;
 use spatial::Pose;
 use spatial::pose::{angle_between, distance_between, from_xyz_rpy};
 
@@ -366,14 +365,7 @@ fn what_is_carried_is_clear_of_furniture_in_a_posture_or_does_not_get_there() {
         robot.base.translation.x = x;
         robot
     };
-    let gap = |kitchen: &Kitchen, x: f64| {
-        let mut checker = kitchen.world.collision_checker();
-        let near = checker.all_hits(&at(x), &AllowedPairs::none(), 0.01);
-        let near = near
-            .into_iter()
-            .filter(|hit| hit.other.robot_link().is_none());
-        near.map(|hit| -hit.depth).fold(0.01, f64::min)
-    };
+    let gap = |kitchen: &Kitchen, x: f64| kitchen.room(&at(x), 0.01);
     // Where the two touch.
     let (mut touching, mut clear) = (-0.4, 0.0);
     assert!(gap(&kitchen, touching) < 0.0 && gap(&kitchen, clear) > 0.0);

@@ -3,7 +3,6 @@
 use super::fixture::Kitchen;
 use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus, plan_drive};
 use crate::robot::Side;
-use crate::world::{AllowedPairs, RobotConfiguration};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use spatial::pose::{from_xy_yaw, from_xyz_rpy, yaw};
@@ -261,20 +260,29 @@ fn a_tight_place_that_a_finer_search_reaches_is_reached() {
     assert_eq!(kitchen.run_one(drive), Ok(MotionOutcome::Arrived));
 }
 
-/// What is held is torn out of a hand that stops at once.
-#[test]
-fn no_drive_among_furniture_stops_at_once() {
-    let mut rng = Pcg64::seed_from_u64(1);
-    let mut random = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    let mut between = |least: f64, most: f64| least + (most - least) * random();
-    let (mut arrived, mut worst) = (0, Vec::new());
-    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
-    for number in 0..150 {
-        let goal = [
+/// Random places on the kitchen's floor: x and y (m), heading (degrees).
+fn places(seed: u64) -> impl FnMut() -> [f64; 3] {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut between = move |least: f64, most: f64| {
+        least + (most - least) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    };
+    move || {
+        [
             between(-2.9, 0.9),
             between(-0.9, 2.9),
             between(-180.0, 180.0),
-        ];
+        ]
+    }
+}
+
+/// What is held is torn out of a hand that stops at once.
+#[test]
+fn no_drive_among_furniture_stops_at_once() {
+    let mut places = places(1);
+    let (mut arrived, mut worst) = (0, Vec::new());
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
+    for number in 0..150 {
+        let goal = places();
         let mut drive = kitchen.drive(goal[0], goal[1], goal[2]);
         let start = place(&kitchen);
         let (most, end) = drive_watching(&mut kitchen, &mut drive, |_, _| {});
@@ -287,33 +295,19 @@ fn no_drive_among_furniture_stops_at_once() {
     assert!(worst.is_empty(), "{worst:?}");
 }
 
-/// The smallest distance (m) of a robot from furniture, up to 4 cm.
-fn room(kitchen: &Kitchen, robot: &RobotConfiguration) -> f64 {
-    const MOST: f64 = 0.04;
-    let mut checker = kitchen.world.collision_checker();
-    let near = checker.all_hits(robot, &AllowedPairs::none(), MOST);
-    let near = near
-        .into_iter()
-        .filter(|hit| hit.other.robot_link().is_none());
-    near.map(|hit| -hit.depth).fold(MOST, f64::min)
-}
-
 /// What is carried gives way, and so is torn out of a hand, if it grazes an edge less deeply than a step is refused for.
 #[test]
 fn a_drive_that_begins_and_ends_clear_of_furniture_is_so_on_its_whole_way() {
-    let mut rng = Pcg64::seed_from_u64(2);
-    let mut random = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    let mut between = |least: f64, most: f64| least + (most - least) * random();
+    let mut places = places(2);
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.0);
     let (mut drives, mut tight) = (0, Vec::new());
     for _ in 0..100 {
         // Close to furniture, but clear of it.
         let goal = loop {
-            let [x, y] = [between(-2.9, 0.9), between(-0.9, 2.9)];
-            let heading = between(-180.0, 180.0);
+            let [x, y, heading] = places();
             let mut there = kitchen.world.robot_configuration().clone();
             there.base = from_xy_yaw(x, y, heading.to_radians());
-            if (0.0055..0.035).contains(&room(&kitchen, &there)) {
+            if (0.0055..0.035).contains(&kitchen.room(&there, 0.04)) {
                 break [x, y, heading];
             }
         };
@@ -323,7 +317,7 @@ fn a_drive_that_begins_and_ends_clear_of_furniture_is_so_on_its_whole_way() {
         let (_, end) = drive_watching(&mut kitchen, &mut drive, |kitchen, step| {
             if step.is_multiple_of(4) {
                 let robot = kitchen.world.robot_configuration();
-                least = least.min(room(kitchen, robot));
+                least = least.min(kitchen.room(robot, 0.04));
             }
         });
         if end == MotionStatus::Done(MotionOutcome::Arrived) {

@@ -59,6 +59,17 @@ impl Kitchen {
         kitchen
     }
 
+    /// The smallest distance (m) of a robot, and of what it holds, from what is no part of it, up to the greatest one asked
+    /// for; negative where they overlap.
+    pub(crate) fn room(&self, robot: &RobotConfiguration, most: f64) -> f64 {
+        let mut checker = self.world.collision_checker();
+        let near = checker.all_hits(robot, &AllowedPairs::none(), most);
+        let near = near
+            .into_iter()
+            .filter(|hit| hit.other.robot_link().is_none());
+        near.map(|hit| -hit.depth).fold(most, f64::min)
+    }
+
     pub(crate) fn spawn_bottle(&mut self, x: f64, y: f64, z: f64) {
         let at = from_xyz_rpy([x, y, z], [0.0; 3]);
         self.world

@@ -78,6 +78,15 @@ impl Kitchen {
         );
     }
 
+    /// Opens a hand that has taken a handle, and withdraws it by 10 cm.
+    fn leave(&mut self, side: Side) -> Result<MotionOutcome, MotionFailure> {
+        self.run_one(self.gripper(side, GripperCommand::Position(0.06)))?;
+        assert!(self.world.handle_hold(side).is_none());
+        let arm = self.world.models().description.arm(side);
+        let tool = arm.tool_for_wrist(&self.world.link_pose(arm.wrist));
+        self.run_one(to(side, tool * Translation3::new(-0.1, 0.0, 0.0)))
+    }
+
     fn position(&self, names: [&str; 2]) -> f64 {
         self.world.kitchen_joint(names[0]).unwrap()
     }
@@ -127,15 +136,7 @@ fn a_drawer_follows_the_hand_that_holds_its_handle_and_no_other() {
     assert_eq!(kitchen.pull(side, 0.4), Ok(MotionOutcome::Arrived));
     assert!((kitchen.position(UPPER) - 0.4).abs() < 1e-3);
     let reached = kitchen.position(UPPER);
-    kitchen
-        .run_one(kitchen.gripper(side, GripperCommand::Position(0.06)))
-        .unwrap();
-    assert!(kitchen.world.handle_hold(side).is_none());
-    let arm = kitchen.world.models().description.arm(side);
-    let tool = arm.tool_for_wrist(&kitchen.world.link_pose(arm.wrist));
-    kitchen
-        .run_one(to(side, tool * Translation3::new(-0.1, 0.0, 0.0)))
-        .unwrap();
+    assert_eq!(kitchen.leave(side), Ok(MotionOutcome::Arrived));
     assert_eq!(
         kitchen.position(UPPER),
         reached,
@@ -330,14 +331,8 @@ fn a_hand_that_has_opened_a_door_can_leave_its_handle() {
         kitchen.world.teleport_robot(&robot);
         kitchen.take(FRIDGE, &choice, 50.0);
         assert_eq!(kitchen.pull(choice.side, 1.57), Ok(MotionOutcome::Arrived));
-        let open = kitchen.gripper(choice.side, GripperCommand::Position(0.06));
-        let end = kitchen.run_one(open);
-        assert_eq!(end, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
-        let arm = kitchen.world.models().description.arm(choice.side);
-        let tool = arm.tool_for_wrist(&kitchen.world.link_pose(arm.wrist));
-        let away = tool * Translation3::new(-0.1, 0.0, 0.0);
-        let end = kitchen.run_one(to(choice.side, away));
-        assert_eq!(end, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
+        let left = kitchen.leave(choice.side);
+        assert_eq!(left, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
         opened += 1;
     }
     assert!(opened > 3, "{opened}");
