@@ -308,7 +308,7 @@ fn a_hand_that_has_opened_a_door_can_leave_its_handle() {
     let bar = kitchen.world.furniture_pose(handle).translation;
     let mut opened = 0;
     for (i, j, k) in
-        (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| (i, j, k))))
+        (-2..=2).flat_map(|i| (-2..=2).flat_map(move |j| (-1..=1).map(move |k| (i, j, k))))
     {
         kitchen.world.restore(&before);
         let mut robot = kitchen.world.robot_configuration().clone();
@@ -334,8 +334,11 @@ fn a_hand_that_has_opened_a_door_can_leave_its_handle() {
         let left = kitchen.leave(choice.side);
         assert_eq!(left, Ok(MotionOutcome::Arrived), "{i} {j} {k}");
         opened += 1;
+        if opened == 6 {
+            return;
+        }
     }
-    assert!(opened > 3, "{opened}");
+    panic!("only {opened} stands");
 }
 
 #[test]
