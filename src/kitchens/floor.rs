@@ -34,6 +34,14 @@ impl Rectangle {
         }
     }
 
+    /// The smallest one around two.
+    pub(crate) fn with(&self, other: &Self) -> Self {
+        Self {
+            low: [0, 1].map(|i| self.low[i].min(other.low[i])),
+            high: [0, 1].map(|i| self.high[i].max(other.high[i])),
+        }
+    }
+
     /// Distance (m) of a point.
     pub(crate) fn distance(&self, point: [f64; 2]) -> f64 {
         let [x, y] = [0, 1].map(|i| {
@@ -125,5 +133,25 @@ impl Floor {
     pub(crate) fn gets_to(&self, place: &Rectangle) -> bool {
         (0..self.reached.len())
             .any(|cell| self.reached[cell] && place.distance(self.point(cell)) == 0.0)
+    }
+
+    /// A point of a rectangle, the one with the most room, where a robot can stand that needs so much room (m) to all sides.
+    pub(crate) fn free_in(&self, place: &Rectangle, room: f64) -> Option<[f64; 2]> {
+        let cells = (0..self.clear.len()).filter(|cell| self.clear[*cell] >= room);
+        let inside = cells.filter(|cell| place.distance(self.point(*cell)) == 0.0);
+        self.widest_of(inside)
+    }
+
+    /// The point with the most room where a robot gets.
+    pub(crate) fn widest_reached(&self) -> Option<[f64; 2]> {
+        self.widest_of((0..self.clear.len()).filter(|cell| self.reached[*cell]))
+    }
+
+    fn widest_of(&self, cells: impl Iterator<Item = usize>) -> Option<[f64; 2]> {
+        let best = cells.reduce(|best, cell| match self.clear[cell] > self.clear[best] {
+            true => cell,
+            false => best,
+        });
+        best.map(|cell| self.point(cell))
     }
 }

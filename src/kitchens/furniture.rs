@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::draws::Numbers;
+use crate::fittings::Door;
 use crate::modules::{Module, Unit};
-use crate::opening::Door;
 use crate::plan::{Plan, Row, Standing};
 use crate::settings::Setting;
 use crate::urdf::{Block, Joint, Urdf};
@@ -15,12 +15,12 @@ pub(super) const GAP: f64 = 0.004;
 /// Height (m) and thickness of walls.
 const WALL: f64 = 0.1;
 /// Height (m) of the foot of a wall.
-const FOOT: f64 = 0.12;
+pub(super) const FOOT: f64 = 0.12;
 /// How far (m) the counter stands out ahead of the carcasses.
 const LEDGE: f64 = 0.02;
 
 /// Colours of the fronts and the counters.
-const COLORS: [[[f64; 3]; 2]; 5] = [
+pub(super) const COLORS: [[[f64; 3]; 2]; 5] = [
     [[0.275, 0.287, 0.27], [0.12, 0.11, 0.1]],
     [[0.62, 0.61, 0.58], [0.3, 0.2, 0.12]],
     [[0.12, 0.2, 0.24], [0.6, 0.58, 0.54]],
@@ -43,10 +43,9 @@ pub(crate) struct Inventory {
     pub(crate) usual_joint: Option<String>,
 }
 
-/// Writes a plan as a URDF.
-pub(crate) fn write(plan: &Plan, numbers: &Numbers<'_>) -> (String, Inventory) {
-    let [front, top] = COLORS[plan.style.color % COLORS.len()];
-    let materials = [
+/// The materials of a kitchen with fronts and counters of some colours.
+pub(super) fn materials([front, top]: [[f64; 3]; 2]) -> [(&'static str, [f64; 3]); 10] {
+    [
         ("body", [0.03, 0.03, 0.03]),
         ("front", front),
         ("handle", [0.125, 0.115, 0.102]),
@@ -57,7 +56,12 @@ pub(crate) fn write(plan: &Plan, numbers: &Numbers<'_>) -> (String, Inventory) {
         ("wall", [0.8, 0.8, 0.8]),
         ("white", [0.8, 0.8, 0.8]),
         ("wood", [0.4, 0.25, 0.13]),
-    ];
+    ]
+}
+
+/// Writes a plan as a URDF.
+pub(crate) fn write(plan: &Plan, numbers: &Numbers<'_>) -> (String, Inventory) {
+    let materials = materials(COLORS[plan.style.color % COLORS.len()]);
     let mut maker = Maker {
         plan,
         numbers,
@@ -256,6 +260,7 @@ impl Maker<'_> {
                     name: &name,
                     is_left,
                     width,
+                    across: 0.0,
                     span: [low, high],
                     handle_at: 0.75,
                     handle_length: [0.12, 0.3],
@@ -343,6 +348,7 @@ impl Maker<'_> {
             name: "fridge",
             is_left,
             width,
+            across: 0.0,
             span: [low, roof],
             handle_at: 0.45,
             handle_length: [0.3, 0.5],
@@ -528,6 +534,7 @@ impl Maker<'_> {
                         name,
                         is_left,
                         width,
+                        across: 0.0,
                         span: [low, high],
                         handle_at: 0.15,
                         handle_length: [0.1, 0.14],

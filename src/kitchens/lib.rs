@@ -9,12 +9,14 @@ mod arrangement;
 mod description;
 mod draws;
 mod finding;
+mod fittings;
 mod floor;
 mod furniture;
 mod modules;
 mod opening;
 mod part;
 mod plan;
+mod published;
 mod settings;
 mod table;
 #[cfg(test)]
@@ -30,6 +32,7 @@ use modules::Unit;
 pub use part::kind_of_part;
 use plan::Plan;
 pub use plan::Rejection;
+pub use published::{LayoutError, Published, is_layout};
 pub use settings::{Setting, SettingError, Settings, is_parameter};
 pub use table::{Division, KitchenTable, Row, kitchen_path};
 

@@ -14,6 +14,8 @@ pub(crate) enum Moves {
     Slides(f64),
     /// About its z axis, or the opposite one, so far (rad).
     Turns { is_left: bool, angle: f64 },
+    /// About its y axis, downwards, so far (rad).
+    Falls(f64),
 }
 
 /// How a link is joined to another one.
@@ -103,6 +105,7 @@ impl Urdf {
                 let axis = if is_left { "0 0 -1" } else { "0 0 1" };
                 ("revolute", Some(axis), angle)
             }
+            Moves::Falls(angle) => ("revolute", Some("0 1 0"), angle),
         };
         self.line(format_args!(
             "  <joint name=\"{name}_joint\" type=\"{kind}\">"

@@ -68,6 +68,7 @@ pub use face::{
     Datum, Failure, FramedPose, KeptOutput, ObserverId, PlanEvent, PlanEventKind, RestoreError,
     Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
+pub use kitchens::is_layout;
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions, is_built_in, is_generated, is_shipped_robot};
 
@@ -249,7 +250,8 @@ impl Session {
     /// their files, and whether the robot starts where it cannot be.
     pub fn remarks(&self) -> Vec<String> {
         let models = self.models();
-        let mut remarks: Vec<String> = models.remarks.iter().map(ToString::to_string).collect();
+        let of_files = models.remarks.iter().map(ToString::to_string);
+        let mut remarks: Vec<String> = of_files.chain(self.options.world_remarks.clone()).collect();
         if self.options.robot.is_some() || self.options.world.is_some() {
             remarks.extend(start::remark(models, self.simulation().world()));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use closest_name::closest_name;
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF, ROBOTS, robot_named};
-use kitchens::{Kitchen, Settings};
+use kitchens::{Kitchen, Published, Settings};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
@@ -38,6 +38,8 @@ pub struct SessionOptions {
     /// Name and text of a description of the kitchen's furniture. Without one, what of the built-in
     /// kitchen's description names only furniture that is there is true of a given kitchen, too.
     pub world_description: Option<(String, String)>,
+    /// What is to be said of the kitchen at the start, besides what its URDF gives reason to.
+    pub world_remarks: Vec<String>,
     /// Name and text of a file with further types of objects.
     pub objects: Option<(String, String)>,
     /// Folders in which the packages are that URDFs name in `package://…`, or which are such packages;
@@ -74,6 +76,7 @@ impl Default for SessionOptions {
             robot_description: None,
             world: None,
             world_description: None,
+            world_remarks: Vec::new(),
             objects: None,
             package_paths: Vec::new(),
             mesh_cache: None,
@@ -132,6 +135,23 @@ impl SessionOptions {
         if self.robot_description.is_none() {
             self.robot_description = Some((file("sexp"), robot.description.to_owned()));
         }
+        Ok(())
+    }
+
+    /// Has the session begin in the kitchen of a layout (see [`is_layout`]) of a name and a text.
+    ///
+    /// # Errors
+    ///
+    /// The layout is wrong; the error names the file and the line.
+    pub fn set_layout(&mut self, name: &str, text: &str) -> Result<(), SessionError> {
+        let kitchen = Published::of_layout(text)
+            .map_err(|error| SessionError::Models(format!("{name}: {error}")))?;
+        self.world = Some((name.to_owned(), kitchen.urdf));
+        if self.world_description.is_none() {
+            self.world_description = Some((name.to_owned(), kitchen.description));
+        }
+        let remarks = kitchen.remarks.iter();
+        self.world_remarks = remarks.map(|remark| format!("{name}: {remark}")).collect();
         Ok(())
     }
 

@@ -263,3 +263,59 @@ fn a_kitchen_of_meshes_says_what_is_wrong_with_it() {
     assert_eq!(hash(&Session::new(&options).unwrap()), hash(&session));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_search_passes_over_places_where_nothing_has_room() {
+    // A shelf with something on all of it, and a desk.
+    let shelf = ROOM.replace(
+        "</robot>",
+        r#"<link name="shelf">
+             <collision><geometry><box size="0.4 1.0 0.7"/></geometry></collision>
+           </link>
+           <link name="chest">
+             <collision><geometry><box size="0.4 1.0 2.0"/></geometry></collision>
+           </link>
+           <joint name="shelf_joint" type="fixed">
+             <parent link="map"/><child link="shelf"/><origin xyz="-1.5 0 0.35"/>
+           </joint>
+           <joint name="chest_joint" type="fixed">
+             <parent link="map"/><child link="chest"/><origin xyz="-1.5 0 1.71"/>
+           </joint></robot>"#,
+    );
+    let options = SessionOptions {
+        world: Some(("room.urdf".to_owned(), shelf)),
+        world_description: Some((
+            "room.sexp".to_owned(),
+            "(kitchen office)
+             (place shelf :on shelf)
+             (place table :on desk)
+             (usually shelf :contexts (table-setting) :types (milk cup))
+             (usually table :contexts (table-setting) :types (milk cup))"
+                .to_owned(),
+        )),
+        ..SessionOptions::default()
+    };
+    let mut cook = Cook::with(&options);
+    cook.done("(init-projection) (spawn-object '((1.1 0.2 0.85) (0 0 0 1)) :milk 'milk-1)");
+    let search = |kind: &str| {
+        format!(
+            "(with-simulated-robot
+               (perform (an action (type searching) (object (an object (type {kind})))
+                            (context table-setting))))"
+        )
+    };
+    let said = cook.done(&search("milk"));
+    assert!(said.contains("touching chest"), "{said}");
+    let report = cook.fails("SEARCHING-FAILED", &search("cup"));
+    assert!(
+        report.starts_with("the cup was not found; tried: "),
+        "{report}"
+    );
+    // Where somebody says that it is, it is an error that nothing can be there.
+    cook.fails(
+        "DESIGNATOR-ERROR",
+        "(with-simulated-robot
+           (perform (an action (type searching) (object (an object (type milk)))
+                        (location (a location (on (an object (urdf-name shelf) (part-of kitchen))))))))",
+    );
+}

@@ -22,7 +22,7 @@ use lisp::visible::visible;
 use robotics::robot::urdf_text;
 use robotics::world::Models;
 use session::dialogue::Evaluate;
-use session::{self, Session, SessionOptions, is_generated, is_shipped_robot};
+use session::{self, Session, SessionOptions, is_generated, is_layout, is_shipped_robot};
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
@@ -37,6 +37,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         Ok((path.display().to_string(), text))
     };
     let generated = options.world.as_deref().filter(|world| is_generated(world));
+    let layout = options.world.as_deref().filter(|world| is_layout(world));
     let shipped = options.robot.as_deref();
     let shipped = shipped.filter(|robot| is_shipped_robot(robot));
     let mut session_options = SessionOptions {
@@ -46,7 +47,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             None => options.robot.as_deref().map(read_robot).transpose()?,
         },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
-        world: match generated {
+        world: match generated.or(layout) {
             Some(_) => None,
             None => options.world.as_deref().map(read_urdf).transpose()?,
         },
@@ -78,6 +79,11 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     }
     if let Some(name) = generated {
         let set = session_options.set_generated_world(&name.to_string_lossy());
+        set.map_err(|error| CommandError::Open(error.to_string()))?;
+    }
+    if let Some(file) = layout {
+        let (name, text) = read(file)?;
+        let set = session_options.set_layout(&name, &text);
         set.map_err(|error| CommandError::Open(error.to_string()))?;
     }
     set_stack_budget(COMPILER_STACK);

@@ -1,0 +1,1088 @@
+//! A layout of RoboCasa: groups of fixtures, each of which has a place of its own or stands beside another one.
+//!
+//! In a group, x goes to the right along the wall, y to the back, z up; the wall is at y = 0. Then the group is
+//! turned and moved as a whole.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use closest_name::closest_name;
+
+use super::LayoutError;
+use super::fixture::{Counter, Doors, Fixture, Fridge, HandlePlace, Kind, SIDES, snapped, turned};
+use super::node::{Data, Node};
+use super::sizes::usual_size;
+use crate::floor::Rectangle;
+
+/// Types that hang on walls and are left out, with what several of them are called.
+const LEFT_OUT: [(&str, &str); 5] = [
+    ("window", "windows"),
+    ("window_proc", "windows"),
+    ("wall_accessory", "accessories"),
+    ("utensil_rack", "racks"),
+    ("accessory", "accessories"),
+];
+/// Lids and the like, which belong to other things.
+const LIDS: [&str; 2] = ["blender_lid", "jar_lid"];
+/// The keys of a group that place it.
+const GROUP_KEYS: [&str; 3] = ["group_origin", "group_pos", "group_z_rot"];
+/// The keys of fixtures that mean something here, or are known to be about looks.
+const KEYS: [&str; 44] = [
+    "name",
+    "type",
+    "size",
+    "pos",
+    "align_to",
+    "side",
+    "alignment",
+    "offset",
+    "levels",
+    "percentages",
+    "configs",
+    "panel_config",
+    "orientation",
+    "handle_type",
+    "num_levels",
+    "interior_obj",
+    "obj_x_percent",
+    "obj_y_percent",
+    "hollow",
+    "half_top",
+    "base_opening",
+    "overhang",
+    "padding",
+    "interior_padding",
+    "stack_height",
+    "stack_fixtures",
+    "stack_on",
+    "z_rot",
+    "placement",
+    "attach_to",
+    "enable",
+    "wall_side",
+    "enclosing_wall",
+    "backing",
+    "backing_extended",
+    "open_top",
+    "is_corner_cab",
+    "is_clutter",
+    "island_only",
+    "has_free_joints",
+    "default_config_name",
+    "config_name",
+    "aux_fixture_config",
+    "handle_config",
+];
+/// Height (m) of the base of a stack.
+const BASE: f64 = 0.05;
+/// How far (m) tops of counters stand out, and what a front takes besides, where a sink is let in.
+const OVERHANG: f64 = 0.05;
+const FRONT: f64 = 0.015;
+/// Least distance (m) of a sink to the end of its counter.
+const SINK_GAP: f64 = 0.02;
+/// Maximum number of fixtures.
+const MAX_FIXTURES: usize = 2000;
+
+/// All that stands in a layout.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layout {
+    pub(super) fixtures: Vec<Fixture>,
+    /// The floors of its rooms.
+    pub(super) floors: Vec<Rectangle>,
+    pub(super) remarks: Vec<String>,
+}
+
+/// Where a group is.
+#[derive(Clone, Copy, Debug, Default)]
+struct Group {
+    origin: [f64; 2],
+    place: [f64; 2],
+    turn: f64,
+}
+
+/// What others refer to by its name.
+#[derive(Clone, Copy, Debug)]
+struct Named {
+    size: [f64; 3],
+    /// Where it is in its group; `None` as long as nothing has placed it.
+    at: Option<[f64; 3]>,
+    /// Which fixture it is; `None` for a stack of several.
+    fixture: Option<usize>,
+}
+
+#[derive(Default)]
+struct Reader {
+    layout: Layout,
+    named: BTreeMap<String, Named>,
+    /// The names of all fixtures.
+    names: BTreeSet<String>,
+    /// The groups of the fixtures.
+    groups: Vec<Group>,
+    /// Whether each fixture has been placed.
+    is_placed: Vec<bool>,
+    /// What is left out, and how many.
+    left_out: BTreeMap<&'static str, usize>,
+    /// Unknown keys, with their first lines.
+    unknown: BTreeMap<String, usize>,
+    /// What stands on counters, with the line on which it is: it is placed when all else is.
+    on_counters: Vec<(String, Node)>,
+}
+
+impl Layout {
+    /// Reads a layout.
+    pub(super) fn read(root: &Node) -> Result<Self, LayoutError> {
+        let mut reader = Reader::default();
+        for (name, group) in root.entries("a layout")? {
+            let name = name.text("the name of a group")?;
+            reader.group(name, group)?;
+        }
+        reader.finish()
+    }
+}
+
+impl Reader {
+    fn group(&mut self, name: &str, config: &Node) -> Result<(), LayoutError> {
+        let entries = config.entries(&format!("the group {name}"))?;
+        let pair = |key: &str| -> Result<[f64; 2], LayoutError> {
+            let Some(node) = config.get(key) else {
+                return Ok([0.0; 2]);
+            };
+            let items = node.items(key)?;
+            match items {
+                [x, y, ..] => Ok([x.number(key)?, y.number(key)?]),
+                _ => Err(node.error(format!("{key} has two numbers"))),
+            }
+        };
+        let turn = config.get("group_z_rot");
+        let group = Group {
+            origin: pair("group_origin")?,
+            place: pair("group_pos")?,
+            turn: snapped(turn.map_or(Ok(0.0), |turn| turn.number("group_z_rot"))?),
+        };
+        let rows = entries.iter().filter_map(|(key, row)| {
+            let key = key.text("the name of a row").unwrap_or_default();
+            (!GROUP_KEYS.contains(&key)).then_some((key, row))
+        });
+        for (row_name, row) in rows {
+            if row.is_null() {
+                continue;
+            }
+            for fixture in row.items(&format!("{row_name} of {name}"))? {
+                self.fixture(name, &group, fixture)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn fixture(&mut self, group_name: &str, group: &Group, node: &Node) -> Result<(), LayoutError> {
+        let entries = node.entries("a fixture")?;
+        let want = |key: &str| {
+            let value = node.get(key);
+            value.ok_or_else(|| node.error(format!("this fixture has no {key}")))
+        };
+        let short = want("name")?.text("the name of a fixture")?;
+        let name = format!("{short}_{group_name}");
+        let kind = want("type")?.text("the type of a fixture")?;
+        if let Some(enable) = node.get("enable")
+            && !enable.flag("enable")?
+        {
+            return Ok(());
+        }
+        for (key, _) in entries {
+            let text = key.text("a key")?;
+            if !KEYS.contains(&text) {
+                self.unknown.entry(text.to_owned()).or_insert(key.line);
+            }
+        }
+        if let Some((_, words)) = LEFT_OUT.iter().find(|(left_out, _)| *left_out == kind) {
+            *self.left_out.entry(words).or_default() += 1;
+            return Ok(());
+        }
+        if LIDS.contains(&kind) {
+            return Ok(());
+        }
+        if self.layout.fixtures.len() >= MAX_FIXTURES {
+            return Err(node.error(format!("a layout has at most {MAX_FIXTURES} fixtures")));
+        }
+        match kind {
+            "wall" => self.wall(name, node),
+            "floor" => self.floor(node),
+            "stack" => self.stack(&name, group_name, group, node),
+            _ if node.get("placement").is_some() => {
+                self.usual_size(kind, node)?;
+                self.on_counters.push((group_name.to_owned(), node.clone()));
+                Ok(())
+            }
+            _ => {
+                let size = self.size(kind, group_name, node)?;
+                let kind = self.kind(kind, group_name, size, node)?;
+                self.place([&name, group_name], group, kind, size, node)
+            }
+        }
+    }
+
+    /// The usual size of a type; an error if there is no such type.
+    fn usual_size(&self, kind: &str, node: &Node) -> Result<[f64; 3], LayoutError> {
+        usual_size(kind).ok_or_else(|| {
+            let known = super::sizes::types().chain(["stack", "housing_cabinet", "wall", "floor"]);
+            let near = closest_name(kind, known);
+            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            node.error(format!("there is no type of fixtures {kind}{hint}"))
+        })
+    }
+
+    fn size(&self, kind: &str, group: &str, node: &Node) -> Result<[f64; 3], LayoutError> {
+        let usual = match kind {
+            "housing_cabinet" => [0.0; 3],
+            _ => self.usual_size(kind, node)?,
+        };
+        let Some(given) = node.get("size").filter(|size| !size.is_null()) else {
+            return match kind {
+                "housing_cabinet" => self.housing_size([None; 3], group, node),
+                _ => Ok(usual),
+            };
+        };
+        let items = given.items("a size")?;
+        let [width, depth, height] = items else {
+            return Err(given.error("a size has three numbers: width, depth, height"));
+        };
+        let mut size = [None; 3];
+        for (axis, item) in [width, depth, height].into_iter().enumerate() {
+            size[axis] = match &item.data {
+                _ if item.is_null() => None,
+                // The size of another fixture.
+                Data::Text(text) if text.parse::<f64>().is_err() => {
+                    Some(self.named(text, group, item)?.size[axis])
+                }
+                _ => Some(item.number("a size")?),
+            };
+        }
+        if let Some(whole) = node.get("stack_height").filter(|whole| !whole.is_null()) {
+            let mut rest = whole.number("stack_height")?;
+            let others = node.get("stack_fixtures");
+            let others = others.map_or(Ok(&[][..]), |others| others.items("stack_fixtures"))?;
+            for other in others {
+                rest -= self.named(other.text("a fixture")?, group, other)?.size[2];
+            }
+            size[2] = Some(rest);
+        }
+        if kind == "housing_cabinet" {
+            return self.housing_size(size, group, node);
+        }
+        let size = [0, 1, 2].map(|axis| size[axis].unwrap_or(usual[axis]));
+        self.checked(size, given)
+    }
+
+    fn checked(&self, size: [f64; 3], node: &Node) -> Result<[f64; 3], LayoutError> {
+        match size.iter().all(|length| (0.0005..=30.0).contains(length)) {
+            true => Ok(size),
+            false => Err(node.error(format!(
+                "a fixture is between 0.001 and 30 m large, this one is {size:?}"
+            ))),
+        }
+    }
+
+    /// How thick a frame is around something at either end of an axis (m), where that is given.
+    fn padding(&self, node: &Node) -> Result<[[Option<f64>; 2]; 3], LayoutError> {
+        let mut padding = [[None; 2]; 3];
+        let Some(given) = node.get("padding").filter(|given| !given.is_null()) else {
+            return Ok(padding);
+        };
+        for (axis, pair) in given.items("padding")?.iter().enumerate().take(3) {
+            if pair.is_null() {
+                continue;
+            }
+            for (end, one) in pair.items("a padding")?.iter().enumerate().take(2) {
+                if !one.is_null() {
+                    padding[axis][end] = Some(one.number("a padding")?);
+                }
+            }
+        }
+        Ok(padding)
+    }
+
+    fn housing_size(
+        &self,
+        given: [Option<f64>; 3],
+        group: &str,
+        node: &Node,
+    ) -> Result<[f64; 3], LayoutError> {
+        let inner = self.interior(group, node)?;
+        let inner = inner.ok_or_else(|| node.error("a housing_cabinet has an interior_obj"))?;
+        let padding = self.padding(node)?;
+        let mut size = [0.0; 3];
+        for axis in 0..3 {
+            size[axis] = match (given[axis], padding[axis]) {
+                (Some(size), _) => size,
+                (None, [Some(low), Some(high)]) => low + inner.size[axis] + high,
+                _ => {
+                    return Err(node.error(
+                        "a housing_cabinet has a size, or a padding at both ends of the axis",
+                    ));
+                }
+            };
+        }
+        self.checked(size, node)
+    }
+
+    /// What a fixture has inside, which comes before it in the file.
+    fn interior(&self, group: &str, node: &Node) -> Result<Option<Named>, LayoutError> {
+        let Some(inner) = node.get("interior_obj").filter(|inner| !inner.is_null()) else {
+            return Ok(None);
+        };
+        self.named(inner.text("interior_obj")?, group, inner)
+            .map(Some)
+    }
+
+    /// A fixture of a name in a group.
+    fn named(&self, short: &str, group: &str, node: &Node) -> Result<Named, LayoutError> {
+        let name = format!("{short}_{group}");
+        let found = self.named.get(&name).copied();
+        found.ok_or_else(|| {
+            let ending = format!("_{group}");
+            let others = self
+                .named
+                .keys()
+                .filter_map(|name| name.strip_suffix(&ending));
+            let near = closest_name(short, others);
+            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            node.error(format!("there is no {short} before this in {group}{hint}"))
+        })
+    }
+
+    fn kind(
+        &self,
+        kind: &str,
+        group: &str,
+        size: [f64; 3],
+        node: &Node,
+    ) -> Result<Kind, LayoutError> {
+        Ok(match kind {
+            "counter" => Kind::Counter(self.counter(group, size, node)?),
+            "drawer" => Kind::Drawer,
+            "hinge_cabinet" | "single_cabinet" => Kind::Cabinet {
+                doors: doors(kind, node)?,
+                handle: handle_place(node.get("panel_config"))?.unwrap_or(HandlePlace::Bottom),
+                is_knob: is_knob(node)?,
+            },
+            "open_cabinet" => {
+                let count = node.get("num_levels");
+                let count = count.map_or(Ok(2.0), |count| count.number("num_levels"))?;
+                Kind::Shelves(count.clamp(1.0, 20.0) as usize)
+            }
+            "housing_cabinet" => Kind::Housing(self.frame(group, size, node)?),
+            "stove" | "stove_wide" => Kind::Stove,
+            "stovetop" => Kind::Stovetop,
+            "oven" => Kind::Oven,
+            "microwave" => Kind::Microwave,
+            "hood" => Kind::Hood,
+            "sink" => Kind::Sink,
+            "fridge_french_door" => Kind::Fridge(Fridge::FrenchDoor),
+            "fridge_side_by_side" => Kind::Fridge(Fridge::SideBySide),
+            "fridge_bottom_freezer" => Kind::Fridge(Fridge::BottomFreezer),
+            "dishwasher" => Kind::Dishwasher,
+            "panel_cabinet" => Kind::Panel,
+            "stool" => Kind::Stool,
+            _ => Kind::Solid,
+        })
+    }
+
+    fn counter(
+        &self,
+        group: &str,
+        [width, depth, _]: [f64; 3],
+        node: &Node,
+    ) -> Result<Counter, LayoutError> {
+        let flags = |key: &str, usual: [bool; 2]| -> Result<[bool; 2], LayoutError> {
+            let Some(given) = node.get(key).filter(|given| !given.is_null()) else {
+                return Ok(usual);
+            };
+            match given.items(key)? {
+                [a, b] => Ok([a.flag(key)?, b.flag(key)?]),
+                _ => Err(given.error(format!("{key} is a list of two, true or false"))),
+            }
+        };
+        let share = |key: &str| -> Result<f64, LayoutError> {
+            node.get(key).map_or(Ok(0.5), |share| share.number(key))
+        };
+        let overhang = node.get("overhang");
+        let overhang = overhang.map_or(Ok(OVERHANG), |overhang| overhang.number("overhang"))?;
+        let mut counter = Counter {
+            hollow: flags("hollow", [false, true])?,
+            opening: flags("base_opening", [false; 2])?,
+            half: flags("half_top", [false; 2])?,
+            overhang,
+            is_filled: false,
+            hole: None,
+        };
+        if let Some(inner) = self.interior(group, node)? {
+            let ahead = counter.overhang + FRONT;
+            let free = [width, depth - ahead];
+            let shares = [share("obj_x_percent")?, share("obj_y_percent")?];
+            let mut hole = [[0.0; 2]; 2];
+            for axis in 0..2 {
+                let half = inner.size[axis].min(free[axis] - 2.0 * SINK_GAP) / 2.0;
+                if half <= 0.0 {
+                    return Err(node.error("this counter is too small for what is let into it"));
+                }
+                let most = (free[axis] - SINK_GAP - half) / free[axis];
+                let share = shares[axis].max(1.0 - most).min(most);
+                let shift = if axis == 1 { ahead / 2.0 } else { 0.0 };
+                let middle = shift + (share - 0.5) * free[axis];
+                hole[0][axis] = middle - half;
+                hole[1][axis] = middle + half;
+            }
+            counter.hole = Some(hole);
+        }
+        Ok(counter)
+    }
+
+    /// How thick a frame is on all sides.
+    fn frame(
+        &self,
+        group: &str,
+        size: [f64; 3],
+        node: &Node,
+    ) -> Result<[[f64; 2]; 3], LayoutError> {
+        let inner = self.interior(group, node)?;
+        let inner = inner.ok_or_else(|| node.error("a housing_cabinet has an interior_obj"))?;
+        let padding = self.padding(node)?;
+        Ok([0, 1, 2].map(|axis| {
+            let rest = size[axis] - inner.size[axis];
+            match padding[axis] {
+                [Some(low), Some(high)] => [low, high],
+                [Some(low), None] => [low, rest - low],
+                [None, Some(high)] => [rest - high, high],
+                [None, None] => [rest / 2.0; 2],
+            }
+        }))
+    }
+
+    /// Where a fixture is in its group; `None` if something else places it.
+    fn position(
+        &self,
+        group: &str,
+        size: [f64; 3],
+        node: &Node,
+    ) -> Result<Option<[f64; 3]>, LayoutError> {
+        if let Some(other) = node.get("align_to").filter(|other| !other.is_null()) {
+            return self.beside(group, size, other, node).map(Some);
+        }
+        let Some(given) = node.get("pos").filter(|given| !given.is_null()) else {
+            return Ok(None);
+        };
+        let items = given.items("a position")?;
+        let [x, y, z] = items else {
+            return Err(given.error("a position has three numbers"));
+        };
+        let below = match node.get("stack_on").filter(|below| !below.is_null()) {
+            Some(below) => {
+                let named = self.named(below.text("stack_on")?, group, below)?;
+                named.at.map(|at| (at, named.size))
+            }
+            None => None,
+        };
+        let coordinate = |node: &Node, axis: usize| match node.is_null() {
+            true => Ok(below.map(|(at, _)| at[axis])),
+            false => node.number("a position").map(Some),
+        };
+        let z = match (below, z.is_null()) {
+            (Some((at, below)), _) => at[2] + below[2] / 2.0 + size[2] / 2.0,
+            // On the floor.
+            (None, true) => size[2] / 2.0,
+            (None, false) => z.number("a position")?,
+        };
+        let missing =
+            || given.error("null stands for a number only if something is placed on another one");
+        Ok(Some([
+            coordinate(x, 0)?.ok_or_else(missing)?,
+            coordinate(y, 1)?.ok_or_else(missing)?,
+            z,
+        ]))
+    }
+
+    /// The place beside another fixture.
+    fn beside(
+        &self,
+        group: &str,
+        size: [f64; 3],
+        other: &Node,
+        node: &Node,
+    ) -> Result<[f64; 3], LayoutError> {
+        let name = other.text("align_to")?;
+        let reference = self.named(name, group, other)?;
+        let at = reference
+            .at
+            .ok_or_else(|| other.error(format!("{name} has no place")))?;
+        let side = node.get("side");
+        let side = side.ok_or_else(|| node.error("align_to comes with a side"))?;
+        let text = side.text("side")?.to_lowercase();
+        let ends = SIDES.iter().enumerate();
+        let found = ends
+            .filter_map(|(axis, ends)| {
+                let end = ends.iter().position(|end| *end == text)?;
+                Some((axis, end))
+            })
+            .next();
+        let (along, end) = found.ok_or_else(|| {
+            side.error(format!(
+                "a side is left, right, front, back, bottom or top, not {text}"
+            ))
+        })?;
+        let mut place = at;
+        let sign = |end: usize| if end == 1 { 1.0 } else { -1.0 };
+        place[along] += sign(end) * (reference.size[along] + size[along]) / 2.0;
+        let alignment = node.get("alignment");
+        let alignment = alignment.map_or(Ok(""), |alignment| alignment.text("alignment"))?;
+        let alignment = alignment.to_lowercase();
+        for (axis, ends) in SIDES.iter().enumerate() {
+            let Some(end) = ends.iter().position(|end| alignment.contains(end)) else {
+                continue;
+            };
+            if axis == along {
+                return Err(node.error(format!(
+                    "what is at the {text} of another fixture cannot be aligned with its {}, too",
+                    ends[end]
+                )));
+            }
+            place[axis] = at[axis] + sign(end) * (reference.size[axis] - size[axis]) / 2.0;
+        }
+        if let Some(offset) = node.get("offset").filter(|offset| !offset.is_null()) {
+            for (axis, length) in offset.items("an offset")?.iter().enumerate().take(3) {
+                place[axis] += length.number("an offset")?;
+            }
+        }
+        Ok(place)
+    }
+
+    fn own_turn(&self, node: &Node) -> Result<f64, LayoutError> {
+        let turn = node.get("z_rot").filter(|turn| !turn.is_null());
+        turn.map_or(Ok(0.0), |turn| turn.number("z_rot"))
+    }
+
+    /// Adds a fixture. Returns its number.
+    fn add(&mut self, mut fixture: Fixture, group: &Group, is_placed: bool) -> usize {
+        let number = self.layout.fixtures.len();
+        let name = fixture.name.clone();
+        let mut copies = 1;
+        while !self.names.insert(fixture.name.clone()) {
+            copies += 1;
+            fixture.name = format!("{name}_{copies}");
+        }
+        if copies > 1 {
+            let remark = format!("there are two of the name {name}, one is {}", fixture.name);
+            self.layout.remarks.push(remark);
+        }
+        let named = Named {
+            size: fixture.size,
+            at: is_placed.then_some(fixture.at),
+            fixture: Some(number),
+        };
+        self.named.insert(name, named);
+        self.layout.fixtures.push(fixture);
+        self.groups.push(*group);
+        self.is_placed.push(is_placed);
+        number
+    }
+
+    fn place(
+        &mut self,
+        [name, group_name]: [&str; 2],
+        group: &Group,
+        kind: Kind,
+        size: [f64; 3],
+        node: &Node,
+    ) -> Result<(), LayoutError> {
+        // What is let into a counter is placed by that.
+        let at = match kind {
+            Kind::Sink | Kind::Stovetop => None,
+            _ => self.position(group_name, size, node)?,
+        };
+        let inner = match kind {
+            Kind::Counter(_) | Kind::Housing(_) => self.interior(group_name, node)?,
+            _ => None,
+        };
+        let fixture = Fixture {
+            name: name.to_owned(),
+            kind,
+            size,
+            at: at.unwrap_or_default(),
+            turn: self.own_turn(node)?,
+            is_island: group_name.starts_with("island"),
+            is_covered: false,
+            base: 0.0,
+        };
+        let number = self.add(fixture, group, at.is_some());
+        if let (Some(inner), true) = (inner, at.is_some()) {
+            self.put_inside(number, inner);
+        }
+        Ok(())
+    }
+
+    /// Puts a fixture into the hole of a counter, or into its housing.
+    fn put_inside(&mut self, outer: usize, inner: Named) {
+        let Some(number) = inner.fixture else {
+            return;
+        };
+        let around = &self.layout.fixtures[outer];
+        let mut size = inner.size;
+        let shift = match &around.kind {
+            Kind::Counter(Counter {
+                hole: Some([low, high]),
+                ..
+            }) => {
+                let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+                for axis in 0..2 {
+                    size[axis] = high[axis] - low[axis];
+                }
+                [middle[0], middle[1], (around.size[2] - size[2]) / 2.0]
+            }
+            Kind::Housing(frame) => [0, 1, 2].map(|axis| (frame[axis][0] - frame[axis][1]) / 2.0),
+            _ => return,
+        };
+        let at = [0, 1, 2].map(|axis| around.at[axis] + shift[axis]);
+        // A hob is flush with its counter: what stands on it stands on the counter.
+        if self.layout.fixtures[number].kind == Kind::Stovetop
+            && let Kind::Counter(counter) = &mut self.layout.fixtures[outer].kind
+        {
+            counter.hole = None;
+        }
+        let around = &self.layout.fixtures[outer];
+        let (turn, is_island) = (around.turn, around.is_island);
+        let fixture = &mut self.layout.fixtures[number];
+        (fixture.at, fixture.size) = (at, size);
+        (fixture.turn, fixture.is_island) = (turn, is_island);
+        self.is_placed[number] = true;
+        if let Some(named) = self.named.get_mut(&fixture.name) {
+            named.at = Some(at);
+        }
+    }
+
+    /// A column of fixtures, on a base.
+    fn stack(
+        &mut self,
+        name: &str,
+        group_name: &str,
+        group: &Group,
+        node: &Node,
+    ) -> Result<(), LayoutError> {
+        let given = node.get("size");
+        let given = given.ok_or_else(|| node.error("a stack has a size"))?;
+        let size = match given.items("a size")? {
+            [a, b, c] => [a, b, c].map(|one| one.number("the size of a stack")),
+            _ => return Err(given.error("a size has three numbers: width, depth, height")),
+        };
+        let [width, depth, height] = size;
+        let size = self.checked([width?, depth?, height?], given)?;
+        let [width, depth, height] = size;
+        let at = self.position(group_name, size, node)?;
+        let at = at.ok_or_else(|| node.error("this stack has no place: pos or align_to"))?;
+        let list = |key: &str| {
+            let list = node.get(key);
+            list.ok_or_else(|| node.error(format!("a stack has {key}")))?
+                .items(key)
+        };
+        let (levels, shares) = (list("levels")?, list("percentages")?);
+        if levels.len() != shares.len() {
+            return Err(node.error(format!(
+                "a stack has as many percentages ({}) as levels ({})",
+                shares.len(),
+                levels.len()
+            )));
+        }
+        let turn = self.own_turn(node)?;
+        let is_open = node
+            .get("open_top")
+            .map_or(Ok(false), |open| open.flag("open_top"))?;
+        let is_island = group_name.starts_with("island");
+        let low = at[2] - height / 2.0;
+        let (mut from, mut count) = (low, 0);
+        for (number, (level, share)) in levels.iter().zip(shares).enumerate() {
+            let tall = height * share.number("a percentage")?;
+            let parts: Vec<(&Node, f64, f64)> = match &level.data {
+                Data::List(halves) => match halves.as_slice() {
+                    [left, right] => vec![
+                        (left, -width / 4.0, width / 2.0),
+                        (right, width / 4.0, width / 2.0),
+                    ],
+                    _ => return Err(level.error("a level has one fixture or two")),
+                },
+                _ => vec![(level, 0.0, width)],
+            };
+            for (part, across, width) in parts {
+                let text = part.text("a level")?;
+                let config = node.get("configs").and_then(|configs| {
+                    let numbered = format!("{text}_{}", number + 1);
+                    configs.get(text).or_else(|| configs.get(&numbered))
+                });
+                count += 1;
+                let size = self.checked([width, depth, tall], node)?;
+                let fixture = Fixture {
+                    name: format!("{name}_{count}"),
+                    kind: level_kind(text, config, part)?,
+                    size,
+                    at: [at[0] + across, at[1], from + tall / 2.0],
+                    turn,
+                    is_island,
+                    is_covered: is_open || number + 1 < levels.len(),
+                    base: if number == 0 { BASE } else { 0.0 },
+                };
+                self.add(fixture, group, true);
+            }
+            from += tall;
+        }
+        let named = Named {
+            size,
+            at: Some(at),
+            fixture: None,
+        };
+        self.named.insert(name.to_owned(), named);
+        Ok(())
+    }
+
+    /// A wall: half its length, height and thickness, and its middle.
+    fn wall(&mut self, name: String, node: &Node) -> Result<(), LayoutError> {
+        // A second, thicker wall behind each is for looks.
+        if node
+            .get("backing")
+            .map_or(Ok(false), |backing| backing.flag("backing"))?
+        {
+            return Ok(());
+        }
+        let [half, high, thick] = three(node, "size")?;
+        let mut at = three(node, "pos")?;
+        let side = node.get("wall_side").filter(|side| !side.is_null());
+        let side = side.map_or(Ok("back"), |side| side.text("wall_side"))?;
+        let (axis, sign, turn) = match side {
+            "left" => (0, -1.0, std::f64::consts::FRAC_PI_2),
+            "right" => (0, 1.0, std::f64::consts::FRAC_PI_2),
+            "front" => (1, -1.0, 0.0),
+            "back" => (1, 1.0, 0.0),
+            other => {
+                return Err(node.error(format!(
+                    "a wall is at the left, right, front or back of its room, not {other}"
+                )));
+            }
+        };
+        // Its surface is where it is said to be.
+        at[axis] += sign * thick;
+        let size = [half, thick, high].map(|half| 2.0 * half);
+        let fixture = Fixture {
+            name,
+            kind: Kind::Wall { is_foot: false },
+            size: self.checked(size, node)?,
+            at,
+            turn,
+            is_island: false,
+            is_covered: true,
+            base: 0.0,
+        };
+        self.add(fixture, &Group::default(), true);
+        Ok(())
+    }
+
+    fn floor(&mut self, node: &Node) -> Result<(), LayoutError> {
+        if node
+            .get("backing")
+            .map_or(Ok(false), |backing| backing.flag("backing"))?
+        {
+            return Ok(());
+        }
+        let [width, depth, _] = three(node, "size")?;
+        let [x, y, _] = three(node, "pos")?;
+        let floor = Rectangle::of([x - width, y - depth], [x + width, y + depth]);
+        self.layout.floors.push(floor);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Layout, LayoutError> {
+        let mut remarks = std::mem::take(&mut self.layout.remarks);
+        if !self.unknown.is_empty() {
+            let keys = self.unknown.iter();
+            let keys: Vec<String> = keys
+                .map(|(key, line)| format!("{key} (line {line})"))
+                .collect();
+            remarks.push(format!("unknown keys mean nothing: {}", keys.join(", ")));
+        }
+        if !self.left_out.is_empty() {
+            let kinds = self.left_out.iter();
+            let kinds: Vec<String> = kinds
+                .map(|(words, count)| format!("{words} ({count})"))
+                .collect();
+            remarks.push(format!(
+                "what hangs on walls is left out: {}",
+                kinds.join(", ")
+            ));
+        }
+        let fixtures = std::mem::take(&mut self.layout.fixtures);
+        let all = fixtures.into_iter().zip(&self.groups).zip(&self.is_placed);
+        for ((mut fixture, group), is_placed) in all {
+            if !is_placed {
+                remarks.push(format!("{} has no place and is left out", fixture.name));
+                continue;
+            }
+            let from = [0, 1].map(|axis| fixture.at[axis] - group.origin[axis]);
+            let moved = turned(from, group.turn);
+            for axis in 0..2 {
+                fixture.at[axis] = moved[axis] + group.place[axis];
+            }
+            fixture.turn = snapped(fixture.turn + group.turn);
+            self.layout.fixtures.push(fixture);
+        }
+        self.cover();
+        self.lower_walls();
+        let mut on_nothing = Vec::new();
+        for (group, node) in std::mem::take(&mut self.on_counters) {
+            if !self.put_on_counter(&group, &node)? {
+                let name = node
+                    .get("name")
+                    .map_or(Ok(""), |name| name.text("a name"))?;
+                on_nothing.push(name.to_owned());
+            }
+        }
+        if !on_nothing.is_empty() {
+            let names = on_nothing.join(", ");
+            remarks.push(format!(
+                "what is on no counter, or has no room there, is left out: {names}"
+            ));
+        }
+        self.layout.remarks = remarks;
+        Ok(self.layout)
+    }
+
+    /// Of walls that would hide the room from people, only the foot is to be shown: those that are nearer to the viewer, who
+    /// looks from the left and the front, than the middle of the room.
+    fn lower_walls(&mut self) {
+        let floors = self.layout.floors.iter().copied();
+        let Some(around) = floors.reduce(|around, one| around.with(&one)) else {
+            return;
+        };
+        let middle = [0, 1].map(|axis| (around.low[axis] + around.high[axis]) / 2.0);
+        for fixture in &mut self.layout.fixtures {
+            let across = if fixture.turn == 0.0 { 1 } else { 0 };
+            if let Kind::Wall { is_foot } = &mut fixture.kind {
+                *is_foot = fixture.at[across] < middle[across];
+            }
+        }
+    }
+
+    /// Finds out what a counter closes at the top, and which counters have something below them.
+    fn cover(&mut self) {
+        let places = self.layout.fixtures.iter();
+        let places: Vec<([f64; 2], Rectangle, bool)> = places
+            .map(|one| {
+                (
+                    one.span(),
+                    one.footprint(),
+                    matches!(one.kind, Kind::Counter(_)),
+                )
+            })
+            .collect();
+        for (number, fixture) in self.layout.fixtures.iter_mut().enumerate() {
+            let (span, place) = (fixture.span(), fixture.footprint());
+            let mut others = places
+                .iter()
+                .enumerate()
+                .filter(|(other, _)| *other != number);
+            match &mut fixture.kind {
+                Kind::Counter(counter) => {
+                    counter.is_filled = others.any(|(_, ([low, high], other, is_counter))| {
+                        !is_counter
+                            && *low < span[1] - 0.1
+                            && *high > span[0] + 0.1
+                            && other.overlaps(&place)
+                    });
+                }
+                _ => {
+                    fixture.is_covered |= others.any(|(_, ([_, high], other, is_counter))| {
+                        *is_counter
+                            && (0.0..0.08).contains(&(high - span[1]))
+                            && other.overlaps(&place)
+                    });
+                }
+            }
+        }
+    }
+
+    /// Puts something onto a counter; `false` if there is no such counter, or no room on it.
+    fn put_on_counter(&mut self, group: &str, node: &Node) -> Result<bool, LayoutError> {
+        let Some(placement) = node.get("placement") else {
+            return Ok(false);
+        };
+        let name = node
+            .get("name")
+            .map_or(Ok(""), |name| name.text("a name"))?;
+        let kind = node
+            .get("type")
+            .map_or(Ok(""), |kind| kind.text("a type"))?;
+        let size = self.size(kind, group, node)?;
+        let Some(below) = placement.get("fixture").filter(|below| !below.is_null()) else {
+            return Ok(false);
+        };
+        let text = below.text("the fixture of a placement")?;
+        let fixtures = self.layout.fixtures.iter();
+        let mut counters = fixtures.filter(|one| matches!(one.kind, Kind::Counter(_)));
+        let Some(counter) = counters.find(|counter| counter.name == text) else {
+            return Ok(false);
+        };
+        let rotation = placement.get("rotation").filter(|one| !one.is_null());
+        let rotation = match rotation.map(|one| one.items("a rotation")).transpose()? {
+            Some([low, .., high]) => (low.number("a rotation")? + high.number("a rotation")?) / 2.0,
+            _ => 0.0,
+        };
+        let mut fixture = Fixture {
+            name: format!("{name}_{group}"),
+            kind: Kind::Solid,
+            size,
+            at: [0.0; 3],
+            turn: snapped(rotation),
+            is_island: false,
+            is_covered: true,
+            base: 0.0,
+        };
+        let own = fixture.footprint();
+        let half = [0, 1].map(|axis| (own.high[axis] - own.low[axis]) / 2.0);
+        let free = [0, 1].map(|axis| (counter.size[axis] / 2.0 - half[axis] - 0.01).max(0.0));
+        // Beside what: the middle of that, seen from the counter.
+        let beside = placement
+            .get("sample_region_kwargs")
+            .and_then(|region| region.get("ref"));
+        let beside = match beside {
+            Some(other) => {
+                let text = other.text("a ref")?;
+                let full = format!("{text}_{group}");
+                let fixtures = self.layout.fixtures.iter();
+                let mut found = fixtures.filter(|one| {
+                    one.name == text || one.name == full || one.name == format!("{full}_1")
+                });
+                found.next().map(|other| {
+                    let away = [0, 1].map(|axis| other.at[axis] - counter.at[axis]);
+                    turned(away, -counter.turn)[0]
+                })
+            }
+            None => None,
+        };
+        let positions = placement.get("pos").filter(|one| !one.is_null());
+        let positions = positions.map_or(Ok(&[][..]), |one| one.items("a position"))?;
+        let share = |axis: usize| {
+            let given = positions.get(axis).filter(|one| !one.is_null());
+            let number = given.filter(|one| one.text("").is_ok_and(|text| text != "ref"));
+            number.map_or(Ok(None), |one| one.number("a position").map(Some))
+        };
+        let wanted = [
+            match (share(0)?, beside) {
+                (_, Some(beside)) => beside.clamp(-free[0], free[0]),
+                (Some(share), None) => share.clamp(-1.0, 1.0) * free[0],
+                (None, None) => 0.0,
+            },
+            share(1)?.unwrap_or(0.0).clamp(-1.0, 1.0) * free[1],
+        ];
+        let top = counter.size[2] / 2.0 + size[2] / 2.0;
+        // The nearest place along the counter where nothing else is.
+        let is_free = |local: [f64; 2]| {
+            let low = [0, 1].map(|axis| local[axis] - half[axis]);
+            let high = [0, 1].map(|axis| local[axis] + half[axis]);
+            let is_over_hole = match &counter.kind {
+                Kind::Counter(Counter {
+                    hole: Some([from, to]),
+                    ..
+                }) => (0..2).all(|axis| low[axis] < to[axis] && from[axis] < high[axis]),
+                _ => false,
+            };
+            let place = counter.area(low, high);
+            let height = counter.span()[1];
+            let mut others = self.layout.fixtures.iter();
+            !is_over_hole
+                && !others.any(|other| {
+                    let [low, high] = other.span();
+                    low < height + size[2]
+                        && high > height + 1e-3
+                        && other.footprint().overlaps(&place)
+                })
+        };
+        let steps = (0..=60).flat_map(|step| [1.0, -1.0].map(|sign| sign * 0.05 * f64::from(step)));
+        let mut places = steps
+            .map(|step| [wanted[0] + step, wanted[1]])
+            .filter(|place| place[0].abs() <= free[0] + 1e-9);
+        let Some([x, y]) = places.find(|place| is_free(*place)) else {
+            return Ok(false);
+        };
+        fixture.at = counter.point([x, y, top]);
+        fixture.turn = snapped(fixture.turn + counter.turn);
+        self.layout.fixtures.push(fixture);
+        Ok(true)
+    }
+}
+
+/// Three numbers under a key.
+fn three(node: &Node, key: &str) -> Result<[f64; 3], LayoutError> {
+    let given = node.get(key);
+    let given = given.ok_or_else(|| node.error(format!("this has no {key}")))?;
+    match given.items(key)? {
+        [a, b, c] => Ok([a.number(key)?, b.number(key)?, c.number(key)?]),
+        _ => Err(given.error(format!("{key} has three numbers"))),
+    }
+}
+
+fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
+    if kind == "hinge_cabinet" {
+        return Ok(Doors::Pair);
+    }
+    let given = node.get("orientation").filter(|given| !given.is_null());
+    match given.map_or(Ok("right"), |given| given.text("orientation"))? {
+        "left" => Ok(Doors::One { is_left: true }),
+        "right" => Ok(Doors::One { is_left: false }),
+        other => Err(node.error(format!("a door opens to the left or right, not {other}"))),
+    }
+}
+
+fn is_knob(node: &Node) -> Result<bool, LayoutError> {
+    let given = node.get("handle_type").filter(|given| !given.is_null());
+    Ok(given.map_or(Ok(""), |given| given.text("handle_type"))? == "knob")
+}
+
+/// Where the handles of a panel are, if it says so.
+fn handle_place(config: Option<&Node>) -> Result<Option<HandlePlace>, LayoutError> {
+    let Some(given) = config.and_then(|config| config.get("handle_vpos")) else {
+        return Ok(None);
+    };
+    match given.text("handle_vpos")? {
+        "bottom" => Ok(Some(HandlePlace::Bottom)),
+        "center" => Ok(Some(HandlePlace::Middle)),
+        "top" => Ok(Some(HandlePlace::Top)),
+        other => Err(given.error(format!(
+            "a handle is at the bottom, center or top of its panel, not at {other}"
+        ))),
+    }
+}
+
+/// What a level of a stack is.
+fn level_kind(text: &str, config: Option<&Node>, node: &Node) -> Result<Kind, LayoutError> {
+    Ok(match text {
+        "drawer" => Kind::Drawer,
+        "single_cabinet" | "hinge_cabinet" => Kind::Cabinet {
+            doors: doors(text, config.unwrap_or(node))?,
+            handle: match config {
+                Some(config) => handle_place(config.get("panel_config"))?,
+                None => None,
+            }
+            .unwrap_or(HandlePlace::Top),
+            is_knob: config.map_or(Ok(false), is_knob)?,
+        },
+        "open_cabinet" => Kind::Shelves(2),
+        "panel_cabinet" => Kind::Panel,
+        "box" => Kind::Solid,
+        other => {
+            let known = [
+                "drawer",
+                "single_cabinet",
+                "hinge_cabinet",
+                "open_cabinet",
+                "panel_cabinet",
+                "box",
+            ];
+            let near = closest_name(other, known);
+            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            return Err(node.error(format!("{other} is no level of a stack{hint}")));
+        }
+    })
+}

@@ -1,0 +1,88 @@
+//! Kitchens that others describe for their simulators, made of furniture of our own: layouts of RoboCasa and
+//! houses of ProcTHOR, as the text of a URDF and of a description of what it is for.
+//!
+//! Such files say what stands where and how large it is; what it looks like is in meshes that only their
+//! simulators have. Here it consists of boxes, with drawers, doors and handles as in generated kitchens.
+
+mod fixture;
+mod furnish;
+mod layout;
+mod node;
+mod room;
+mod sizes;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::path::Path;
+
+use node::Node;
+
+/// A kitchen of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Published {
+    /// The text of its URDF.
+    pub urdf: String,
+    /// The text of its description.
+    pub description: String,
+    /// What is not as in the file, and what of it the robot cannot use.
+    pub remarks: Vec<String>,
+}
+
+/// What is wrong with a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LayoutError {
+    /// The line, from 1; `None` if it is the whole file.
+    pub line: Option<usize>,
+    /// What is wrong.
+    pub text: String,
+}
+
+impl LayoutError {
+    fn at(line: usize, text: impl Into<String>) -> Self {
+        Self {
+            line: Some(line),
+            text: text.into(),
+        }
+    }
+
+    fn whole(text: impl Into<String>) -> Self {
+        Self {
+            line: None,
+            text: text.into(),
+        }
+    }
+}
+
+impl fmt::Display for LayoutError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.text),
+            None => f.write_str(&self.text),
+        }
+    }
+}
+
+impl std::error::Error for LayoutError {}
+
+/// Whether a file is a layout by its name, rather than a URDF.
+pub fn is_layout(file: &Path) -> bool {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    ending.is_some_and(|ending| {
+        ["yaml", "yml"]
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known))
+    })
+}
+
+impl Published {
+    /// Reads a layout of RoboCasa: a map of groups of fixtures.
+    ///
+    /// # Errors
+    ///
+    /// It is no YAML, a fixture is wrong, or there is nothing in it that a robot could use.
+    pub fn of_layout(text: &str) -> Result<Self, LayoutError> {
+        let layout = layout::Layout::read(&Node::of_yaml(text)?)?;
+        furnish::furnish(layout)
+    }
+}

@@ -1,0 +1,301 @@
+//! Layouts as RoboCasa writes them, and as nobody should.
+
+use super::*;
+
+/// A row along the wall with a stack below its counter, a sink, a fridge, cabinets above, and an island.
+const LAYOUT: &str = r#"
+room:
+  walls:
+    - name: wall
+      type: wall
+      size: [2.0, 1.5, 0.02]
+      pos: [2.0, 0.0, 1.5]
+    - name: wall_backing
+      type: wall
+      backing: true
+      size: [2.0, 1.5, 0.1]
+      pos: [2.0, 0.0, 1.5]
+    - name: wall_left
+      type: wall
+      wall_side: left
+      size: [2.0, 1.5, 0.02]
+      pos: [0.0, -2.0, 1.5]
+  floor:
+    - name: floor
+      type: floor
+      size: [2.0, 2.0, 0.02]
+      pos: [2.0, -2.0, 0.0]
+  wall_accessories:
+    - name: light
+      type: wall_accessory
+      attach_to: wall
+      pos: [1.0, null, 1.1]
+main_group:
+  group_origin: [0, 0]
+  group_pos: [0.0, 0.0]
+  group_z_rot: 0.0
+  bottom_row:
+    - {name: sink, type: sink}
+    - name: counter
+      type: counter
+      interior_obj: sink
+      obj_x_percent: 0.6
+      size: [2.0, 0.65, 0.92]
+      pos: [1.0, -0.325, 0.46]
+    - name: dishwasher
+      type: dishwasher
+      align_to: counter
+      side: right
+      alignment: bottom_back
+    - name: fridge
+      type: fridge_bottom_freezer
+      align_to: dishwasher
+      side: right
+      alignment: bottom_back
+      offset: [0.01, 0, 0]
+  bottom_row_cabinets:
+    - name: stack_1
+      type: stack
+      pos: [0.4, -0.3, 0.47]
+      size: [0.8, 0.6, 0.84]
+      levels: [single_cabinet, [drawer, drawer]]
+      percentages: [0.7, 0.3]
+    - name: stack_2
+      type: stack
+      size: [0.6, 0.6, 0.84]
+      levels: [drawer, drawer, drawer]
+      percentages: [0.4, 0.4, 0.2]
+      align_to: stack_1
+      slignment: top_back
+      side: right
+  top_row:
+    - name: cab_1
+      type: hinge_cabinet
+      pos: [0.5, -0.2, 1.84]
+      size: [1.0, 0.4, 0.92]
+    - name: cab_2
+      type: single_cabinet
+      orientation: left
+      size: [cab_1, null, 0.5]
+      align_to: cab_1
+      side: right
+      alignment: top_back
+  counter_accessories:
+    - name: toaster
+      type: toaster
+      placement:
+        fixture: counter_main_group
+        sample_region_kwargs: {ref: stack_2}
+        size: [1.0, 0.4]
+        pos: [null, 1.0]
+        rotation: [0, 0]
+    - name: mixer
+      type: stand_mixer
+      enable: false
+island_group:
+  group_origin: [0, 0]
+  group_pos: [2.0, -2.3]
+  group_z_rot: 3.1416
+  bottom_row:
+    - name: island
+      type: counter
+      base_opening: [false, true]
+      size: [1.4, 0.8, 0.92]
+      pos: [0, 0, 0.46]
+"#;
+
+/// The place (m) of a link in the room.
+fn joint_of(kitchen: &Published, link: &str) -> Vec<f64> {
+    let urdf = &kitchen.urdf;
+    let at = urdf.find(&format!("<child link=\"{link}\"/>")).unwrap();
+    let origin = urdf[at..].split("xyz=\"").nth(1).unwrap();
+    let numbers = origin.split('"').next().unwrap().split(' ');
+    numbers.map(|number| number.parse().unwrap()).collect()
+}
+
+fn is_near(a: &[f64], b: [f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3)
+}
+
+#[test]
+fn fixtures_stand_where_the_layout_says() {
+    let kitchen = Published::of_layout(LAYOUT).unwrap();
+    for (link, at) in [
+        // The middle of the top of a counter; what has fronts is placed by the front of its carcass.
+        ("counter_main_group", [1.0, -0.325, 0.92]),
+        ("dishwasher_main_group", [2.3, -0.58, 0.445]),
+        ("fridge_main_group", [3.0, -0.78, 0.875]),
+        // To the right of the first stack, in the middle of its depth and height.
+        ("stack_2_main_group_1", [1.1, -0.58, 0.05 + 0.168]),
+        // The halves of a level.
+        ("stack_1_main_group_2", [0.2, -0.58, 0.89 - 0.126]),
+        ("stack_1_main_group_3", [0.6, -0.58, 0.89 - 0.126]),
+        // As wide as its neighbour, and aligned at the top.
+        ("cab_2_main_group", [1.5, -0.38, 2.05]),
+        // 0.6 of the width, in the middle of what the fronts leave.
+        ("sink_main_group", [1.2, -0.2925, 0.92]),
+        // Turned with its group.
+        ("island_island_group", [2.0, -2.3, 0.92]),
+        // Beside the sink, against the wall.
+        ("toaster_main_group", [0.7, -0.17, 1.015]),
+        ("wall_room", [2.0, 0.02, 1.5]),
+        ("wall_left_room", [-0.02, -2.0, 1.5]),
+    ] {
+        let found = joint_of(&kitchen, link);
+        assert!(is_near(&found, at), "{link}: {found:?}, not {at:?}");
+    }
+    assert!(!kitchen.urdf.contains("mixer") && !kitchen.urdf.contains("backing"));
+    // Doors and drawers, each with a handle.
+    for handle in [
+        "stack_1_main_group_1_door_handle",
+        "stack_2_main_group_3_handle",
+        "cab_1_main_group_left_door_handle",
+        "cab_1_main_group_right_door_handle",
+        "dishwasher_main_group_door_handle",
+        "fridge_main_group_main_door_handle",
+        "fridge_main_group_freezer_handle",
+    ] {
+        assert!(
+            kitchen.urdf.contains(&format!("<link name=\"{handle}\">")),
+            "{handle}"
+        );
+    }
+    for line in [
+        "(place table :on island_island_group)",
+        "(place sink :on sink_main_group)",
+        "(place fridge :in fridge_main_group_main :side front)",
+        "(place counter :on counter_main_group)",
+    ] {
+        assert!(
+            kitchen.description.contains(line),
+            "{line}: {}",
+            kitchen.description
+        );
+    }
+    assert_eq!(
+        kitchen.remarks,
+        [
+            "unknown keys mean nothing: slignment (line 64)",
+            "what hangs on walls is left out: accessories (1)",
+            "as published, furniture overlaps: sink_main_group and stack_2_main_group_2 by 8 mm, \
+             sink_main_group and stack_2_main_group_3 by 8 mm",
+        ]
+    );
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_line() {
+    let change = |from: &str, to: &str| {
+        assert!(LAYOUT.contains(from), "{from}");
+        Published::of_layout(&LAYOUT.replacen(from, to, 1))
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        change("align_to: counter\n", "align_to: counetr\n"),
+        "line 42: there is no counetr before this in main_group; did you mean counter?"
+    );
+    assert_eq!(
+        change("type: fridge_bottom_freezer", "type: fridge_bottom_freezr"),
+        "line 45: there is no type of fixtures fridge_bottom_freezr; did you mean fridge_bottom_freezer?"
+    );
+    assert_eq!(
+        change("percentages: [0.7, 0.3]", "percentages: [0.7]"),
+        "line 52: a stack has as many percentages (1) as levels (2)"
+    );
+    assert_eq!(
+        change("[drawer, drawer, drawer]", "[drawer, drawr, drawer]"),
+        "line 61: drawr is no level of a stack; did you mean drawer?"
+    );
+    assert_eq!(
+        change("alignment: top_back", "alignment: top_right"),
+        "line 71: what is at the right of another fixture cannot be aligned with its right, too"
+    );
+    assert_eq!(
+        change("size: [2.0, 0.65, 0.92]", "size: [2.0, 0.65, 920]"),
+        "line 38: a fixture is between 0.001 and 30 m large, this one is [2.0, 0.65, 920.0]"
+    );
+    assert_eq!(
+        change("size: [2.0, 0.65, 0.92]", "size: [2.0, wide, .nan]"),
+        "line 38: there is no wide before this in main_group"
+    );
+    assert_eq!(
+        change("obj_x_percent: 0.6", "obj_x_percent: .inf"),
+        "line 37: obj_x_percent is a number (m, or rad)"
+    );
+    assert_eq!(
+        change("  bottom_row:\n", "  bottom_row: 5\n  other:\n"),
+        "line 32: bottom_row of main_group is a list"
+    );
+    assert_eq!(
+        change(
+            "    - {name: sink, type: sink}",
+            "    - &a {name: sink, type: sink}\n    - *a"
+        ),
+        "line 34: a layout does not refer to other parts of itself (*name)"
+    );
+}
+
+#[test]
+fn what_is_no_layout_is_refused() {
+    let error = |text: &str| Published::of_layout(text).unwrap_err().to_string();
+    assert_eq!(error(""), "the file is empty");
+    assert_eq!(error("# nothing\n"), "the file is empty");
+    assert_eq!(
+        error("hello"),
+        "line 1: a layout is a map of names and values"
+    );
+    assert_eq!(
+        error("a: b"),
+        "line 1: the group a is a map of names and values"
+    );
+    assert!(
+        error("a: [b").starts_with("line 2: this is no YAML: "),
+        "{}",
+        error("a: [b")
+    );
+    assert_eq!(error("{}"), "there is no place where a robot could stand");
+    let deep = format!("a: {}", "[".repeat(100_000));
+    assert!(
+        error(&deep).starts_with("line 1: this is "),
+        "{}",
+        error(&deep)
+    );
+    let long = format!("a:\n  b: [{}]", "1,".repeat(300_000));
+    assert_eq!(
+        error(&long),
+        "line 2: a layout has fewer values than this file"
+    );
+}
+
+/// `LAYOUTS=FOLDER cargo test -p planwright-kitchens --release -- --ignored --nocapture every_layout_of_a_folder`
+#[test]
+#[ignore = "wants the layouts of RoboCasa, which the package praxis-robocasa has"]
+fn every_layout_of_a_folder_is_read() {
+    let folder = std::env::var("LAYOUTS").expect("LAYOUTS is a folder of layouts");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|file| file.unwrap().path())
+        .collect();
+    files.sort();
+    let (mut read, mut count) = (0, 0);
+    for file in files.iter().filter(|file| is_layout(file)) {
+        count += 1;
+        let name = file.file_stem().unwrap().display();
+        match Published::of_layout(&std::fs::read_to_string(file).unwrap()) {
+            Ok(kitchen) => {
+                read += 1;
+                let links = kitchen.urdf.matches("<link ").count();
+                let drawers = kitchen.urdf.matches("\"prismatic\"").count();
+                let doors = kitchen.urdf.matches("\"revolute\"").count();
+                println!("{name}: {links} links, {drawers} drawers, {doors} doors");
+                for remark in &kitchen.remarks {
+                    println!("    {remark}");
+                }
+            }
+            Err(error) => println!("{name}: {error}"),
+        }
+    }
+    println!("{read} of {count} are read");
+    assert_eq!(read, count);
+}
