@@ -32,7 +32,7 @@ use modules::Unit;
 pub use part::kind_of_part;
 use plan::Plan;
 pub use plan::Rejection;
-pub use published::{LayoutError, Published, is_layout};
+pub use published::{ASSETS, LayoutError, Published, Simulator};
 pub use settings::{Setting, SettingError, Settings, is_parameter};
 pub use table::{Division, KitchenTable, Row, kitchen_path};
 

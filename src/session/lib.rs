@@ -68,7 +68,7 @@ pub use face::{
     Datum, Failure, FramedPose, KeptOutput, ObserverId, PlanEvent, PlanEventKind, RestoreError,
     Snapshot, TaskBegin, TaskEnd, TaskLog, TaskNode, Unhandled, Within,
 };
-pub use kitchens::is_layout;
+pub use kitchens::{ASSETS, Simulator};
 pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions, is_built_in, is_generated, is_shipped_robot};
 

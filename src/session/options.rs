@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use closest_name::closest_name;
 use descriptions::{KITCHEN_URDF, PR2_DESCRIPTION, PR2_URDF, ROBOTS, robot_named};
-use kitchens::{Kitchen, Published, Settings};
+use kitchens::{Kitchen, LayoutError, Published, Settings};
 use thiserror::Error;
 
 use super::log_level::LogLevel;
@@ -138,14 +138,31 @@ impl SessionOptions {
         Ok(())
     }
 
-    /// Has the session begin in the kitchen of a layout (see [`is_layout`]) of a name and a text.
+    /// Has the session begin in the kitchen of a layout of RoboCasa, of a name and a text.
     ///
     /// # Errors
     ///
     /// The layout is wrong; the error names the file and the line.
     pub fn set_layout(&mut self, name: &str, text: &str) -> Result<(), SessionError> {
-        let kitchen = Published::of_layout(text)
-            .map_err(|error| SessionError::Models(format!("{name}: {error}")))?;
+        self.set_published(name, Published::of_layout(text))
+    }
+
+    /// Has the session begin in the kitchen of a house of ProcTHOR, of a name and a text. The database of assets has the
+    /// sizes of what stands there.
+    ///
+    /// # Errors
+    ///
+    /// The house is wrong, or has no kitchen; the error names the file and the line.
+    pub fn set_house(&mut self, name: &str, text: &str, assets: &str) -> Result<(), SessionError> {
+        self.set_published(name, Published::of_house(text, assets))
+    }
+
+    fn set_published(
+        &mut self,
+        name: &str,
+        kitchen: Result<Published, LayoutError>,
+    ) -> Result<(), SessionError> {
+        let kitchen = kitchen.map_err(|error| SessionError::Models(format!("{name}: {error}")))?;
         self.world = Some((name.to_owned(), kitchen.urdf));
         if self.world_description.is_none() {
             self.world_description = Some((name.to_owned(), kitchen.description));

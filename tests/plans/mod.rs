@@ -33,6 +33,7 @@ mod packages;
 mod parking;
 mod past;
 mod published_code;
+mod published_kitchens;
 mod putting_down;
 mod quick_answers;
 mod random_scenes;

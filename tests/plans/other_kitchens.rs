@@ -299,12 +299,11 @@ fn a_search_passes_over_places_where_nothing_has_room() {
     cook.done("(init-projection) (spawn-object '((1.1 0.2 0.85) (0 0 0 1)) :milk 'milk-1)");
     let search = |kind: &str| {
         format!(
-            "(with-simulated-robot
-               (perform (an action (type searching) (object (an object (type {kind})))
-                            (context table-setting))))"
+            "(perform (an action (type searching) (object (an object (type {kind})))
+                          (context table-setting)))"
         )
     };
-    let said = cook.done(&search("milk"));
+    let said = cook.done(&format!("(with-simulated-robot {})", search("milk")));
     assert!(said.contains("touching chest"), "{said}");
     let report = cook.fails("SEARCHING-FAILED", &search("cup"));
     assert!(
@@ -314,8 +313,7 @@ fn a_search_passes_over_places_where_nothing_has_room() {
     // Where somebody says that it is, it is an error that nothing can be there.
     cook.fails(
         "DESIGNATOR-ERROR",
-        "(with-simulated-robot
-           (perform (an action (type searching) (object (an object (type milk)))
-                        (location (a location (on (an object (urdf-name shelf) (part-of kitchen))))))))",
+        "(perform (an action (type searching) (object (an object (type milk)))
+                      (location (a location (on (an object (urdf-name shelf) (part-of kitchen)))))))",
     );
 }

@@ -22,7 +22,7 @@ use lisp::visible::visible;
 use robotics::robot::urdf_text;
 use robotics::world::Models;
 use session::dialogue::Evaluate;
-use session::{self, Session, SessionOptions, is_generated, is_layout, is_shipped_robot};
+use session::{self, ASSETS, Session, SessionOptions, Simulator, is_generated, is_shipped_robot};
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
@@ -37,7 +37,8 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         Ok((path.display().to_string(), text))
     };
     let generated = options.world.as_deref().filter(|world| is_generated(world));
-    let layout = options.world.as_deref().filter(|world| is_layout(world));
+    let published = options.world.as_deref();
+    let published = published.and_then(|file| Some((file, Simulator::of(file)?)));
     let shipped = options.robot.as_deref();
     let shipped = shipped.filter(|robot| is_shipped_robot(robot));
     let mut session_options = SessionOptions {
@@ -47,9 +48,9 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             None => options.robot.as_deref().map(read_robot).transpose()?,
         },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
-        world: match generated.or(layout) {
-            Some(_) => None,
-            None => options.world.as_deref().map(read_urdf).transpose()?,
+        world: match (generated, published) {
+            (Some(_), _) | (_, Some(_)) => None,
+            _ => options.world.as_deref().map(read_urdf).transpose()?,
         },
         world_description: world_description(options)
             .as_deref()
@@ -81,9 +82,15 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         let set = session_options.set_generated_world(&name.to_string_lossy());
         set.map_err(|error| CommandError::Open(error.to_string()))?;
     }
-    if let Some(file) = layout {
+    if let Some((file, simulator)) = published {
         let (name, text) = read(file)?;
-        let set = session_options.set_layout(&name, &text);
+        let set = match simulator {
+            Simulator::RoboCasa => session_options.set_layout(&name, &text),
+            Simulator::ProcThor => {
+                let (_, assets) = read(&assets_of(file, &options.package_path)?)?;
+                session_options.set_house(&name, &text, &assets)
+            }
+        };
         set.map_err(|error| CommandError::Open(error.to_string()))?;
     }
     set_stack_budget(COMPILER_STACK);
@@ -98,6 +105,23 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         session.close();
     }
     Ok(session)
+}
+
+/// The file with the sizes of what stands in a house: beside it, or in one of some folders.
+fn assets_of(house: &Path, folders: &[PathBuf]) -> Result<PathBuf, CommandError> {
+    let beside = house.parent().map(Path::to_path_buf);
+    let files = beside
+        .iter()
+        .chain(folders)
+        .map(|folder| folder.join(ASSETS));
+    let mut files = files.filter(|file| file.is_file());
+    files.next().ok_or_else(|| {
+        CommandError::Open(format!(
+            "{}: a house of ProcTHOR says what stands in it, {ASSETS} how large that is: put that file beside it, or \
+             give its folder by --package-path",
+            house.display()
+        ))
+    })
 }
 
 /// A fresh session with options, in a kitchen whose descriptions have been read.

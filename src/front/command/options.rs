@@ -14,8 +14,8 @@ pub(crate) struct Options {
     /// Seed for everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-    /// Kitchen to load (a URDF file, or a layout of RoboCasa) instead of the built-in one, or generated:SEED for one that is drawn
-    /// from a seed
+    /// Kitchen to load (a URDF file, a layout of RoboCasa, or a house of ProcTHOR) instead of the
+    /// built-in one, or generated:SEED for one that is drawn from a seed
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) world: Option<PathBuf>,
     /// What the kitchen's furniture is for (in the form of world/kitchen.sexp) [default: with

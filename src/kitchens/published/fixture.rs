@@ -61,7 +61,10 @@ pub(super) enum Kind {
     Sink,
     Fridge(Fridge),
     Dishwasher,
-    Stool,
+    /// A table, or a stool.
+    OnLegs {
+        is_table: bool,
+    },
     /// A wall; whether only its foot is shown, since it would hide the room.
     Wall {
         is_foot: bool,

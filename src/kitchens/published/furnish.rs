@@ -179,7 +179,7 @@ impl Maker {
             }
             Kind::Sink => self.sink(fixture),
             Kind::Fridge(kind) => self.fridge(fixture, *kind),
-            Kind::Stool => self.stool(fixture),
+            Kind::OnLegs { is_table } => self.on_legs(fixture, *is_table),
             Kind::Wall { is_foot } => {
                 let block: Block = ([0.0; 3], [depth, width, height], "wall");
                 let foot = FOOT.min(height);
@@ -662,7 +662,12 @@ impl Maker {
         }
     }
 
-    fn stool(&mut self, fixture: &Fixture) {
+    /// A table, or a stool.
+    fn on_legs(&mut self, fixture: &Fixture, is_table: bool) {
+        let is_dining_table = fixture.name.starts_with("dining");
+        if is_table && (is_dining_table || self.inventory.table.is_none()) {
+            self.inventory.table = Some(fixture.name.clone());
+        }
         let [width, depth, height] = fixture.size;
         let seat = 0.04;
         let mut blocks: Vec<Block> = vec![(

@@ -137,6 +137,22 @@ impl Layout {
         }
         reader.finish()
     }
+
+    /// Of walls that would hide the room from people, only the foot is to be shown: those that are nearer to the viewer, who
+    /// looks from the left and the front, than the middle of the room.
+    pub(super) fn lower_walls(&mut self) {
+        let floors = self.floors.iter().copied();
+        let Some(around) = floors.reduce(|around, one| around.with(&one)) else {
+            return;
+        };
+        let middle = [0, 1].map(|axis| (around.low[axis] + around.high[axis]) / 2.0);
+        for fixture in &mut self.fixtures {
+            let across = if fixture.turn == 0.0 { 1 } else { 0 };
+            if let Kind::Wall { is_foot } = &mut fixture.kind {
+                *is_foot = fixture.at[across] < middle[across];
+            }
+        }
+    }
 }
 
 impl Reader {
@@ -381,7 +397,7 @@ impl Reader {
             "fridge_bottom_freezer" => Kind::Fridge(Fridge::BottomFreezer),
             "dishwasher" => Kind::Dishwasher,
             "panel_cabinet" => Kind::Panel,
-            "stool" => Kind::Stool,
+            "stool" => Kind::OnLegs { is_table: false },
             _ => Kind::Solid,
         })
     }
@@ -829,7 +845,7 @@ impl Reader {
             self.layout.fixtures.push(fixture);
         }
         self.cover();
-        self.lower_walls();
+        self.layout.lower_walls();
         let mut on_nothing = Vec::new();
         for (group, node) in std::mem::take(&mut self.on_counters) {
             if !self.put_on_counter(&group, &node)? {
@@ -847,22 +863,6 @@ impl Reader {
         }
         self.layout.remarks = remarks;
         Ok(self.layout)
-    }
-
-    /// Of walls that would hide the room from people, only the foot is to be shown: those that are nearer to the viewer, who
-    /// looks from the left and the front, than the middle of the room.
-    fn lower_walls(&mut self) {
-        let floors = self.layout.floors.iter().copied();
-        let Some(around) = floors.reduce(|around, one| around.with(&one)) else {
-            return;
-        };
-        let middle = [0, 1].map(|axis| (around.low[axis] + around.high[axis]) / 2.0);
-        for fixture in &mut self.layout.fixtures {
-            let across = if fixture.turn == 0.0 { 1 } else { 0 };
-            if let Kind::Wall { is_foot } = &mut fixture.kind {
-                *is_foot = fixture.at[across] < middle[across];
-            }
-        }
     }
 
     /// Finds out what a counter closes at the top, and which counters have something below them.

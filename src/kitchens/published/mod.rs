@@ -6,6 +6,7 @@
 
 mod fixture;
 mod furnish;
+mod house;
 mod layout;
 mod node;
 mod room;
@@ -65,14 +66,28 @@ impl fmt::Display for LayoutError {
 
 impl std::error::Error for LayoutError {}
 
-/// Whether a file is a layout by its name, rather than a URDF.
-pub fn is_layout(file: &Path) -> bool {
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|ending| {
-        ["yaml", "yml"]
-            .iter()
-            .any(|known| ending.eq_ignore_ascii_case(known))
-    })
+/// The name of the file with the sizes of what stands in houses.
+pub const ASSETS: &str = "asset-database.json";
+
+/// What a file describes a kitchen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simulator {
+    /// RoboCasa: a layout, in YAML.
+    RoboCasa,
+    /// ProcTHOR: a house, in JSON.
+    ProcThor,
+}
+
+impl Simulator {
+    /// The one for which a file is, by its name; `None` if that is not the name of such a file.
+    pub fn of(file: &Path) -> Option<Self> {
+        let ending = file.extension()?.to_str()?.to_lowercase();
+        match ending.as_str() {
+            "yaml" | "yml" => Some(Self::RoboCasa),
+            "json" => Some(Self::ProcThor),
+            _ => None,
+        }
+    }
 }
 
 impl Published {
@@ -84,5 +99,15 @@ impl Published {
     pub fn of_layout(text: &str) -> Result<Self, LayoutError> {
         let layout = layout::Layout::read(&Node::of_yaml(text)?)?;
         furnish::furnish(layout)
+    }
+
+    /// Reads a house of ProcTHOR, and the database of assets, which has their sizes. Rooms other than kitchens are
+    /// walls.
+    ///
+    /// # Errors
+    ///
+    /// One of them is no JSON of its kind, or the house has no kitchen that a robot could use.
+    pub fn of_house(text: &str, assets: &str) -> Result<Self, LayoutError> {
+        furnish::furnish(house::read(text, assets)?)
     }
 }

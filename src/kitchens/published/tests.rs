@@ -279,7 +279,7 @@ fn every_layout_of_a_folder_is_read() {
         .collect();
     files.sort();
     let (mut read, mut count) = (0, 0);
-    for file in files.iter().filter(|file| is_layout(file)) {
+    for file in files.iter().filter(|file| Simulator::of(file).is_some()) {
         count += 1;
         let name = file.file_stem().unwrap().display();
         match Published::of_layout(&std::fs::read_to_string(file).unwrap()) {
@@ -298,4 +298,134 @@ fn every_layout_of_a_folder_is_read() {
     }
     println!("{read} of {count} are read");
     assert_eq!(read, count);
+}
+
+/// A kitchen beside another room, with a doorway between them. The walls are there for both rooms, and for the outside.
+const HOUSE: &str = r#"{
+  "rooms": [
+    {"id": "room|2", "roomType": "Kitchen", "floorPolygon": [
+      {"x": 0, "y": 0, "z": 0}, {"x": 0, "y": 0, "z": 4}, {"x": 5, "y": 0, "z": 4}, {"x": 5, "y": 0, "z": 0}]},
+    {"id": "room|3", "roomType": "Bedroom", "floorPolygon": [
+      {"x": 5, "y": 0, "z": 0}, {"x": 5, "y": 0, "z": 4}, {"x": 8, "y": 0, "z": 4}, {"x": 8, "y": 0, "z": 0}]}
+  ],
+  "walls": [
+    {"id": "wall|2|0|0|0|4", "polygon": [
+      {"x": 0, "y": 0, "z": 0}, {"x": 0, "y": 2.6, "z": 0}, {"x": 0, "y": 2.6, "z": 4}, {"x": 0, "y": 0, "z": 4}]},
+    {"id": "wall|2|0|4|5|4", "polygon": [
+      {"x": 0, "y": 0, "z": 4}, {"x": 0, "y": 2.6, "z": 4}, {"x": 5, "y": 2.6, "z": 4}, {"x": 5, "y": 0, "z": 4}]},
+    {"id": "wall|2|5|0|5|4", "polygon": [
+      {"x": 5, "y": 0, "z": 4}, {"x": 5, "y": 2.6, "z": 4}, {"x": 5, "y": 2.6, "z": 0}, {"x": 5, "y": 0, "z": 0}]},
+    {"id": "wall|3|5|0|5|4", "polygon": [
+      {"x": 5, "y": 0, "z": 0}, {"x": 5, "y": 2.6, "z": 0}, {"x": 5, "y": 2.6, "z": 4}, {"x": 5, "y": 0, "z": 4}]},
+    {"id": "wall|2|0|0|5|0", "polygon": [], "empty": true}
+  ],
+  "doors": [
+    {"id": "door|2|3", "wall0": "wall|3|5|0|5|4", "wall1": "wall|2|5|0|5|4",
+     "holePolygon": [{"x": 0.5, "y": 0, "z": 0}, {"x": 1.5, "y": 2.1, "z": 0}]}
+  ],
+  "objects": [
+    {"assetId": "Countertop_L_8x6", "id": "2|0|0", "kinematic": true,
+     "position": {"x": 1.22, "y": 0.47, "z": 3.085}, "rotation": {"x": 0, "y": 180, "z": 0},
+     "children": [
+       {"assetId": "Mug_2", "id": "small|2|5", "position": {"x": 1.2, "y": 0.98, "z": 3.7}},
+       {"assetId": "Toaster_1", "id": "2|0|1", "position": {"x": 1.2, "y": 1.04, "z": 3.7},
+        "rotation": {"x": 0, "y": 90, "z": 0}}]},
+    {"assetId": "Fridge_1", "id": "2|1", "position": {"x": 4.0, "y": 0, "z": 3.6}, "rotation": {"x": 0, "y": 180, "z": 0}},
+    {"assetId": "Dining_Table_16_1", "id": "2|2|0", "position": {"x": 2.5, "y": 0.4124, "z": 1.0}},
+    {"assetId": "Wall_Decor_Photo_9", "id": "2|7", "position": {"x": 0.02, "y": 1.5, "z": 1.0}},
+    {"assetId": "Nobody_Knows_1", "id": "2|8", "position": {"x": 1, "y": 0, "z": 1}},
+    {"assetId": "Bed_1", "id": "3|0", "position": {"x": 6.5, "y": 0.4, "z": 2}}
+  ]
+}"#;
+
+const ASSET_DATABASE: &str = r#"{
+  "CounterTop": [{"assetId": "Countertop_L_8x6", "boundingBox": {"x": 2.44, "y": 0.94, "z": 1.83},
+    "objectType": "CounterTop", "primaryProperty": "Static", "split": "train"}],
+  "Mug": [{"assetId": "Mug_2", "boundingBox": {"x": 0.1, "y": 0.1, "z": 0.1}, "objectType": "Mug",
+    "primaryProperty": "CanPickup"}],
+  "Toaster": [{"assetId": "Toaster_1", "boundingBox": {"x": 0.2, "y": 0.2, "z": 0.34}, "objectType": "Toaster",
+    "primaryProperty": "Static"}],
+  "Fridge": [{"assetId": "Fridge_1", "boundingBox": {"x": 1.0, "y": 1.96, "z": 0.72}, "objectType": "Fridge",
+    "primaryProperty": "Static"}],
+  "DiningTable": [{"assetId": "Dining_Table_16_1", "boundingBox": {"x": 1.4, "y": 0.8248, "z": 0.9},
+    "objectType": "DiningTable", "primaryProperty": "Moveable"}],
+  "Painting": [{"assetId": "Wall_Decor_Photo_9", "boundingBox": {"x": 0.4, "y": 0.4, "z": 0.02},
+    "objectType": "Painting"}]
+}"#;
+
+#[test]
+fn what_stands_in_the_kitchen_of_a_house_stands_there() {
+    let kitchen = Published::of_house(HOUSE, ASSET_DATABASE).unwrap();
+    for (link, at) in [
+        // The row along the far wall, and the wing along the one at its left.
+        ("counter_top_2_0_0", [1.22, 3.695, 0.94]),
+        ("counter_top_2_0_0_left", [0.305, 2.78, 0.94]),
+        // What is said to be in the floor stands on it; it looks at the room.
+        ("fridge_2_1", [4.0, 3.6 - 0.34, 0.98]),
+        ("dining_table_2_2_0", [2.5, 1.0, 0.4124]),
+        // Turned clockwise by a quarter: it looks along x.
+        ("toaster_2_0_1", [1.2 + 0.15, 3.7, 1.04]),
+        // Beyond its plane, two parts beside the doorway, and one above it.
+        ("wall_3_1", [5.03, 2.75, 1.3]),
+        ("wall_3_2", [5.03, 1.0, 2.35]),
+        ("wall_3_3", [5.03, 0.25, 1.3]),
+    ] {
+        let found = joint_of(&kitchen, link);
+        assert!(is_near(&found, at), "{link}: {found:?}, not {at:?}");
+    }
+    for left_out in ["bed", "mug", "painting", "wall_4", "_right"] {
+        assert!(!kitchen.urdf.contains(left_out), "{left_out}");
+    }
+    assert!(
+        kitchen
+            .description
+            .contains("(place table :on dining_table_2_2_0)")
+    );
+    assert!(
+        kitchen
+            .description
+            .contains("(place fridge :in fridge_2_1_main :side front)")
+    );
+    assert_eq!(
+        kitchen.remarks,
+        [
+            "what can be picked up is left out: spawn such things: Mug",
+            "what hangs on walls is left out: Painting",
+            "what the database of assets does not know is left out: Nobody_Knows_1",
+            "counters around a corner are taken to stand along the walls",
+            "the house says nothing of drawers and handles: only fridges and microwaves open",
+        ]
+    );
+}
+
+#[test]
+fn what_is_no_house_is_refused() {
+    let error = |house: &str| {
+        Published::of_house(house, ASSET_DATABASE)
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        error(&HOUSE.replace("\"Kitchen\"", "\"LivingRoom\"")),
+        "this house has no room of the type Kitchen, only Bedroom, LivingRoom"
+    );
+    assert!(
+        error("[1").starts_with("line 1: this is no house: "),
+        "{}",
+        error("[1")
+    );
+    assert!(
+        error(&HOUSE.replacen("\"assetId\"", "\"asset\"", 1)).contains("missing field `assetId`"),
+        "{}",
+        error(&HOUSE.replacen("\"assetId\"", "\"asset\"", 1))
+    );
+    assert_eq!(
+        error(&HOUSE.replace("\"x\": 1.22", "\"x\": 1e9")),
+        "a house is within 200 m, this point is at 1000000000 0.47 3.085"
+    );
+    let error = Published::of_house(HOUSE, "[]").unwrap_err().to_string();
+    assert!(
+        error.starts_with("the database of assets is none: "),
+        "{error}"
+    );
 }
