@@ -182,8 +182,8 @@ impl Fittings {
         };
         urdf.link(&door, joint, &[panel]);
         let length = lengths[1].min(tall * 0.8).max(lengths[0].min(tall * 0.9));
-        let up = ((share - 0.5) * tall)
-            .clamp(-(tall - length) / 2.0 + 0.02, (tall - length) / 2.0 - 0.02);
+        let most = ((tall - length) / 2.0 - 0.02).max(0.0);
+        let up = ((share - 0.5) * tall).clamp(-most, most);
         let ahead = self.ahead + self.bar / 2.0;
         let place = [ahead, -side * (width - 0.045), up];
         urdf.link(

@@ -1,5 +1,6 @@
 //! The text of a URDF, link by link.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A box: its middle and its edges (m), and the name of its material.
@@ -41,13 +42,25 @@ impl<'a> Joint<'a> {
     }
 }
 
+/// Least edge (m) of a block: smaller ones are left out.
+const LEAST: f64 = 1e-4;
+
 /// The text of a URDF under construction.
-pub(crate) struct Urdf(String);
+pub(crate) struct Urdf {
+    text: String,
+    names: BTreeSet<String>,
+    /// A name that two links have.
+    doubled: Option<String>,
+}
 
 impl Urdf {
     /// An empty one, whose root is `world`.
     pub(crate) fn new(name: &str, materials: &[(&str, [f64; 3])]) -> Self {
-        let mut urdf = Self(String::with_capacity(1 << 16));
+        let mut urdf = Self {
+            text: String::with_capacity(1 << 16),
+            names: BTreeSet::new(),
+            doubled: None,
+        };
         urdf.line(format_args!("<?xml version=\"1.0\"?>"));
         urdf.line(format_args!("<robot name=\"{name}\">"));
         for (name, [red, green, blue]) in materials {
@@ -61,7 +74,7 @@ impl Urdf {
 
     fn line(&mut self, text: impl std::fmt::Display) {
         // Writing into a text cannot fail.
-        let _ = writeln!(self.0, "{text}");
+        let _ = writeln!(self.text, "{text}");
     }
 
     /// Adds a link of blocks, at a joint.
@@ -77,11 +90,15 @@ impl Urdf {
         blocks: &[Block],
         shown: &[Block],
     ) {
+        if !self.names.insert(name.to_owned()) {
+            self.doubled.get_or_insert_with(|| name.to_owned());
+        }
         self.line(format_args!("  <link name=\"{name}\">"));
         let both = [(shown, true), (blocks, false)];
         let both = both
             .into_iter()
             .flat_map(|(blocks, is_shown)| blocks.iter().map(move |block| (block, is_shown)));
+        let both = both.filter(|((_, size, _), _)| size.iter().all(|edge| *edge >= LEAST));
         for (([x, y, z], [a, b, c], material), is_shown) in both {
             let shape = format!(
                 "<origin xyz=\"{x:.4} {y:.4} {z:.4}\"/><geometry><box size=\"{a:.4} {b:.4} {c:.4}\"/></geometry>"
@@ -124,9 +141,14 @@ impl Urdf {
         self.line(format_args!("  </joint>"));
     }
 
+    /// A name that two links have, which no reader would take.
+    pub(crate) fn doubled(&self) -> Option<&str> {
+        self.doubled.as_deref()
+    }
+
     /// The whole text.
     pub(crate) fn finish(mut self) -> String {
         self.line(format_args!("</robot>"));
-        self.0
+        self.text
     }
 }

@@ -28,6 +28,7 @@ mod robots;
 mod run;
 #[cfg(test)]
 mod seeds;
+mod simulators;
 mod sweeps;
 mod target;
 
@@ -47,6 +48,7 @@ pub fn targets() -> Vec<Target> {
         notebooks::targets(),
         requests::targets(),
         robots::targets(),
+        simulators::targets(),
     ]
     .into_iter()
     .flatten()

@@ -126,7 +126,7 @@ pub(super) fn targets() -> Vec<Target> {
     vec![
         Target {
             name: "urdf",
-            share: 60,
+            share: 40,
             least_read: 90,
             words: XML,
             corpus: urdfs,
@@ -145,13 +145,13 @@ pub(super) fn targets() -> Vec<Target> {
                 })
             },
         },
-        data("objects", 30, || records(OBJECTS), objects),
+        data("objects", 20, || records(OBJECTS), objects),
         data("grasps", 20, || records(GRASPS), grasps),
         data("robot", 20, || records(PR2_DESCRIPTION), robot),
         data("kitchen", 20, || records(KITCHEN_DESCRIPTION), kitchen),
         Target {
             name: "mesh",
-            share: 40,
+            share: 30,
             least_read: 95,
             words: MESH,
             corpus: meshes,

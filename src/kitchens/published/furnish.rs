@@ -48,6 +48,11 @@ pub(super) fn furnish(layout: Layout) -> Result<Published, LayoutError> {
         maker.number = number;
         maker.fixture(fixture);
     }
+    if let Some(name) = maker.urdf.doubled() {
+        return Err(LayoutError::whole(format!(
+            "two parts would have the name {name}: rename one"
+        )));
+    }
     let mut remarks = layout.remarks.clone();
     remarks.extend(maker.overlaps(&layout.fixtures));
     if !room.cut_off.is_empty() {
@@ -344,16 +349,23 @@ impl Maker {
         );
         blocks.extend(Self::base(fixture));
         self.body(fixture, [Self::front(fixture), 0.0], &blocks);
-        self.slide(fixture, &fixture.name, [-half, half]);
+        let drawer = self.slide(fixture, &fixture.name, [-half, half]);
+        self.inventory.drawers.extend(drawer);
     }
 
-    /// A drawer between two heights of a body.
-    fn slide(&mut self, fixture: &Fixture, name: &str, [low, high]: [f64; 2]) {
+    /// A drawer between two heights of a body, with the height of its middle above the floor and its own, if there is room
+    /// for one.
+    fn slide(
+        &mut self,
+        fixture: &Fixture,
+        name: &str,
+        [low, high]: [f64; 2],
+    ) -> Option<(String, f64, f64)> {
         let [width, depth, _] = fixture.size;
         let length = depth - FITTINGS.front - 0.06;
         let (middle, tall) = ((low + high) / 2.0, high - low);
         if width < 0.15 || length < 0.15 || tall < 0.06 {
-            return;
+            return None;
         }
         let drawer = Drawer {
             unit: &fixture.name,
@@ -373,9 +385,7 @@ impl Maker {
             "inner",
         );
         self.note(fixture, [Self::front(fixture), 0.0], &[block]);
-        self.inventory
-            .drawers
-            .push((main, fixture.at[2] + middle, tall));
+        Some((main, fixture.at[2] + middle, tall))
     }
 
     fn cabinet(&mut self, fixture: &Fixture, doors: Doors, handle: HandlePlace, is_knob: bool) {
@@ -410,6 +420,7 @@ impl Maker {
         );
     }
 
+    /// The doors of a body; the joint of the last one, if there is room for any.
     fn doors(
         &mut self,
         fixture: &Fixture,
@@ -418,7 +429,7 @@ impl Maker {
         span: [f64; 2],
         handle_at: f64,
         is_knob: bool,
-    ) {
+    ) -> Option<String> {
         let width = fixture.size[0];
         let all = match doors {
             Doors::One { is_left } => vec![(unit.to_owned(), is_left, width, 0.0)],
@@ -428,8 +439,9 @@ impl Maker {
             ],
         };
         if span[1] - span[0] < 0.1 || width < 0.15 {
-            return;
+            return None;
         }
+        let mut last = None;
         for (name, is_left, width, across) in all {
             let door = Door {
                 unit,
@@ -442,7 +454,9 @@ impl Maker {
                 handle_length: if is_knob { KNOB } else { HANDLE },
             };
             FITTINGS.door(&mut self.urdf, &door);
+            last = Some(format!("{name}_door_joint"));
         }
+        last
     }
 
     fn shelves(&mut self, fixture: &Fixture, count: usize) {
@@ -646,18 +660,14 @@ impl Maker {
             Fridge::BottomFreezer => Doors::One { is_left: false },
             _ => Doors::Pair,
         };
-        self.doors(fixture, &main, doors, [low, half], 0.4, false);
+        let joint = self.doors(fixture, &main, doors, [low, half], 0.4, false);
         if kind != Fridge::SideBySide {
             let name = format!("{}_freezer", fixture.name);
-            self.slide(fixture, &name, [foot, low - 0.01]);
             // Nobody looks for cutlery there.
-            self.inventory.drawers.pop();
+            self.slide(fixture, &name, [foot, low - 0.01]);
         }
         if self.inventory.fridge.is_none() {
-            self.inventory.usual_joint = Some(match doors {
-                Doors::One { .. } => format!("{main}_door_joint"),
-                Doors::Pair => format!("{main}_right_door_joint"),
-            });
+            self.inventory.usual_joint = joint;
             self.inventory.fridge = Some(main);
         }
     }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use closest_name::closest_name;
 
 use super::LayoutError;
-use super::fixture::{Counter, Doors, Fixture, Fridge, HandlePlace, Kind, SIDES, snapped, turned};
+use super::fixture::{Counter, Doors, Fixture, Fridge, HandlePlace, Kind, snapped, turned};
 use super::node::{Data, Node};
 use super::sizes::usual_size;
 use crate::floor::Rectangle;
@@ -72,8 +72,6 @@ const KEYS: [&str; 44] = [
     "aux_fixture_config",
     "handle_config",
 ];
-/// Height (m) of the base of a stack.
-const BASE: f64 = 0.05;
 /// How far (m) tops of counters stand out, and what a front takes besides, where a sink is let in.
 const OVERHANG: f64 = 0.05;
 const FRONT: f64 = 0.015;
@@ -93,32 +91,32 @@ pub(super) struct Layout {
 
 /// Where a group is.
 #[derive(Clone, Copy, Debug, Default)]
-struct Group {
-    origin: [f64; 2],
-    place: [f64; 2],
-    turn: f64,
+pub(super) struct Group {
+    pub(super) origin: [f64; 2],
+    pub(super) place: [f64; 2],
+    pub(super) turn: f64,
 }
 
 /// What others refer to by its name.
 #[derive(Clone, Copy, Debug)]
-struct Named {
-    size: [f64; 3],
+pub(super) struct Named {
+    pub(super) size: [f64; 3],
     /// Where it is in its group; `None` as long as nothing has placed it.
-    at: Option<[f64; 3]>,
+    pub(super) at: Option<[f64; 3]>,
     /// Which fixture it is; `None` for a stack of several.
-    fixture: Option<usize>,
+    pub(super) fixture: Option<usize>,
 }
 
 #[derive(Default)]
-struct Reader {
-    layout: Layout,
-    named: BTreeMap<String, Named>,
+pub(super) struct Reader {
+    pub(super) layout: Layout,
+    pub(super) named: BTreeMap<String, Named>,
     /// The names of all fixtures.
-    names: BTreeSet<String>,
+    pub(super) names: BTreeSet<String>,
     /// The groups of the fixtures.
-    groups: Vec<Group>,
+    pub(super) groups: Vec<Group>,
     /// Whether each fixture has been placed.
-    is_placed: Vec<bool>,
+    pub(super) is_placed: Vec<bool>,
     /// What is left out, and how many.
     left_out: BTreeMap<&'static str, usize>,
     /// Unknown keys, with their first lines.
@@ -132,8 +130,7 @@ impl Layout {
     pub(super) fn read(root: &Node) -> Result<Self, LayoutError> {
         let mut reader = Reader::default();
         for (name, group) in root.entries("a layout")? {
-            let name = name.text("the name of a group")?;
-            reader.group(name, group)?;
+            reader.group(plain(name, "the name of a group")?, group)?;
         }
         reader.finish()
     }
@@ -195,7 +192,7 @@ impl Reader {
             let value = node.get(key);
             value.ok_or_else(|| node.error(format!("this fixture has no {key}")))
         };
-        let short = want("name")?.text("the name of a fixture")?;
+        let short = plain(want("name")?, "the name of a fixture")?;
         let name = format!("{short}_{group_name}");
         let kind = want("type")?.text("the type of a fixture")?;
         if let Some(enable) = node.get("enable")
@@ -246,7 +243,12 @@ impl Reader {
         })
     }
 
-    fn size(&self, kind: &str, group: &str, node: &Node) -> Result<[f64; 3], LayoutError> {
+    pub(super) fn size(
+        &self,
+        kind: &str,
+        group: &str,
+        node: &Node,
+    ) -> Result<[f64; 3], LayoutError> {
         let usual = match kind {
             "housing_cabinet" => [0.0; 3],
             _ => self.usual_size(kind, node)?,
@@ -288,7 +290,7 @@ impl Reader {
         self.checked(size, given)
     }
 
-    fn checked(&self, size: [f64; 3], node: &Node) -> Result<[f64; 3], LayoutError> {
+    pub(super) fn checked(&self, size: [f64; 3], node: &Node) -> Result<[f64; 3], LayoutError> {
         match size.iter().all(|length| (0.0005..=30.0).contains(length)) {
             true => Ok(size),
             false => Err(node.error(format!(
@@ -341,7 +343,7 @@ impl Reader {
     }
 
     /// What a fixture has inside, which comes before it in the file.
-    fn interior(&self, group: &str, node: &Node) -> Result<Option<Named>, LayoutError> {
+    pub(super) fn interior(&self, group: &str, node: &Node) -> Result<Option<Named>, LayoutError> {
         let Some(inner) = node.get("interior_obj").filter(|inner| !inner.is_null()) else {
             return Ok(None);
         };
@@ -350,7 +352,12 @@ impl Reader {
     }
 
     /// A fixture of a name in a group.
-    fn named(&self, short: &str, group: &str, node: &Node) -> Result<Named, LayoutError> {
+    pub(super) fn named(
+        &self,
+        short: &str,
+        group: &str,
+        node: &Node,
+    ) -> Result<Named, LayoutError> {
         let name = format!("{short}_{group}");
         let found = self.named.get(&name).copied();
         found.ok_or_else(|| {
@@ -473,343 +480,6 @@ impl Reader {
         }))
     }
 
-    /// Where a fixture is in its group; `None` if something else places it.
-    fn position(
-        &self,
-        group: &str,
-        size: [f64; 3],
-        node: &Node,
-    ) -> Result<Option<[f64; 3]>, LayoutError> {
-        if let Some(other) = node.get("align_to").filter(|other| !other.is_null()) {
-            return self.beside(group, size, other, node).map(Some);
-        }
-        let Some(given) = node.get("pos").filter(|given| !given.is_null()) else {
-            return Ok(None);
-        };
-        let items = given.items("a position")?;
-        let [x, y, z] = items else {
-            return Err(given.error("a position has three numbers"));
-        };
-        let below = match node.get("stack_on").filter(|below| !below.is_null()) {
-            Some(below) => {
-                let named = self.named(below.text("stack_on")?, group, below)?;
-                named.at.map(|at| (at, named.size))
-            }
-            None => None,
-        };
-        let coordinate = |node: &Node, axis: usize| match node.is_null() {
-            true => Ok(below.map(|(at, _)| at[axis])),
-            false => node.number("a position").map(Some),
-        };
-        let z = match (below, z.is_null()) {
-            (Some((at, below)), _) => at[2] + below[2] / 2.0 + size[2] / 2.0,
-            // On the floor.
-            (None, true) => size[2] / 2.0,
-            (None, false) => z.number("a position")?,
-        };
-        let missing =
-            || given.error("null stands for a number only if something is placed on another one");
-        Ok(Some([
-            coordinate(x, 0)?.ok_or_else(missing)?,
-            coordinate(y, 1)?.ok_or_else(missing)?,
-            z,
-        ]))
-    }
-
-    /// The place beside another fixture.
-    fn beside(
-        &self,
-        group: &str,
-        size: [f64; 3],
-        other: &Node,
-        node: &Node,
-    ) -> Result<[f64; 3], LayoutError> {
-        let name = other.text("align_to")?;
-        let reference = self.named(name, group, other)?;
-        let at = reference
-            .at
-            .ok_or_else(|| other.error(format!("{name} has no place")))?;
-        let side = node.get("side");
-        let side = side.ok_or_else(|| node.error("align_to comes with a side"))?;
-        let text = side.text("side")?.to_lowercase();
-        let ends = SIDES.iter().enumerate();
-        let found = ends
-            .filter_map(|(axis, ends)| {
-                let end = ends.iter().position(|end| *end == text)?;
-                Some((axis, end))
-            })
-            .next();
-        let (along, end) = found.ok_or_else(|| {
-            side.error(format!(
-                "a side is left, right, front, back, bottom or top, not {text}"
-            ))
-        })?;
-        let mut place = at;
-        let sign = |end: usize| if end == 1 { 1.0 } else { -1.0 };
-        place[along] += sign(end) * (reference.size[along] + size[along]) / 2.0;
-        let alignment = node.get("alignment");
-        let alignment = alignment.map_or(Ok(""), |alignment| alignment.text("alignment"))?;
-        let alignment = alignment.to_lowercase();
-        for (axis, ends) in SIDES.iter().enumerate() {
-            let Some(end) = ends.iter().position(|end| alignment.contains(end)) else {
-                continue;
-            };
-            if axis == along {
-                return Err(node.error(format!(
-                    "what is at the {text} of another fixture cannot be aligned with its {}, too",
-                    ends[end]
-                )));
-            }
-            place[axis] = at[axis] + sign(end) * (reference.size[axis] - size[axis]) / 2.0;
-        }
-        if let Some(offset) = node.get("offset").filter(|offset| !offset.is_null()) {
-            for (axis, length) in offset.items("an offset")?.iter().enumerate().take(3) {
-                place[axis] += length.number("an offset")?;
-            }
-        }
-        Ok(place)
-    }
-
-    fn own_turn(&self, node: &Node) -> Result<f64, LayoutError> {
-        let turn = node.get("z_rot").filter(|turn| !turn.is_null());
-        turn.map_or(Ok(0.0), |turn| turn.number("z_rot"))
-    }
-
-    /// Adds a fixture. Returns its number.
-    fn add(&mut self, mut fixture: Fixture, group: &Group, is_placed: bool) -> usize {
-        let number = self.layout.fixtures.len();
-        let name = fixture.name.clone();
-        let mut copies = 1;
-        while !self.names.insert(fixture.name.clone()) {
-            copies += 1;
-            fixture.name = format!("{name}_{copies}");
-        }
-        if copies > 1 {
-            let remark = format!("there are two of the name {name}, one is {}", fixture.name);
-            self.layout.remarks.push(remark);
-        }
-        let named = Named {
-            size: fixture.size,
-            at: is_placed.then_some(fixture.at),
-            fixture: Some(number),
-        };
-        self.named.insert(name, named);
-        self.layout.fixtures.push(fixture);
-        self.groups.push(*group);
-        self.is_placed.push(is_placed);
-        number
-    }
-
-    fn place(
-        &mut self,
-        [name, group_name]: [&str; 2],
-        group: &Group,
-        kind: Kind,
-        size: [f64; 3],
-        node: &Node,
-    ) -> Result<(), LayoutError> {
-        // What is let into a counter is placed by that.
-        let at = match kind {
-            Kind::Sink | Kind::Stovetop => None,
-            _ => self.position(group_name, size, node)?,
-        };
-        let inner = match kind {
-            Kind::Counter(_) | Kind::Housing(_) => self.interior(group_name, node)?,
-            _ => None,
-        };
-        let fixture = Fixture {
-            name: name.to_owned(),
-            kind,
-            size,
-            at: at.unwrap_or_default(),
-            turn: self.own_turn(node)?,
-            is_island: group_name.starts_with("island"),
-            is_covered: false,
-            base: 0.0,
-        };
-        let number = self.add(fixture, group, at.is_some());
-        if let (Some(inner), true) = (inner, at.is_some()) {
-            self.put_inside(number, inner);
-        }
-        Ok(())
-    }
-
-    /// Puts a fixture into the hole of a counter, or into its housing.
-    fn put_inside(&mut self, outer: usize, inner: Named) {
-        let Some(number) = inner.fixture else {
-            return;
-        };
-        let around = &self.layout.fixtures[outer];
-        let mut size = inner.size;
-        let shift = match &around.kind {
-            Kind::Counter(Counter {
-                hole: Some([low, high]),
-                ..
-            }) => {
-                let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
-                for axis in 0..2 {
-                    size[axis] = high[axis] - low[axis];
-                }
-                [middle[0], middle[1], (around.size[2] - size[2]) / 2.0]
-            }
-            Kind::Housing(frame) => [0, 1, 2].map(|axis| (frame[axis][0] - frame[axis][1]) / 2.0),
-            _ => return,
-        };
-        let at = [0, 1, 2].map(|axis| around.at[axis] + shift[axis]);
-        // A hob is flush with its counter: what stands on it stands on the counter.
-        if self.layout.fixtures[number].kind == Kind::Stovetop
-            && let Kind::Counter(counter) = &mut self.layout.fixtures[outer].kind
-        {
-            counter.hole = None;
-        }
-        let around = &self.layout.fixtures[outer];
-        let (turn, is_island) = (around.turn, around.is_island);
-        let fixture = &mut self.layout.fixtures[number];
-        (fixture.at, fixture.size) = (at, size);
-        (fixture.turn, fixture.is_island) = (turn, is_island);
-        self.is_placed[number] = true;
-        if let Some(named) = self.named.get_mut(&fixture.name) {
-            named.at = Some(at);
-        }
-    }
-
-    /// A column of fixtures, on a base.
-    fn stack(
-        &mut self,
-        name: &str,
-        group_name: &str,
-        group: &Group,
-        node: &Node,
-    ) -> Result<(), LayoutError> {
-        let given = node.get("size");
-        let given = given.ok_or_else(|| node.error("a stack has a size"))?;
-        let size = match given.items("a size")? {
-            [a, b, c] => [a, b, c].map(|one| one.number("the size of a stack")),
-            _ => return Err(given.error("a size has three numbers: width, depth, height")),
-        };
-        let [width, depth, height] = size;
-        let size = self.checked([width?, depth?, height?], given)?;
-        let [width, depth, height] = size;
-        let at = self.position(group_name, size, node)?;
-        let at = at.ok_or_else(|| node.error("this stack has no place: pos or align_to"))?;
-        let list = |key: &str| {
-            let list = node.get(key);
-            list.ok_or_else(|| node.error(format!("a stack has {key}")))?
-                .items(key)
-        };
-        let (levels, shares) = (list("levels")?, list("percentages")?);
-        if levels.len() != shares.len() {
-            return Err(node.error(format!(
-                "a stack has as many percentages ({}) as levels ({})",
-                shares.len(),
-                levels.len()
-            )));
-        }
-        let turn = self.own_turn(node)?;
-        let is_open = node
-            .get("open_top")
-            .map_or(Ok(false), |open| open.flag("open_top"))?;
-        let is_island = group_name.starts_with("island");
-        let low = at[2] - height / 2.0;
-        let (mut from, mut count) = (low, 0);
-        for (number, (level, share)) in levels.iter().zip(shares).enumerate() {
-            let tall = height * share.number("a percentage")?;
-            let parts: Vec<(&Node, f64, f64)> = match &level.data {
-                Data::List(halves) => match halves.as_slice() {
-                    [left, right] => vec![
-                        (left, -width / 4.0, width / 2.0),
-                        (right, width / 4.0, width / 2.0),
-                    ],
-                    _ => return Err(level.error("a level has one fixture or two")),
-                },
-                _ => vec![(level, 0.0, width)],
-            };
-            for (part, across, width) in parts {
-                let text = part.text("a level")?;
-                let config = node.get("configs").and_then(|configs| {
-                    let numbered = format!("{text}_{}", number + 1);
-                    configs.get(text).or_else(|| configs.get(&numbered))
-                });
-                count += 1;
-                let size = self.checked([width, depth, tall], node)?;
-                let fixture = Fixture {
-                    name: format!("{name}_{count}"),
-                    kind: level_kind(text, config, part)?,
-                    size,
-                    at: [at[0] + across, at[1], from + tall / 2.0],
-                    turn,
-                    is_island,
-                    is_covered: is_open || number + 1 < levels.len(),
-                    base: if number == 0 { BASE } else { 0.0 },
-                };
-                self.add(fixture, group, true);
-            }
-            from += tall;
-        }
-        let named = Named {
-            size,
-            at: Some(at),
-            fixture: None,
-        };
-        self.named.insert(name.to_owned(), named);
-        Ok(())
-    }
-
-    /// A wall: half its length, height and thickness, and its middle.
-    fn wall(&mut self, name: String, node: &Node) -> Result<(), LayoutError> {
-        // A second, thicker wall behind each is for looks.
-        if node
-            .get("backing")
-            .map_or(Ok(false), |backing| backing.flag("backing"))?
-        {
-            return Ok(());
-        }
-        let [half, high, thick] = three(node, "size")?;
-        let mut at = three(node, "pos")?;
-        let side = node.get("wall_side").filter(|side| !side.is_null());
-        let side = side.map_or(Ok("back"), |side| side.text("wall_side"))?;
-        let (axis, sign, turn) = match side {
-            "left" => (0, -1.0, std::f64::consts::FRAC_PI_2),
-            "right" => (0, 1.0, std::f64::consts::FRAC_PI_2),
-            "front" => (1, -1.0, 0.0),
-            "back" => (1, 1.0, 0.0),
-            other => {
-                return Err(node.error(format!(
-                    "a wall is at the left, right, front or back of its room, not {other}"
-                )));
-            }
-        };
-        // Its surface is where it is said to be.
-        at[axis] += sign * thick;
-        let size = [half, thick, high].map(|half| 2.0 * half);
-        let fixture = Fixture {
-            name,
-            kind: Kind::Wall { is_foot: false },
-            size: self.checked(size, node)?,
-            at,
-            turn,
-            is_island: false,
-            is_covered: true,
-            base: 0.0,
-        };
-        self.add(fixture, &Group::default(), true);
-        Ok(())
-    }
-
-    fn floor(&mut self, node: &Node) -> Result<(), LayoutError> {
-        if node
-            .get("backing")
-            .map_or(Ok(false), |backing| backing.flag("backing"))?
-        {
-            return Ok(());
-        }
-        let [width, depth, _] = three(node, "size")?;
-        let [x, y, _] = three(node, "pos")?;
-        let floor = Rectangle::of([x - width, y - depth], [x + width, y + depth]);
-        self.layout.floors.push(floor);
-        Ok(())
-    }
-
     fn finish(mut self) -> Result<Layout, LayoutError> {
         let mut remarks = std::mem::take(&mut self.layout.remarks);
         if !self.unknown.is_empty() {
@@ -838,9 +508,8 @@ impl Reader {
             }
             let from = [0, 1].map(|axis| fixture.at[axis] - group.origin[axis]);
             let moved = turned(from, group.turn);
-            for axis in 0..2 {
-                fixture.at[axis] = moved[axis] + group.place[axis];
-            }
+            let [x, y] = [0, 1].map(|axis| moved[axis] + group.place[axis]);
+            fixture.at = [x, y, fixture.at[2]];
             fixture.turn = snapped(fixture.turn + group.turn);
             self.layout.fixtures.push(fixture);
         }
@@ -855,6 +524,7 @@ impl Reader {
                 on_nothing.push(name.to_owned());
             }
         }
+        remarks.append(&mut self.layout.remarks);
         if !on_nothing.is_empty() {
             let names = on_nothing.join(", ");
             remarks.push(format!(
@@ -902,128 +572,19 @@ impl Reader {
             }
         }
     }
+}
 
-    /// Puts something onto a counter; `false` if there is no such counter, or no room on it.
-    fn put_on_counter(&mut self, group: &str, node: &Node) -> Result<bool, LayoutError> {
-        let Some(placement) = node.get("placement") else {
-            return Ok(false);
-        };
-        let name = node
-            .get("name")
-            .map_or(Ok(""), |name| name.text("a name"))?;
-        let kind = node
-            .get("type")
-            .map_or(Ok(""), |kind| kind.text("a type"))?;
-        let size = self.size(kind, group, node)?;
-        let Some(below) = placement.get("fixture").filter(|below| !below.is_null()) else {
-            return Ok(false);
-        };
-        let text = below.text("the fixture of a placement")?;
-        let fixtures = self.layout.fixtures.iter();
-        let mut counters = fixtures.filter(|one| matches!(one.kind, Kind::Counter(_)));
-        let Some(counter) = counters.find(|counter| counter.name == text) else {
-            return Ok(false);
-        };
-        let rotation = placement.get("rotation").filter(|one| !one.is_null());
-        let rotation = match rotation.map(|one| one.items("a rotation")).transpose()? {
-            Some([low, .., high]) => (low.number("a rotation")? + high.number("a rotation")?) / 2.0,
-            _ => 0.0,
-        };
-        let mut fixture = Fixture {
-            name: format!("{name}_{group}"),
-            kind: Kind::Solid,
-            size,
-            at: [0.0; 3],
-            turn: snapped(rotation),
-            is_island: false,
-            is_covered: true,
-            base: 0.0,
-        };
-        let own = fixture.footprint();
-        let half = [0, 1].map(|axis| (own.high[axis] - own.low[axis]) / 2.0);
-        let free = [0, 1].map(|axis| (counter.size[axis] / 2.0 - half[axis] - 0.01).max(0.0));
-        // Beside what: the middle of that, seen from the counter.
-        let beside = placement
-            .get("sample_region_kwargs")
-            .and_then(|region| region.get("ref"));
-        let beside = match beside {
-            Some(other) => {
-                let text = other.text("a ref")?;
-                let full = format!("{text}_{group}");
-                let fixtures = self.layout.fixtures.iter();
-                let mut found = fixtures.filter(|one| {
-                    one.name == text || one.name == full || one.name == format!("{full}_1")
-                });
-                found.next().map(|other| {
-                    let away = [0, 1].map(|axis| other.at[axis] - counter.at[axis]);
-                    turned(away, -counter.turn)[0]
-                })
-            }
-            None => None,
-        };
-        let positions = placement.get("pos").filter(|one| !one.is_null());
-        let positions = positions.map_or(Ok(&[][..]), |one| one.items("a position"))?;
-        let share = |axis: usize| {
-            let given = positions.get(axis).filter(|one| !one.is_null());
-            let number = given.filter(|one| one.text("").is_ok_and(|text| text != "ref"));
-            number.map_or(Ok(None), |one| one.number("a position").map(Some))
-        };
-        let wanted = [
-            match (share(0)?, beside) {
-                (_, Some(beside)) => beside.clamp(-free[0], free[0]),
-                (Some(share), None) => share.clamp(-1.0, 1.0) * free[0],
-                (None, None) => 0.0,
-            },
-            share(1)?.unwrap_or(0.0).clamp(-1.0, 1.0) * free[1],
-        ];
-        let top = counter.size[2] / 2.0 + size[2] / 2.0;
-        // The nearest place along the counter where nothing else is.
-        let is_free = |local: [f64; 2]| {
-            let low = [0, 1].map(|axis| local[axis] - half[axis]);
-            let high = [0, 1].map(|axis| local[axis] + half[axis]);
-            let is_over_hole = match &counter.kind {
-                Kind::Counter(Counter {
-                    hole: Some([from, to]),
-                    ..
-                }) => (0..2).all(|axis| low[axis] < to[axis] && from[axis] < high[axis]),
-                _ => false,
-            };
-            let place = counter.area(low, high);
-            let height = counter.span()[1];
-            let mut others = self.layout.fixtures.iter();
-            !is_over_hole
-                && !others.any(|other| {
-                    let [low, high] = other.span();
-                    low < height + size[2]
-                        && high > height + 1e-3
-                        && other.footprint().overlaps(&place)
-                })
-        };
-        let steps = (0..=60).flat_map(|step| [1.0, -1.0].map(|sign| sign * 0.05 * f64::from(step)));
-        let mut places = steps
-            .map(|step| [wanted[0] + step, wanted[1]])
-            .filter(|place| place[0].abs() <= free[0] + 1e-9);
-        let Some([x, y]) = places.find(|place| is_free(*place)) else {
-            return Ok(false);
-        };
-        fixture.at = counter.point([x, y, top]);
-        fixture.turn = snapped(fixture.turn + counter.turn);
-        self.layout.fixtures.push(fixture);
-        Ok(true)
+/// A name of letters, digits and the like, which means the same in a URDF and as a symbol.
+fn plain<'n>(node: &'n Node, what: &str) -> Result<&'n str, LayoutError> {
+    let name = node.text(what)?;
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+    match !name.is_empty() && name.len() <= 100 && name.chars().all(is_plain) {
+        true => Ok(name),
+        false => Err(node.error(format!("{what} has up to 100 letters, digits, _ and -"))),
     }
 }
 
-/// Three numbers under a key.
-fn three(node: &Node, key: &str) -> Result<[f64; 3], LayoutError> {
-    let given = node.get(key);
-    let given = given.ok_or_else(|| node.error(format!("this has no {key}")))?;
-    match given.items(key)? {
-        [a, b, c] => Ok([a.number(key)?, b.number(key)?, c.number(key)?]),
-        _ => Err(given.error(format!("{key} has three numbers"))),
-    }
-}
-
-fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
+pub(super) fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
     if kind == "hinge_cabinet" {
         return Ok(Doors::Pair);
     }
@@ -1035,13 +596,13 @@ fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
     }
 }
 
-fn is_knob(node: &Node) -> Result<bool, LayoutError> {
+pub(super) fn is_knob(node: &Node) -> Result<bool, LayoutError> {
     let given = node.get("handle_type").filter(|given| !given.is_null());
     Ok(given.map_or(Ok(""), |given| given.text("handle_type"))? == "knob")
 }
 
 /// Where the handles of a panel are, if it says so.
-fn handle_place(config: Option<&Node>) -> Result<Option<HandlePlace>, LayoutError> {
+pub(super) fn handle_place(config: Option<&Node>) -> Result<Option<HandlePlace>, LayoutError> {
     let Some(given) = config.and_then(|config| config.get("handle_vpos")) else {
         return Ok(None);
     };
@@ -1053,36 +614,4 @@ fn handle_place(config: Option<&Node>) -> Result<Option<HandlePlace>, LayoutErro
             "a handle is at the bottom, center or top of its panel, not at {other}"
         ))),
     }
-}
-
-/// What a level of a stack is.
-fn level_kind(text: &str, config: Option<&Node>, node: &Node) -> Result<Kind, LayoutError> {
-    Ok(match text {
-        "drawer" => Kind::Drawer,
-        "single_cabinet" | "hinge_cabinet" => Kind::Cabinet {
-            doors: doors(text, config.unwrap_or(node))?,
-            handle: match config {
-                Some(config) => handle_place(config.get("panel_config"))?,
-                None => None,
-            }
-            .unwrap_or(HandlePlace::Top),
-            is_knob: config.map_or(Ok(false), is_knob)?,
-        },
-        "open_cabinet" => Kind::Shelves(2),
-        "panel_cabinet" => Kind::Panel,
-        "box" => Kind::Solid,
-        other => {
-            let known = [
-                "drawer",
-                "single_cabinet",
-                "hinge_cabinet",
-                "open_cabinet",
-                "panel_cabinet",
-                "box",
-            ];
-            let near = closest_name(other, known);
-            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            return Err(node.error(format!("{other} is no level of a stack{hint}")));
-        }
-    })
 }

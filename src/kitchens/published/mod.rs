@@ -9,10 +9,14 @@ mod furnish;
 mod house;
 mod layout;
 mod node;
+mod on_counters;
+mod placing;
 mod room;
 mod sizes;
+mod stack;
 #[cfg(test)]
 mod tests;
+mod walls;
 
 use std::fmt;
 use std::path::Path;

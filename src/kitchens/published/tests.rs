@@ -200,6 +200,10 @@ fn what_is_wrong_is_told_with_its_line() {
         "line 45: there is no type of fixtures fridge_bottom_freezr; did you mean fridge_bottom_freezer?"
     );
     assert_eq!(
+        change("name: fridge", "name: '<fridge>'"),
+        "line 45: the name of a fixture has up to 100 letters, digits, _ and -"
+    );
+    assert_eq!(
         change("percentages: [0.7, 0.3]", "percentages: [0.7]"),
         "line 52: a stack has as many percentages (1) as levels (2)"
     );
@@ -233,6 +237,58 @@ fn what_is_wrong_is_told_with_its_line() {
             "    - &a {name: sink, type: sink}\n    - *a"
         ),
         "line 34: a layout does not refer to other parts of itself (*name)"
+    );
+}
+
+#[test]
+fn furniture_of_any_size_and_name_is_a_kitchen_or_refused() {
+    let change = |from: &str, to: &str| {
+        assert!(LAYOUT.contains(from), "{from}");
+        Published::of_layout(&LAYOUT.replacen(from, to, 1))
+    };
+    // Nothing thinner than its boards has negative ones, and no handle is longer than its door.
+    for size in [
+        "[1.0, 0.4, 0.005]",
+        "[0.001, 0.001, 0.001]",
+        "[0.2, 0.03, 0.11]",
+    ] {
+        let kitchen = change("size: [1.0, 0.4, 0.92]", &format!("size: {size}")).unwrap();
+        let sizes = kitchen.urdf.split("<box size=\"").skip(1);
+        let sizes = sizes.filter_map(|rest| rest.split('"').next());
+        for edge in sizes.flat_map(|size| size.split(' ')) {
+            assert!(edge.parse::<f64>().unwrap() > 0.0, "{size}: {edge}");
+        }
+    }
+    // A fridge without room for a door has none.
+    let kitchen = change("offset: [0.01, 0, 0]", "size: [0.1, 0.1, 0.2]").unwrap();
+    assert!(
+        !kitchen.description.contains(":usual-joint"),
+        "{}",
+        kitchen.description
+    );
+    // The same name twice, also of what stands on a counter.
+    let mixer = "name: mixer\n      type: stand_mixer\n      enable: false";
+    let toaster =
+        "name: toaster\n      type: toaster\n      placement: {fixture: counter_main_group}";
+    let kitchen = change(mixer, toaster).unwrap();
+    assert!(
+        kitchen
+            .urdf
+            .contains("<link name=\"toaster_main_group_2\">")
+    );
+    let remark = "there are two of the name toaster_main_group, one is toaster_main_group_2";
+    assert!(
+        kitchen.remarks.iter().any(|one| one == remark),
+        "{:?}",
+        kitchen.remarks
+    );
+    // A part of one thing called like another thing.
+    let other = format!(
+        "{toaster}\nmain_group_main:\n  row:\n    - {{name: fridge, type: box, pos: [9, 9, 9]}}"
+    );
+    assert_eq!(
+        change(mixer, &other).unwrap_err().to_string(),
+        "two parts would have the name fridge_main_group_main: rename one"
     );
 }
 
@@ -278,7 +334,7 @@ fn every_layout_of_a_folder_is_read() {
         .map(|file| file.unwrap().path())
         .collect();
     files.sort();
-    let (mut read, mut count) = (0, 0);
+    let (mut read, mut count, mut table) = (0, 0, String::new());
     for file in files.iter().filter(|file| Simulator::of(file).is_some()) {
         count += 1;
         let name = file.file_stem().unwrap().display();
@@ -288,15 +344,16 @@ fn every_layout_of_a_folder_is_read() {
                 let links = kitchen.urdf.matches("<link ").count();
                 let drawers = kitchen.urdf.matches("\"prismatic\"").count();
                 let doors = kitchen.urdf.matches("\"revolute\"").count();
-                println!("{name}: {links} links, {drawers} drawers, {doors} doors");
+                table += &format!("{name}: {links} links, {drawers} drawers, {doors} doors\n");
                 for remark in &kitchen.remarks {
-                    println!("    {remark}");
+                    table += &format!("    {remark}\n");
                 }
             }
-            Err(error) => println!("{name}: {error}"),
+            Err(error) => table += &format!("{name}: {error}\n"),
         }
     }
-    println!("{read} of {count} are read");
+    table += &format!("{read} of {count} are read\n");
+    std::io::Write::write_all(&mut std::io::stdout(), table.as_bytes()).unwrap();
     assert_eq!(read, count);
 }
 

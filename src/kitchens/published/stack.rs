@@ -1,0 +1,127 @@
+//! Stacks of a layout: columns of drawers and cabinets on a base.
+
+use closest_name::closest_name;
+
+use super::LayoutError;
+use super::fixture::{Fixture, HandlePlace, Kind};
+use super::layout::{Group, Named, Reader, doors, handle_place, is_knob};
+use super::node::{Data, Node};
+
+/// Height (m) of the base of a stack.
+const BASE: f64 = 0.05;
+
+impl Reader {
+    /// A column of fixtures, on a base.
+    pub(super) fn stack(
+        &mut self,
+        name: &str,
+        group_name: &str,
+        group: &Group,
+        node: &Node,
+    ) -> Result<(), LayoutError> {
+        let given = node.get("size");
+        let given = given.ok_or_else(|| node.error("a stack has a size"))?;
+        let size = match given.items("a size")? {
+            [a, b, c] => [a, b, c].map(|one| one.number("the size of a stack")),
+            _ => return Err(given.error("a size has three numbers: width, depth, height")),
+        };
+        let [width, depth, height] = size;
+        let size = self.checked([width?, depth?, height?], given)?;
+        let [width, depth, height] = size;
+        let at = self.position(group_name, size, node)?;
+        let at = at.ok_or_else(|| node.error("this stack has no place: pos or align_to"))?;
+        let list = |key: &str| {
+            let list = node.get(key);
+            list.ok_or_else(|| node.error(format!("a stack has {key}")))?
+                .items(key)
+        };
+        let (levels, shares) = (list("levels")?, list("percentages")?);
+        if levels.len() != shares.len() {
+            return Err(node.error(format!(
+                "a stack has as many percentages ({}) as levels ({})",
+                shares.len(),
+                levels.len()
+            )));
+        }
+        let turn = self.own_turn(node)?;
+        let is_open = node
+            .get("open_top")
+            .map_or(Ok(false), |open| open.flag("open_top"))?;
+        let is_island = group_name.starts_with("island");
+        let low = at[2] - height / 2.0;
+        let (mut from, mut count) = (low, 0);
+        for (number, (level, share)) in levels.iter().zip(shares).enumerate() {
+            let tall = height * share.number("a percentage")?;
+            let parts: Vec<(&Node, f64, f64)> = match &level.data {
+                Data::List(halves) => match halves.as_slice() {
+                    [left, right] => vec![
+                        (left, -width / 4.0, width / 2.0),
+                        (right, width / 4.0, width / 2.0),
+                    ],
+                    _ => return Err(level.error("a level has one fixture or two")),
+                },
+                _ => vec![(level, 0.0, width)],
+            };
+            for (part, across, width) in parts {
+                let text = part.text("a level")?;
+                let config = node.get("configs").and_then(|configs| {
+                    let numbered = format!("{text}_{}", number + 1);
+                    configs.get(text).or_else(|| configs.get(&numbered))
+                });
+                count += 1;
+                let size = self.checked([width, depth, tall], node)?;
+                let fixture = Fixture {
+                    name: format!("{name}_{count}"),
+                    kind: level_kind(text, config, part)?,
+                    size,
+                    at: [at[0] + across, at[1], from + tall / 2.0],
+                    turn,
+                    is_island,
+                    is_covered: is_open || number + 1 < levels.len(),
+                    base: if number == 0 { BASE } else { 0.0 },
+                };
+                self.add(fixture, group, true);
+            }
+            from += tall;
+        }
+        let named = Named {
+            size,
+            at: Some(at),
+            fixture: None,
+        };
+        self.named.insert(name.to_owned(), named);
+        Ok(())
+    }
+}
+
+/// What a level of a stack is.
+fn level_kind(text: &str, config: Option<&Node>, node: &Node) -> Result<Kind, LayoutError> {
+    Ok(match text {
+        "drawer" => Kind::Drawer,
+        "single_cabinet" | "hinge_cabinet" => Kind::Cabinet {
+            doors: doors(text, config.unwrap_or(node))?,
+            handle: match config {
+                Some(config) => handle_place(config.get("panel_config"))?,
+                None => None,
+            }
+            .unwrap_or(HandlePlace::Top),
+            is_knob: config.map_or(Ok(false), is_knob)?,
+        },
+        "open_cabinet" => Kind::Shelves(2),
+        "panel_cabinet" => Kind::Panel,
+        "box" => Kind::Solid,
+        other => {
+            let known = [
+                "drawer",
+                "single_cabinet",
+                "hinge_cabinet",
+                "open_cabinet",
+                "panel_cabinet",
+                "box",
+            ];
+            let near = closest_name(other, known);
+            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
+            return Err(node.error(format!("{other} is no level of a stack{hint}")));
+        }
+    })
+}
