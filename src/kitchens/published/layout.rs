@@ -130,7 +130,7 @@ impl Layout {
     pub(super) fn read(root: &Node) -> Result<Self, LayoutError> {
         let mut reader = Reader::default();
         for (name, group) in root.entries("a layout")? {
-            reader.group(plain(name, "the name of a group")?, group)?;
+            reader.group(name.text("the name of a group")?, group)?;
         }
         reader.finish()
     }
@@ -192,7 +192,7 @@ impl Reader {
             let value = node.get(key);
             value.ok_or_else(|| node.error(format!("this fixture has no {key}")))
         };
-        let short = plain(want("name")?, "the name of a fixture")?;
+        let short = want("name")?.text("the name of a fixture")?;
         let name = format!("{short}_{group_name}");
         let kind = want("type")?.text("the type of a fixture")?;
         if let Some(enable) = node.get("enable")
@@ -574,16 +574,14 @@ impl Reader {
     }
 }
 
-/// A name of letters, digits and the like, which means the same in a URDF and as a symbol.
-fn plain<'n>(node: &'n Node, what: &str) -> Result<&'n str, LayoutError> {
-    let name = node.text(what)?;
+/// A name as it may stand in a URDF and as a symbol: with `_` for what is no letter, digit, `_` or `-`.
+pub(super) fn plain(name: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
-    match !name.is_empty() && name.len() <= 100 && name.chars().all(is_plain) {
-        true => Ok(name),
-        false => Err(node.error(format!("{what} has up to 100 letters, digits, _ and -"))),
-    }
+    let letters = name.chars().take(100);
+    letters
+        .map(|one| if is_plain(one) { one } else { '_' })
+        .collect()
 }
-
 pub(super) fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
     if kind == "hinge_cabinet" {
         return Ok(Doors::Pair);

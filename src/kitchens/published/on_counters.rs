@@ -2,7 +2,7 @@
 
 use super::LayoutError;
 use super::fixture::{Counter, Fixture, Kind, snapped, turned};
-use super::layout::Reader;
+use super::layout::{Reader, plain};
 use super::node::Node;
 
 impl Reader {
@@ -24,7 +24,7 @@ impl Reader {
         let text = below.text("the fixture of a placement")?;
         let fixtures = self.layout.fixtures.iter();
         let mut counters = fixtures.filter(|one| matches!(one.kind, Kind::Counter(_)));
-        let Some(counter) = counters.find(|counter| counter.name == text) else {
+        let Some(counter) = counters.find(|counter| counter.name == plain(text)) else {
             return Ok(false);
         };
         let rotation = placement.get("rotation").filter(|one| !one.is_null());
@@ -55,7 +55,7 @@ impl Reader {
                 let full = format!("{text}_{group}");
                 let fixtures = self.layout.fixtures.iter();
                 let mut found = fixtures.filter(|one| {
-                    one.name == text || one.name == full || one.name == format!("{full}_1")
+                    [plain(text), plain(&full), plain(&format!("{full}_1"))].contains(&one.name)
                 });
                 found.next().map(|other| {
                     let away = [0, 1].map(|axis| other.at[axis] - counter.at[axis]);
@@ -111,7 +111,7 @@ impl Reader {
         };
         fixture.at = counter.point([x, y, top]);
         fixture.turn = snapped(fixture.turn + counter.turn);
-        fixture.name = self.unique(&fixture.name);
+        fixture.name = self.unique(&plain(&fixture.name));
         self.layout.fixtures.push(fixture);
         Ok(true)
     }

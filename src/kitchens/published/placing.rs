@@ -2,7 +2,7 @@
 
 use super::LayoutError;
 use super::fixture::{Counter, Fixture, Kind, SIDES};
-use super::layout::{Group, Named, Reader};
+use super::layout::{Group, Named, Reader, plain};
 use super::node::Node;
 
 impl Reader {
@@ -127,7 +127,7 @@ impl Reader {
     pub(super) fn add(&mut self, mut fixture: Fixture, group: &Group, is_placed: bool) -> usize {
         let number = self.layout.fixtures.len();
         let name = fixture.name.clone();
-        fixture.name = self.unique(&name);
+        fixture.name = self.unique(&plain(&name));
         let named = Named {
             size: fixture.size,
             at: is_placed.then_some(fixture.at),
@@ -208,7 +208,8 @@ impl Reader {
         (fixture.at, fixture.size) = (at, size);
         (fixture.turn, fixture.is_island) = (turn, is_island);
         self.is_placed[number] = true;
-        if let Some(named) = self.named.get_mut(&fixture.name) {
+        let mut named = self.named.values_mut();
+        if let Some(named) = named.find(|named| named.fixture == Some(number)) {
             named.at = Some(at);
         }
     }

@@ -200,10 +200,6 @@ fn what_is_wrong_is_told_with_its_line() {
         "line 45: there is no type of fixtures fridge_bottom_freezr; did you mean fridge_bottom_freezer?"
     );
     assert_eq!(
-        change("name: fridge", "name: '<fridge>'"),
-        "line 45: the name of a fixture has up to 100 letters, digits, _ and -"
-    );
-    assert_eq!(
         change("percentages: [0.7, 0.3]", "percentages: [0.7]"),
         "line 52: a stack has as many percentages (1) as levels (2)"
     );
@@ -259,6 +255,13 @@ fn furniture_of_any_size_and_name_is_a_kitchen_or_refused() {
             assert!(edge.parse::<f64>().unwrap() > 0.0, "{size}: {edge}");
         }
     }
+    // Names of whatever characters.
+    let kitchen = change("name: fridge", "name: 'the <fridge> (\"big\")'").unwrap();
+    assert!(
+        kitchen
+            .urdf
+            .contains("<link name=\"the__fridge____big___main_group\">")
+    );
     // A fridge without room for a door has none.
     let kitchen = change("offset: [0.01, 0, 0]", "size: [0.1, 0.1, 0.2]").unwrap();
     assert!(
