@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::LayoutError;
 use super::fixture::{Counter, Fixture, Fridge, Kind, snapped};
-use super::layout::Layout;
+use super::layout::{Layout, plain};
 use crate::floor::Rectangle;
 
 /// Depth (m) of a row of counters in a corner.
@@ -319,7 +319,7 @@ impl Reader {
             })
             .collect();
         let name = format!("{name}_{}", thing.id);
-        let name = name.replace(|letter: char| !letter.is_ascii_alphanumeric(), "_");
+        let name = plain(&name);
         let solid_counter = Counter {
             hollow: [false; 2],
             opening: [false; 2],

@@ -574,13 +574,15 @@ impl Reader {
     }
 }
 
-/// A name as it may stand in a URDF and as a symbol: with `_` for what is no letter, digit, `_` or `-`.
+/// A name as it may stand in a URDF and as a symbol: with `_` for what is no letter, digit, `_` or `-`, and before what might
+/// be a number.
 pub(super) fn plain(name: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-".contains(letter);
+    let begins_well = name.starts_with(|letter: char| letter.is_ascii_alphabetic());
+    let before = (!begins_well).then_some('_');
     let letters = name.chars().take(100);
-    letters
-        .map(|one| if is_plain(one) { one } else { '_' })
-        .collect()
+    let letters = letters.map(|one| if is_plain(one) { one } else { '_' });
+    before.into_iter().chain(letters).collect()
 }
 pub(super) fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
     if kind == "hinge_cabinet" {

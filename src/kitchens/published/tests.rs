@@ -262,6 +262,14 @@ fn furniture_of_any_size_and_name_is_a_kitchen_or_refused() {
             .urdf
             .contains("<link name=\"the__fridge____big___main_group\">")
     );
+    let kitchen = change("name: stack_2", "name: 1e").unwrap();
+    assert!(
+        kitchen
+            .description
+            .contains("(place cutlery-drawer :in _1e_main_group_3_main :side back)"),
+        "{}",
+        kitchen.description
+    );
     // A fridge without room for a door has none.
     let kitchen = change("offset: [0.01, 0, 0]", "size: [0.1, 0.1, 0.2]").unwrap();
     assert!(
