@@ -44,12 +44,14 @@ impl Rectangle {
 
     /// Distance (m) of a point.
     pub(crate) fn distance(&self, point: [f64; 2]) -> f64 {
-        let [x, y] = [0, 1].map(|i| {
-            (self.low[i] - point[i])
-                .max(point[i] - self.high[i])
-                .max(0.0)
-        });
-        (x * x + y * y).sqrt()
+        self.squared_distance(point).sqrt()
+    }
+
+    /// Its square.
+    fn squared_distance(&self, [px, py]: [f64; 2]) -> f64 {
+        let x = (self.low[0] - px).max(px - self.high[0]).max(0.0);
+        let y = (self.low[1] - py).max(py - self.high[1]).max(0.0);
+        x * x + y * y
     }
 }
 
@@ -79,10 +81,10 @@ impl Floor {
         for cell in 0..size[0] * size[1] {
             let point = floor.point(cell);
             let walls = (0..2).map(|i| (point[i] - room.low[i]).min(room.high[i] - point[i]));
-            let others = obstacles.iter().map(|one| one.distance(point));
-            floor
-                .clear
-                .push(walls.chain(others).fold(f64::INFINITY, f64::min));
+            let nearest = obstacles.iter().fold(f64::INFINITY, |nearest, one| {
+                nearest.min(one.squared_distance(point))
+            });
+            floor.clear.push(walls.fold(nearest.sqrt(), f64::min));
         }
         floor
     }
@@ -100,6 +102,11 @@ impl Floor {
         let cells = self.clear.iter().copied().enumerate();
         let best = cells.reduce(|best, one| if one.1 > best.1 { one } else { best })?;
         Some((self.point(best.0), best.1))
+    }
+
+    /// Forgets where a robot gets.
+    pub(crate) fn forget(&mut self) {
+        self.reached.fill(false);
     }
 
     /// Finds out where a robot gets from a point if it needs so much room (m) to all sides.
@@ -129,17 +136,27 @@ impl Floor {
         }
     }
 
+    /// The cells whose middles are in a rectangle.
+    fn cells_in(&self, place: &Rectangle) -> impl Iterator<Item = usize> {
+        let [columns, rows] = [0, 1].map(|i| {
+            let cell = |at: f64| ((at - self.low[i]) / CELL).max(0.0);
+            let from = (cell(place.low[i]) as usize).saturating_sub(1);
+            let to = (cell(place.high[i]) as usize).saturating_add(2);
+            from..to.min(self.size[i])
+        });
+        let cells = rows.flat_map(move |y| columns.clone().map(move |x| y * self.size[0] + x));
+        cells.filter(|cell| place.distance(self.point(*cell)) == 0.0)
+    }
+
     /// Whether a robot gets to some point of a rectangle.
     pub(crate) fn gets_to(&self, place: &Rectangle) -> bool {
-        (0..self.reached.len())
-            .any(|cell| self.reached[cell] && place.distance(self.point(cell)) == 0.0)
+        self.cells_in(place).any(|cell| self.reached[cell])
     }
 
     /// A point of a rectangle, the one with the most room, where a robot can stand that needs so much room (m) to all sides.
     pub(crate) fn free_in(&self, place: &Rectangle, room: f64) -> Option<[f64; 2]> {
-        let cells = (0..self.clear.len()).filter(|cell| self.clear[*cell] >= room);
-        let inside = cells.filter(|cell| place.distance(self.point(*cell)) == 0.0);
-        self.widest_of(inside)
+        let cells = self.cells_in(place);
+        self.widest_of(cells.filter(|cell| self.clear[*cell] >= room))
     }
 
     /// The point with the most room where a robot gets.

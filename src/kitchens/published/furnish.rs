@@ -698,22 +698,24 @@ impl Maker {
 
     /// Which fixtures overlap by more than a millimetre, in words.
     fn overlaps(&self, fixtures: &[Fixture]) -> Option<String> {
+        let mut of_each: Vec<Vec<&Solid>> = fixtures.iter().map(|_| Vec::new()).collect();
+        for solid in &self.solids {
+            of_each[solid.fixture].push(solid);
+        }
         let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
-        for (number, one) in self.solids.iter().enumerate() {
-            for other in &self.solids[number + 1..] {
-                if one.fixture == other.fixture {
-                    continue;
-                }
-                let depths = [0, 1, 2]
-                    .map(|i| one.high[i].min(other.high[i]) - one.low[i].max(other.low[i]));
-                let depth = depths.into_iter().fold(f64::INFINITY, f64::min);
-                if depth <= 1e-3 {
-                    continue;
-                }
-                let pair = [one.fixture, other.fixture];
-                match pairs.iter_mut().find(|(_, known)| *known == pair) {
-                    Some((deepest, _)) => *deepest = deepest.max(depth),
-                    None => pairs.push((depth, pair)),
+        for one in 0..fixtures.len() {
+            for other in one + 1..fixtures.len() {
+                let solids = of_each[one]
+                    .iter()
+                    .flat_map(|a| of_each[other].iter().map(move |b| (a, b)));
+                let depths = solids.map(|(a, b)| {
+                    let depths =
+                        [0, 1, 2].map(|i| a.high[i].min(b.high[i]) - a.low[i].max(b.low[i]));
+                    depths.into_iter().fold(f64::INFINITY, f64::min)
+                });
+                let deepest = depths.fold(0.0, f64::max);
+                if deepest > 1e-3 {
+                    pairs.push((deepest, [one, other]));
                 }
             }
         }

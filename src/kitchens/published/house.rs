@@ -20,7 +20,7 @@ const WALL: f64 = 0.06;
 /// Greatest coordinate (m).
 const FAR: f64 = 200.0;
 /// Maximum number of walls, and of objects.
-const MOST: usize = 5000;
+const MOST: usize = 1000;
 
 #[derive(Deserialize)]
 struct House {
@@ -282,6 +282,12 @@ impl Reader {
         assets: &BTreeMap<String, Asset>,
         is_on_floor: bool,
     ) -> Result<(), LayoutError> {
+        if self.layout.fixtures.len() > 2 * MOST {
+            return Err(LayoutError::whole(format!(
+                "a kitchen has fewer things than {}",
+                2 * MOST
+            )));
+        }
         let Some(asset) = assets.get(&thing.asset_id) else {
             self.unknown.insert(thing.asset_id.clone());
             return self.children(thing, assets);

@@ -78,7 +78,7 @@ const FRONT: f64 = 0.015;
 /// Least distance (m) of a sink to the end of its counter.
 const SINK_GAP: f64 = 0.02;
 /// Maximum number of fixtures.
-const MAX_FIXTURES: usize = 2000;
+const MAX_FIXTURES: usize = 1000;
 
 /// All that stands in a layout.
 #[derive(Clone, Debug, Default)]
@@ -213,7 +213,7 @@ impl Reader {
         if LIDS.contains(&kind) {
             return Ok(());
         }
-        if self.layout.fixtures.len() >= MAX_FIXTURES {
+        if self.layout.fixtures.len() + self.on_counters.len() >= MAX_FIXTURES {
             return Err(node.error(format!("a layout has at most {MAX_FIXTURES} fixtures")));
         }
         match kind {

@@ -41,7 +41,7 @@ impl Room {
         };
         let around = rooms.into_iter().reduce(|around, one| around.with(&one))?;
         let size = [0, 1].map(|i| around.high[i] - around.low[i]);
-        if size.iter().any(|length| !(0.5..=60.0).contains(length)) {
+        if size.iter().any(|length| !(0.5..=30.0).contains(length)) {
             return None;
         }
         let mut floor = Floor::new(&around, &obstacles);
@@ -69,7 +69,7 @@ impl Room {
             }
         }
         let (_, from) = best?;
-        let mut floor = Floor::new(&around, &obstacles);
+        floor.forget();
         floor.explore(from, WAY);
         let cut_off = fronts
             .iter()

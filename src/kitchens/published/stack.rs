@@ -9,6 +9,8 @@ use super::node::{Data, Node};
 
 /// Height (m) of the base of a stack.
 const BASE: f64 = 0.05;
+/// Maximum number of levels.
+const MAX_LEVELS: usize = 20;
 
 impl Reader {
     /// A column of fixtures, on a base.
@@ -42,6 +44,9 @@ impl Reader {
                 shares.len(),
                 levels.len()
             )));
+        }
+        if levels.len() > MAX_LEVELS {
+            return Err(node.error(format!("a stack has at most {MAX_LEVELS} levels")));
         }
         let turn = self.own_turn(node)?;
         let is_open = node

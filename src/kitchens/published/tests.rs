@@ -304,6 +304,38 @@ fn furniture_of_any_size_and_name_is_a_kitchen_or_refused() {
 }
 
 #[test]
+fn a_thousand_fixtures_in_one_place_take_no_time_to_speak_of() {
+    let mut text = LAYOUT.to_owned();
+    text += "heap_group:\n  row:\n";
+    for number in 0..900 {
+        text += &format!(
+            "    - {{name: cab_{number}, type: hinge_cabinet, pos: [2, -2.8, 0.5], size: [0.8, 0.6, 0.9]}}\n"
+        );
+    }
+    let text = text.replace("size: [2.0, 2.0, 0.02]", "size: [9, 9, 0.02]");
+    let begin = std::time::Instant::now();
+    let kitchen = Published::of_layout(&text).unwrap();
+    assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
+    assert!(
+        kitchen
+            .remarks
+            .iter()
+            .any(|remark| remark.contains("other pairs")),
+        "{:?}",
+        kitchen.remarks
+    );
+    let more = format!(
+        "{text}{}",
+        text.split_once("heap_group")
+            .unwrap()
+            .1
+            .replace(":\n  row", "more_group:\n  row")
+    );
+    let error = Published::of_layout(&more).unwrap_err();
+    assert_eq!(error.text, "a layout has at most 1000 fixtures");
+}
+
+#[test]
 fn what_is_no_layout_is_refused() {
     let error = |text: &str| Published::of_layout(text).unwrap_err().to_string();
     assert_eq!(error(""), "the file is empty");

@@ -37,6 +37,9 @@ pub fn sentence(report: impl std::fmt::Display) -> String {
     text
 }
 
+/// How many keys are named, where another one is given.
+const NAMED_KEYS: usize = 12;
+
 impl Raise {
     /// A condition of a class with a report.
     pub fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
@@ -95,14 +98,26 @@ impl Raise {
         Raise::new(known::SIMPLE_PROGRAM_ERROR, report)
     }
 
-    /// A call with a keyword argument that the function does not have; `shown` is its name as it is
+    /// A call with a keyword argument that the function does not have; says which there are, or which is meant; `shown` is its name as it is
     /// printed, `known` are the names of those that there are.
     pub fn unknown_key<'a>(shown: &str, known: impl IntoIterator<Item = &'a str>) -> Box<Raise> {
-        let mut report = format!("Unknown &KEY argument: {shown}");
-        if let Some(near) = closest_name(shown.trim_start_matches(':'), known) {
-            report.push_str(&format!("; did you mean :{near}?"));
-        }
-        Raise::program(report)
+        let known: Vec<&str> = known.into_iter().collect();
+        let near = closest_name(shown.trim_start_matches(':'), known.iter().copied());
+        let hint = match (near, known.is_empty()) {
+            (Some(near), _) => format!("; did you mean :{near}?"),
+            (None, true) => String::new(),
+            (None, false) => {
+                let named = known.iter().take(NAMED_KEYS);
+                let named: Vec<String> = named.map(|key| format!(":{key}")).collect();
+                let rest = if known.len() > NAMED_KEYS {
+                    ", …"
+                } else {
+                    ""
+                };
+                format!("; there are {}{rest}", named.join(", "))
+            }
+        };
+        Raise::program(format!("Unknown &KEY argument: {shown}{hint}"))
     }
 
     /// A `TYPE-ERROR`: `datum` is not of type `expected` (a type specifier).
