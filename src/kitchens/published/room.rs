@@ -53,12 +53,12 @@ impl Room {
         // The part of the floor from which most is used.
         let mut best: Option<(usize, [f64; 2])> = None;
         for stand in fronts.iter().flat_map(|(_, stands)| stands) {
-            let Some(from) = floor.free_in(stand, WAY) else {
+            // Not once more the part that was explored last.
+            let from = floor.free_in(stand, WAY).filter(|_| !floor.gets_to(stand));
+            let Some(from) = from else {
                 continue;
             };
-            if floor.gets_to(stand) {
-                continue;
-            }
+            floor.forget();
             floor.explore(from, WAY);
             let count = fronts
                 .iter()

@@ -304,6 +304,29 @@ fn furniture_of_any_size_and_name_is_a_kitchen_or_refused() {
 }
 
 #[test]
+fn the_robot_starts_where_it_gets_to_most() {
+    // Behind a wall there is another room, with one counter, which comes last.
+    let behind = "
+other_group:
+  wall:
+    - {name: middle, type: wall, size: [2, 1.5, 0.02], pos: [2, -4, 1.5]}
+  floor:
+    - {name: other, type: floor, size: [2, 1.5, 0.02], pos: [2, -5.5, 0]}
+  row:
+    - {name: counter, type: counter, size: [1.4, 0.6, 0.92], pos: [2, -6.5, 0.46]}
+";
+    let kitchen = Published::of_layout(&format!("{LAYOUT}{behind}")).unwrap();
+    let start = joint_of(&kitchen, "room");
+    assert!((0.0..4.0).contains(&start[1]), "{start:?}");
+    let remark = "the robot does not get to counter_other_group";
+    assert!(
+        kitchen.remarks.iter().any(|one| one == remark),
+        "{:?}",
+        kitchen.remarks
+    );
+}
+
+#[test]
 fn a_thousand_fixtures_in_one_place_take_no_time_to_speak_of() {
     let mut text = LAYOUT.to_owned();
     text += "heap_group:\n  row:\n";
