@@ -72,7 +72,7 @@ pub(super) enum Kind {
 }
 
 /// A counter. Its parts are named as one sees them who stands at its front.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Counter {
     /// Whether it lacks a base at the back and at the front, where cabinets stand below it.
     pub(super) hollow: [bool; 2],
@@ -109,6 +109,20 @@ pub(super) struct Fixture {
 }
 
 impl Fixture {
+    /// One that belongs to no island, stands on no base, and has nothing above it.
+    pub(super) fn new(name: String, kind: Kind, size: [f64; 3], at: [f64; 3], turn: f64) -> Self {
+        Self {
+            name,
+            kind,
+            size,
+            at,
+            turn,
+            is_island: false,
+            is_covered: false,
+            base: 0.0,
+        }
+    }
+
     /// A point of the room, from one of its own: to the right, to the back, up from its middle (m).
     pub(super) fn point(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [x, y] = turned([x, y], self.turn);

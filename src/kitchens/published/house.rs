@@ -19,7 +19,7 @@ const DEPTH: f64 = 0.61;
 const WALL: f64 = 0.06;
 /// Greatest coordinate (m).
 const FAR: f64 = 200.0;
-/// Maximum number of walls, and of objects.
+/// Maximum numbers of walls, of doors and of objects.
 const MOST: usize = 1000;
 
 #[derive(Deserialize)]
@@ -130,9 +130,10 @@ struct Reader {
 impl Reader {
     fn new(house: &House) -> Result<Self, LayoutError> {
         let mut reader = Self::default();
-        if house.walls.len() > MOST || house.objects.len() > MOST {
+        let counts = [house.walls.len(), house.doors.len(), house.objects.len()];
+        if counts.iter().any(|count| *count > MOST) {
             return Err(LayoutError::whole(format!(
-                "a house has at most {MOST} walls and {MOST} objects"
+                "a house has at most {MOST} walls, doors and objects each"
             )));
         }
         for room in house
@@ -191,7 +192,7 @@ impl Reader {
             }
         };
         tell(
-            "what can be picked up is left out: spawn such things",
+            "what can be picked up is left out, and may be spawned",
             &self.picked_up,
         );
         tell("what hangs on walls is left out", &self.on_walls);
@@ -211,7 +212,9 @@ impl Reader {
         Ok(self.layout)
     }
 
+    /// Adds the walls, with holes for doors.
     fn walls(&mut self, house: &House) -> Result<(), LayoutError> {
+        let doorways = doorways(house)?;
         // Each wall is there for every room beside it, and once for the outside.
         let mut known: BTreeSet<[i64; 4]> = BTreeSet::new();
         let mut count = 0;
@@ -249,24 +252,19 @@ impl Reader {
                     return;
                 }
                 let middle = (low + high) / 2.0;
-                self.layout.fixtures.push(Fixture {
-                    name: format!("wall_{count}_{number}"),
-                    kind: Kind::Wall { is_foot: false },
-                    size: [high - low, WALL, head - foot],
-                    at: [
-                        from[0] + along[0] * middle + across[0] * outside,
-                        from[1] + along[1] * middle + across[1] * outside,
-                        (foot + head) / 2.0,
-                    ],
-                    turn,
-                    is_island: false,
-                    is_covered: true,
-                    base: 0.0,
-                });
+                let name = format!("wall_{count}_{number}");
+                let size = [high - low, WALL, head - foot];
+                let at = [
+                    from[0] + along[0] * middle + across[0] * outside,
+                    from[1] + along[1] * middle + across[1] * outside,
+                    (foot + head) / 2.0,
+                ];
+                let wall = Fixture::new(name, Kind::Wall { is_foot: false }, size, at, turn);
+                self.layout.fixtures.push(wall);
             };
             let mut at = 0.0;
             let mut number = 1;
-            for [low, high, head] in holes(house, wall, from, to, length)? {
+            for [low, high, head] in holes(&doorways, [from, to], length) {
                 part(at, low, 0.0, top[2], number);
                 part(low, high, head, top[2], number + 1);
                 (at, number) = (high, number + 2);
@@ -276,6 +274,7 @@ impl Reader {
         Ok(())
     }
 
+    /// Adds an object, and what is on it.
     fn thing(
         &mut self,
         thing: &Thing,
@@ -326,32 +325,18 @@ impl Reader {
             .collect();
         let name = format!("{name}_{}", thing.id);
         let name = plain(&name);
-        let solid_counter = Counter {
-            hollow: [false; 2],
-            opening: [false; 2],
-            half: [false; 2],
-            overhang: 0.0,
-            is_filled: false,
-            hole: None,
+        let kind = match asset.object_type.as_str() {
+            "CounterTop" => Kind::Counter(Counter::default()),
+            "Fridge" => Kind::Fridge(Fridge::BottomFreezer),
+            "Microwave" => Kind::Microwave,
+            "DiningTable" | "SideTable" | "CoffeeTable" | "Desk" => Kind::OnLegs { is_table: true },
+            "Stool" => Kind::OnLegs { is_table: false },
+            _ => Kind::Solid,
         };
+        let turn = snapped(std::f64::consts::PI - turn.rem_euclid(360.0).to_radians());
         let fixture = Fixture {
-            name,
-            kind: match asset.object_type.as_str() {
-                "CounterTop" => Kind::Counter(solid_counter),
-                "Fridge" => Kind::Fridge(Fridge::BottomFreezer),
-                "Microwave" => Kind::Microwave,
-                "DiningTable" | "SideTable" | "CoffeeTable" | "Desk" => {
-                    Kind::OnLegs { is_table: true }
-                }
-                "Stool" => Kind::OnLegs { is_table: false },
-                _ => Kind::Solid,
-            },
-            size: [width, depth, height],
-            at: [x, y, z],
-            turn: snapped(std::f64::consts::PI - turn.rem_euclid(360.0).to_radians()),
             is_island: thing.asset_id.contains("_Island_"),
-            is_covered: true,
-            base: 0.0,
+            ..Fixture::new(name, kind, [width, depth, height], [x, y, z], turn)
         };
         let is_around_corner = ["_C_", "_L_"]
             .iter()
@@ -465,48 +450,68 @@ fn ends(wall: &Wall) -> Result<Option<[[f64; 3]; 3]>, LayoutError> {
     Ok(Some([first, last.unwrap_or(first), top.unwrap_or(first)]))
 }
 
-/// The doorways in a wall, in their order along it from one end to the other: where each begins and ends, and its height.
-fn holes(
-    house: &House,
-    wall: &Wall,
-    from: [f64; 3],
-    to: [f64; 3],
-    length: f64,
-) -> Result<Vec<[f64; 3]>, LayoutError> {
-    let is_near = |a: [f64; 3], b: [f64; 3]| (0..2).all(|axis| (a[axis] - b[axis]).abs() < 0.02);
-    let mut holes = Vec::new();
+/// A hole in a wall for a door.
+struct Doorway {
+    /// The ends of the wall (m).
+    wall: [[f64; 3]; 2],
+    /// Where it begins and ends along the wall from its first end, and its height (m).
+    hole: [f64; 3],
+}
+
+/// All doorways of a house.
+fn doorways(house: &House) -> Result<Vec<Doorway>, LayoutError> {
+    let walls: BTreeMap<&str, &Wall> = house
+        .walls
+        .iter()
+        .map(|one| (one.id.as_str(), one))
+        .collect();
+    let mut doorways = Vec::new();
     for door in &house.doors {
-        let Some(its) = house.walls.iter().find(|other| other.id == door.wall0) else {
+        let Some(wall) = walls.get(door.wall0.as_str()) else {
             continue;
         };
-        let Some([start, end, _]) = ends(its)? else {
+        let Some([start, end, _]) = ends(wall)? else {
             continue;
         };
-        let is_reversed = is_near(start, to) && is_near(end, from);
-        if its.id != wall.id && !is_reversed && !(is_near(start, from) && is_near(end, to)) {
-            continue;
-        }
         let corners = match &door.bounding_box {
             Some(corners) => vec![corners.min, corners.max],
             None => door.hole_polygon.clone(),
         };
-        let corners = corners
-            .into_iter()
-            .map(place)
-            .collect::<Result<Vec<_>, _>>()?;
-        let along = corners.iter().map(|corner| corner[0]);
-        let low = along.clone().fold(f64::INFINITY, f64::min).max(0.0);
-        let high = along.fold(f64::NEG_INFINITY, f64::max).min(length);
-        let head = corners.iter().map(|corner| corner[2]).fold(0.0, f64::max);
-        if high > low {
-            holes.push(match is_reversed {
-                true => [length - high, length - low, head],
-                false => [low, high, head],
-            });
-        }
+        let corners = corners.into_iter().map(place);
+        let corners = corners.collect::<Result<Vec<_>, _>>()?;
+        let along = || corners.iter().map(|corner| corner[0]);
+        doorways.push(Doorway {
+            wall: [start, end],
+            hole: [
+                along().fold(f64::INFINITY, f64::min),
+                along().fold(f64::NEG_INFINITY, f64::max),
+                corners.iter().map(|corner| corner[2]).fold(0.0, f64::max),
+            ],
+        });
     }
+    Ok(doorways)
+}
+
+/// The holes in a wall of some length (m) from one end to the other, in their order, as in [`Doorway`].
+fn holes(doorways: &[Doorway], [from, to]: [[f64; 3]; 2], length: f64) -> Vec<[f64; 3]> {
+    let is_near = |a: [f64; 3], b: [f64; 3]| (0..2).all(|axis| (a[axis] - b[axis]).abs() < 0.02);
+    let holes = doorways.iter().filter_map(|doorway| {
+        let [start, end] = doorway.wall;
+        let [low, high, head] = doorway.hole;
+        // The same wall may begin at its other end for the room at its other side.
+        let [low, high] = if is_near(start, from) && is_near(end, to) {
+            [low, high]
+        } else if is_near(start, to) && is_near(end, from) {
+            [length - high, length - low]
+        } else {
+            return None;
+        };
+        let [low, high] = [low.max(0.0), high.min(length)];
+        (high > low).then_some([low, high, head])
+    });
+    let mut holes: Vec<[f64; 3]> = holes.collect();
     holes.sort_by(|a, b| a[0].total_cmp(&b[0]));
     // Two doors in the same place are one.
     holes.dedup_by(|next, hole| next[0] < hole[1]);
-    Ok(holes)
+    holes
 }

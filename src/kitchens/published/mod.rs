@@ -4,12 +4,15 @@
 //! Such files say what stands where and how large it is; what it looks like is in meshes that only their
 //! simulators have. Here it consists of boxes, with drawers, doors and handles as in generated kitchens.
 
+mod appliances;
+mod cabinets;
 mod fixture;
 mod furnish;
 mod house;
 mod layout;
 mod node;
 mod on_counters;
+mod overlaps;
 mod placing;
 mod room;
 mod sizes;

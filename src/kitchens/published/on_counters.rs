@@ -32,16 +32,8 @@ impl Reader {
             Some([low, .., high]) => (low.number("a rotation")? + high.number("a rotation")?) / 2.0,
             _ => 0.0,
         };
-        let mut fixture = Fixture {
-            name: format!("{name}_{group}"),
-            kind: Kind::Solid,
-            size,
-            at: [0.0; 3],
-            turn: snapped(rotation),
-            is_island: false,
-            is_covered: true,
-            base: 0.0,
-        };
+        let name = format!("{name}_{group}");
+        let mut fixture = Fixture::new(name, Kind::Solid, size, [0.0; 3], snapped(rotation));
         let own = fixture.footprint();
         let half = [0, 1].map(|axis| (own.high[axis] - own.low[axis]) / 2.0);
         let free = [0, 1].map(|axis| (counter.size[axis] / 2.0 - half[axis] - 0.01).max(0.0));

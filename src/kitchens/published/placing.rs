@@ -103,6 +103,7 @@ impl Reader {
         Ok(place)
     }
 
+    /// By how much a fixture is turned in its group (rad).
     pub(super) fn own_turn(&self, node: &Node) -> Result<f64, LayoutError> {
         let turn = node.get("z_rot").filter(|turn| !turn.is_null());
         turn.map_or(Ok(0.0), |turn| turn.number("z_rot"))
@@ -140,6 +141,7 @@ impl Reader {
         number
     }
 
+    /// Adds a fixture, with what is inside of it.
     pub(super) fn place(
         &mut self,
         [name, group_name]: [&str; 2],
@@ -157,15 +159,10 @@ impl Reader {
             Kind::Counter(_) | Kind::Housing(_) => self.interior(group_name, node)?,
             _ => None,
         };
+        let turn = self.own_turn(node)?;
         let fixture = Fixture {
-            name: name.to_owned(),
-            kind,
-            size,
-            at: at.unwrap_or_default(),
-            turn: self.own_turn(node)?,
             is_island: group_name.starts_with("island"),
-            is_covered: false,
-            base: 0.0,
+            ..Fixture::new(name.to_owned(), kind, size, at.unwrap_or_default(), turn)
         };
         let number = self.add(fixture, group, at.is_some());
         if let (Some(inner), true) = (inner, at.is_some()) {

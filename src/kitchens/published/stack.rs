@@ -75,15 +75,13 @@ impl Reader {
                 });
                 count += 1;
                 let size = self.checked([width, depth, tall], node)?;
+                let kind = level_kind(text, config, part)?;
+                let place = [at[0] + across, at[1], from + tall / 2.0];
                 let fixture = Fixture {
-                    name: format!("{name}_{count}"),
-                    kind: level_kind(text, config, part)?,
-                    size,
-                    at: [at[0] + across, at[1], from + tall / 2.0],
-                    turn,
                     is_island,
                     is_covered: is_open || number + 1 < levels.len(),
                     base: if number == 0 { BASE } else { 0.0 },
+                    ..Fixture::new(format!("{name}_{count}"), kind, size, place, turn)
                 };
                 self.add(fixture, group, true);
             }

@@ -512,7 +512,7 @@ fn what_stands_in_the_kitchen_of_a_house_stands_there() {
     assert_eq!(
         kitchen.remarks,
         [
-            "what can be picked up is left out: spawn such things: Mug",
+            "what can be picked up is left out, and may be spawned: Mug",
             "what hangs on walls is left out: Painting",
             "what the database of assets does not know is left out: Nobody_Knows_1",
             "counters around a corner are taken to stand along the walls",

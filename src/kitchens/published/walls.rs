@@ -36,16 +36,8 @@ impl Reader {
         // Its surface is where it is said to be.
         at[axis] += sign * thick;
         let size = [half, thick, high].map(|half| 2.0 * half);
-        let fixture = Fixture {
-            name,
-            kind: Kind::Wall { is_foot: false },
-            size: self.checked(size, node)?,
-            at,
-            turn,
-            is_island: false,
-            is_covered: true,
-            base: 0.0,
-        };
+        let size = self.checked(size, node)?;
+        let fixture = Fixture::new(name, Kind::Wall { is_foot: false }, size, at, turn);
         self.add(fixture, &Group::default(), true);
         Ok(())
     }
