@@ -48,9 +48,9 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             None => options.robot.as_deref().map(read_robot).transpose()?,
         },
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
-        world: match (generated, published) {
-            (Some(_), _) | (_, Some(_)) => None,
-            _ => options.world.as_deref().map(read_urdf).transpose()?,
+        world: match generated.is_some() || published.is_some() {
+            true => None,
+            false => options.world.as_deref().map(read_urdf).transpose()?,
         },
         world_description: world_description(options)
             .as_deref()

@@ -201,7 +201,7 @@ impl Maker {
         let is_open = counter.opening[0] || counter.opening[1];
         if tall > 0.01 {
             if is_open {
-                // Two ends carry it, with a panel between them, in the middle: half of the depth is for legs.
+                // Two ends carry it, with a panel between them in the middle: half of the depth is for legs, the other half for cabinets.
                 let end = 0.1_f64.min(width / 4.0);
                 for side in [-1.0, 1.0] {
                     blocks.push((
@@ -212,6 +212,13 @@ impl Maker {
                 }
                 let size = [WALL, width - 2.0 * end, tall];
                 blocks.push(([0.0, 0.0, under], size, "front"));
+                if !counter.is_filled {
+                    let closed = match counter.opening[0] {
+                        true => -front + WALL / 2.0,
+                        false => edge - WALL / 2.0,
+                    };
+                    blocks.push(([closed, 0.0, under], size, "front"));
+                }
             } else if !counter.hollow[0] && !counter.hollow[1] {
                 let size = [edge + front, width, tall];
                 blocks.push(([(edge - front) / 2.0, 0.0, under], size, "front"));

@@ -8,9 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use closest_name::closest_name;
 
 use super::LayoutError;
-use super::fixture::{Counter, Doors, Fixture, Fridge, HandlePlace, Kind, snapped, turned};
-use super::node::{Data, Node};
-use super::sizes::usual_size;
+use super::fixture::{Fixture, Kind, snapped, turned};
+use super::node::Node;
 use crate::floor::Rectangle;
 
 /// Types that hang on walls and are left out, with what several of them are called.
@@ -72,11 +71,6 @@ const KEYS: [&str; 44] = [
     "aux_fixture_config",
     "handle_config",
 ];
-/// How far (m) tops of counters stand out, and what a front takes besides, where a sink is let in.
-const OVERHANG: f64 = 0.05;
-const FRONT: f64 = 0.015;
-/// Least distance (m) of a sink to the end of its counter.
-const SINK_GAP: f64 = 0.02;
 /// Maximum number of fixtures.
 const MAX_FIXTURES: usize = 1000;
 
@@ -107,9 +101,11 @@ pub(super) struct Named {
     pub(super) fixture: Option<usize>,
 }
 
+/// What has been read.
 #[derive(Default)]
 pub(super) struct Reader {
     pub(super) layout: Layout,
+    /// What has a name to refer to, in the file's own characters.
     pub(super) named: BTreeMap<String, Named>,
     /// The names of all fixtures.
     pub(super) names: BTreeSet<String>,
@@ -153,6 +149,7 @@ impl Layout {
 }
 
 impl Reader {
+    /// Reads a group.
     fn group(&mut self, name: &str, config: &Node) -> Result<(), LayoutError> {
         let entries = config.entries(&format!("the group {name}"))?;
         let pair = |key: &str| -> Result<[f64; 2], LayoutError> {
@@ -186,6 +183,7 @@ impl Reader {
         Ok(())
     }
 
+    /// Reads a fixture; what is on a counter is kept for the end.
     fn fixture(&mut self, group_name: &str, group: &Group, node: &Node) -> Result<(), LayoutError> {
         let entries = node.entries("a fixture")?;
         let want = |key: &str| {
@@ -233,115 +231,6 @@ impl Reader {
         }
     }
 
-    /// The usual size of a type; an error if there is no such type.
-    fn usual_size(&self, kind: &str, node: &Node) -> Result<[f64; 3], LayoutError> {
-        usual_size(kind).ok_or_else(|| {
-            let known = super::sizes::types().chain(["stack", "housing_cabinet", "wall", "floor"]);
-            let near = closest_name(kind, known);
-            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            node.error(format!("there is no type of fixtures {kind}{hint}"))
-        })
-    }
-
-    pub(super) fn size(
-        &self,
-        kind: &str,
-        group: &str,
-        node: &Node,
-    ) -> Result<[f64; 3], LayoutError> {
-        let usual = match kind {
-            "housing_cabinet" => [0.0; 3],
-            _ => self.usual_size(kind, node)?,
-        };
-        let Some(given) = node.get("size").filter(|size| !size.is_null()) else {
-            return match kind {
-                "housing_cabinet" => self.housing_size([None; 3], group, node),
-                _ => Ok(usual),
-            };
-        };
-        let items = given.items("a size")?;
-        let [width, depth, height] = items else {
-            return Err(given.error("a size has three numbers: width, depth, height"));
-        };
-        let mut size = [None; 3];
-        for (axis, item) in [width, depth, height].into_iter().enumerate() {
-            size[axis] = match &item.data {
-                _ if item.is_null() => None,
-                // The size of another fixture.
-                Data::Text(text) if text.parse::<f64>().is_err() => {
-                    Some(self.named(text, group, item)?.size[axis])
-                }
-                _ => Some(item.number("a size")?),
-            };
-        }
-        if let Some(whole) = node.get("stack_height").filter(|whole| !whole.is_null()) {
-            let mut rest = whole.number("stack_height")?;
-            let others = node.get("stack_fixtures");
-            let others = others.map_or(Ok(&[][..]), |others| others.items("stack_fixtures"))?;
-            for other in others {
-                rest -= self.named(other.text("a fixture")?, group, other)?.size[2];
-            }
-            size[2] = Some(rest);
-        }
-        if kind == "housing_cabinet" {
-            return self.housing_size(size, group, node);
-        }
-        let size = [0, 1, 2].map(|axis| size[axis].unwrap_or(usual[axis]));
-        self.checked(size, given)
-    }
-
-    pub(super) fn checked(&self, size: [f64; 3], node: &Node) -> Result<[f64; 3], LayoutError> {
-        match size.iter().all(|length| (0.0005..=30.0).contains(length)) {
-            true => Ok(size),
-            false => Err(node.error(format!(
-                "a fixture is between 0.001 and 30 m large, this one is {size:?}"
-            ))),
-        }
-    }
-
-    /// How thick a frame is around something at either end of an axis (m), where that is given.
-    fn padding(&self, node: &Node) -> Result<[[Option<f64>; 2]; 3], LayoutError> {
-        let mut padding = [[None; 2]; 3];
-        let Some(given) = node.get("padding").filter(|given| !given.is_null()) else {
-            return Ok(padding);
-        };
-        for (axis, pair) in given.items("padding")?.iter().enumerate().take(3) {
-            if pair.is_null() {
-                continue;
-            }
-            for (end, one) in pair.items("a padding")?.iter().enumerate().take(2) {
-                if !one.is_null() {
-                    padding[axis][end] = Some(one.number("a padding")?);
-                }
-            }
-        }
-        Ok(padding)
-    }
-
-    fn housing_size(
-        &self,
-        given: [Option<f64>; 3],
-        group: &str,
-        node: &Node,
-    ) -> Result<[f64; 3], LayoutError> {
-        let inner = self.interior(group, node)?;
-        let inner = inner.ok_or_else(|| node.error("a housing_cabinet has an interior_obj"))?;
-        let padding = self.padding(node)?;
-        let mut size = [0.0; 3];
-        for axis in 0..3 {
-            size[axis] = match (given[axis], padding[axis]) {
-                (Some(size), _) => size,
-                (None, [Some(low), Some(high)]) => low + inner.size[axis] + high,
-                _ => {
-                    return Err(node.error(
-                        "a housing_cabinet has a size, or a padding at both ends of the axis",
-                    ));
-                }
-            };
-        }
-        self.checked(size, node)
-    }
-
     /// What a fixture has inside, which comes before it in the file.
     pub(super) fn interior(&self, group: &str, node: &Node) -> Result<Option<Named>, LayoutError> {
         let Some(inner) = node.get("interior_obj").filter(|inner| !inner.is_null()) else {
@@ -372,114 +261,7 @@ impl Reader {
         })
     }
 
-    fn kind(
-        &self,
-        kind: &str,
-        group: &str,
-        size: [f64; 3],
-        node: &Node,
-    ) -> Result<Kind, LayoutError> {
-        Ok(match kind {
-            "counter" => Kind::Counter(self.counter(group, size, node)?),
-            "drawer" => Kind::Drawer,
-            "hinge_cabinet" | "single_cabinet" => Kind::Cabinet {
-                doors: doors(kind, node)?,
-                handle: handle_place(node.get("panel_config"))?.unwrap_or(HandlePlace::Bottom),
-                is_knob: is_knob(node)?,
-            },
-            "open_cabinet" => {
-                let count = node.get("num_levels");
-                let count = count.map_or(Ok(2.0), |count| count.number("num_levels"))?;
-                Kind::Shelves(count.clamp(1.0, 20.0) as usize)
-            }
-            "housing_cabinet" => Kind::Housing(self.frame(group, size, node)?),
-            "stove" | "stove_wide" => Kind::Stove,
-            "stovetop" => Kind::Stovetop,
-            "oven" => Kind::Oven,
-            "microwave" => Kind::Microwave,
-            "hood" => Kind::Hood,
-            "sink" => Kind::Sink,
-            "fridge_french_door" => Kind::Fridge(Fridge::FrenchDoor),
-            "fridge_side_by_side" => Kind::Fridge(Fridge::SideBySide),
-            "fridge_bottom_freezer" => Kind::Fridge(Fridge::BottomFreezer),
-            "dishwasher" => Kind::Dishwasher,
-            "panel_cabinet" => Kind::Panel,
-            "stool" => Kind::OnLegs { is_table: false },
-            _ => Kind::Solid,
-        })
-    }
-
-    fn counter(
-        &self,
-        group: &str,
-        [width, depth, _]: [f64; 3],
-        node: &Node,
-    ) -> Result<Counter, LayoutError> {
-        let flags = |key: &str, usual: [bool; 2]| -> Result<[bool; 2], LayoutError> {
-            let Some(given) = node.get(key).filter(|given| !given.is_null()) else {
-                return Ok(usual);
-            };
-            match given.items(key)? {
-                [a, b] => Ok([a.flag(key)?, b.flag(key)?]),
-                _ => Err(given.error(format!("{key} is a list of two, true or false"))),
-            }
-        };
-        let share = |key: &str| -> Result<f64, LayoutError> {
-            node.get(key).map_or(Ok(0.5), |share| share.number(key))
-        };
-        let overhang = node.get("overhang");
-        let overhang = overhang.map_or(Ok(OVERHANG), |overhang| overhang.number("overhang"))?;
-        let mut counter = Counter {
-            hollow: flags("hollow", [false, true])?,
-            opening: flags("base_opening", [false; 2])?,
-            half: flags("half_top", [false; 2])?,
-            overhang,
-            is_filled: false,
-            hole: None,
-        };
-        if let Some(inner) = self.interior(group, node)? {
-            let ahead = counter.overhang + FRONT;
-            let free = [width, depth - ahead];
-            let shares = [share("obj_x_percent")?, share("obj_y_percent")?];
-            let mut hole = [[0.0; 2]; 2];
-            for axis in 0..2 {
-                let half = inner.size[axis].min(free[axis] - 2.0 * SINK_GAP) / 2.0;
-                if half <= 0.0 {
-                    return Err(node.error("this counter is too small for what is let into it"));
-                }
-                let most = (free[axis] - SINK_GAP - half) / free[axis];
-                let share = shares[axis].max(1.0 - most).min(most);
-                let shift = if axis == 1 { ahead / 2.0 } else { 0.0 };
-                let middle = shift + (share - 0.5) * free[axis];
-                hole[0][axis] = middle - half;
-                hole[1][axis] = middle + half;
-            }
-            counter.hole = Some(hole);
-        }
-        Ok(counter)
-    }
-
-    /// How thick a frame is on all sides.
-    fn frame(
-        &self,
-        group: &str,
-        size: [f64; 3],
-        node: &Node,
-    ) -> Result<[[f64; 2]; 3], LayoutError> {
-        let inner = self.interior(group, node)?;
-        let inner = inner.ok_or_else(|| node.error("a housing_cabinet has an interior_obj"))?;
-        let padding = self.padding(node)?;
-        Ok([0, 1, 2].map(|axis| {
-            let rest = size[axis] - inner.size[axis];
-            match padding[axis] {
-                [Some(low), Some(high)] => [low, high],
-                [Some(low), None] => [low, rest - low],
-                [None, Some(high)] => [rest - high, high],
-                [None, None] => [rest / 2.0; 2],
-            }
-        }))
-    }
-
+    /// The layout, when all groups have been read.
     fn finish(mut self) -> Result<Layout, LayoutError> {
         let mut remarks = std::mem::take(&mut self.layout.remarks);
         if !self.unknown.is_empty() {
@@ -583,35 +365,4 @@ pub(super) fn plain(name: &str) -> String {
     let letters = name.chars().take(100);
     let letters = letters.map(|one| if is_plain(one) { one } else { '_' });
     before.into_iter().chain(letters).collect()
-}
-pub(super) fn doors(kind: &str, node: &Node) -> Result<Doors, LayoutError> {
-    if kind == "hinge_cabinet" {
-        return Ok(Doors::Pair);
-    }
-    let given = node.get("orientation").filter(|given| !given.is_null());
-    match given.map_or(Ok("right"), |given| given.text("orientation"))? {
-        "left" => Ok(Doors::One { is_left: true }),
-        "right" => Ok(Doors::One { is_left: false }),
-        other => Err(node.error(format!("a door opens to the left or right, not {other}"))),
-    }
-}
-
-pub(super) fn is_knob(node: &Node) -> Result<bool, LayoutError> {
-    let given = node.get("handle_type").filter(|given| !given.is_null());
-    Ok(given.map_or(Ok(""), |given| given.text("handle_type"))? == "knob")
-}
-
-/// Where the handles of a panel are, if it says so.
-pub(super) fn handle_place(config: Option<&Node>) -> Result<Option<HandlePlace>, LayoutError> {
-    let Some(given) = config.and_then(|config| config.get("handle_vpos")) else {
-        return Ok(None);
-    };
-    match given.text("handle_vpos")? {
-        "bottom" => Ok(Some(HandlePlace::Bottom)),
-        "center" => Ok(Some(HandlePlace::Middle)),
-        "top" => Ok(Some(HandlePlace::Top)),
-        other => Err(given.error(format!(
-            "a handle is at the bottom, center or top of its panel, not at {other}"
-        ))),
-    }
 }

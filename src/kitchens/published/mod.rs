@@ -9,6 +9,7 @@ mod cabinets;
 mod fixture;
 mod furnish;
 mod house;
+mod kinds;
 mod layout;
 mod node;
 mod on_counters;

@@ -1,10 +1,9 @@
 //! Stacks of a layout: columns of drawers and cabinets on a base.
 
-use closest_name::closest_name;
-
 use super::LayoutError;
-use super::fixture::{Fixture, HandlePlace, Kind};
-use super::layout::{Group, Named, Reader, doors, handle_place, is_knob};
+use super::fixture::Fixture;
+use super::kinds::level_kind;
+use super::layout::{Group, Named, Reader};
 use super::node::{Data, Node};
 
 /// Height (m) of the base of a stack.
@@ -95,36 +94,4 @@ impl Reader {
         self.named.insert(name.to_owned(), named);
         Ok(())
     }
-}
-
-/// What a level of a stack is.
-fn level_kind(text: &str, config: Option<&Node>, node: &Node) -> Result<Kind, LayoutError> {
-    Ok(match text {
-        "drawer" => Kind::Drawer,
-        "single_cabinet" | "hinge_cabinet" => Kind::Cabinet {
-            doors: doors(text, config.unwrap_or(node))?,
-            handle: match config {
-                Some(config) => handle_place(config.get("panel_config"))?,
-                None => None,
-            }
-            .unwrap_or(HandlePlace::Top),
-            is_knob: config.map_or(Ok(false), is_knob)?,
-        },
-        "open_cabinet" => Kind::Shelves(2),
-        "panel_cabinet" => Kind::Panel,
-        "box" => Kind::Solid,
-        other => {
-            let known = [
-                "drawer",
-                "single_cabinet",
-                "hinge_cabinet",
-                "open_cabinet",
-                "panel_cabinet",
-                "box",
-            ];
-            let near = closest_name(other, known);
-            let hint = near.map_or_else(String::new, |near| format!("; did you mean {near}?"));
-            return Err(node.error(format!("{other} is no level of a stack{hint}")));
-        }
-    })
 }

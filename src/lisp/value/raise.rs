@@ -37,8 +37,15 @@ pub fn sentence(report: impl std::fmt::Display) -> String {
     text
 }
 
-/// How many keys are named, where another one is given.
-const NAMED_KEYS: usize = 12;
+/// What follows a report that there is no key of a name: the one that is meant, or those that there are.
+pub fn keys_hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    match closest_name(name, known.iter().copied()) {
+        Some(near) => format!("; did you mean :{near}?"),
+        None if known.is_empty() => String::new(),
+        None => format!("; it has :{}", known.join(", :")),
+    }
+}
 
 impl Raise {
     /// A condition of a class with a report.
@@ -101,22 +108,7 @@ impl Raise {
     /// A call with a keyword argument that the function does not have; says which there are, or which is meant; `shown` is its name as it is
     /// printed, `known` are the names of those that there are.
     pub fn unknown_key<'a>(shown: &str, known: impl IntoIterator<Item = &'a str>) -> Box<Raise> {
-        let known: Vec<&str> = known.into_iter().collect();
-        let near = closest_name(shown.trim_start_matches(':'), known.iter().copied());
-        let hint = match (near, known.is_empty()) {
-            (Some(near), _) => format!("; did you mean :{near}?"),
-            (None, true) => String::new(),
-            (None, false) => {
-                let named = known.iter().take(NAMED_KEYS);
-                let named: Vec<String> = named.map(|key| format!(":{key}")).collect();
-                let rest = if known.len() > NAMED_KEYS {
-                    ", …"
-                } else {
-                    ""
-                };
-                format!("; there are {}{rest}", named.join(", "))
-            }
-        };
+        let hint = keys_hint(shown.trim_start_matches(':'), known);
         Raise::program(format!("Unknown &KEY argument: {shown}{hint}"))
     }
 

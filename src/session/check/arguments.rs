@@ -5,7 +5,6 @@ use super::judge::{Mistake, strong};
 use super::known::KnownNames;
 use super::signature::Signature;
 use super::types;
-use closest_name::closest_name;
 use cram::designator::vocabulary::Domain;
 use lisp::image::Image;
 use lisp::print;
@@ -13,6 +12,7 @@ use lisp::print::format::Control;
 use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::package::PackageTable;
+use lisp::value::raise::{keys_hint, sentence};
 use lisp::value::symbol::Sym;
 
 /// The mistakes in the arguments of a call.
@@ -69,13 +69,8 @@ fn keys(image: &Image, function: Sym, signature: &Signature, args: &[Value]) -> 
         }
         let of = shown(image, &function.into());
         if !signature.takes_others && !known.contains(&name) && first.is_none() {
-            let text = format!("{of} has no key :{name}");
-            let near = closest_name(&name, known.iter().map(String::as_str));
-            let text = match (near, known.is_empty()) {
-                (Some(near), _) => format!("{text}; did you mean :{near}?"),
-                (None, true) => format!("{text}."),
-                (None, false) => format!("{text}; it has :{}.", known.join(", :")),
-            };
+            let hint = keys_hint(&name, known.iter().map(String::as_str));
+            let text = sentence(format!("{of} has no key :{name}{hint}"));
             first = Some(strong(text, Some(&name)));
         }
         if pair.len() == 1 && first.is_none() {
