@@ -256,17 +256,19 @@ async function withoutBarriers(browser) {
   }
 }
 
-// A saved run that has failed, the report of a sweep, and the pages of a class and of a student, as the program writes them.
+// A saved run that has failed, one without a task, the report of a sweep, and the pages of a class and of a student, as the program writes them.
 async function reportsWithoutBarriers(browser) {
   const folder = mkdtempSync(join(tmpdir(), 'planwright-reports-'));
   const file = (name) => join(folder, name);
   writeFileSync(file('fails.plan'), '(in-package :pp-tut) (roslisp:ros-warn (test) "soon") (with-simulated-robot (park-arms) (perform (a motion (type moving-torso) (joint-angle 5))))');
+  writeFileSync(file('idle.plan'), '(+ 40 2)');
   for (const args of [
+    ['run', file('idle.plan'), '--record', file('idle.mcap')], ['view', file('idle.mcap'), '--html', file('idle.html')],
     ['run', file('fails.plan'), '--record', file('run.mcap')], ['view', file('run.mcap'), '--html', file('run.html')],
     ['sweep', 'plans/sweeps/move-bottle.plan', '--worlds', '8', '--seed', '42', '--html', file('sweep.html')],
     ['grade', 'bring-the-bottle', file('fails.plan'), '--html', file('class')],
   ]) spawnSync(program, args);
-  for (const name of ['run', 'sweep', 'class/index', 'class/fails']) {
+  for (const name of ['idle', 'run', 'sweep', 'class/index', 'class/fails']) {
     for (const [kind, options] of [['desktop', {}], ['phone', { width: 390, height: 844 }], ['dark', { dark: true }]]) {
       const tab = await browser.open(`file://${file(`${name}.html`)}`, options);
       await tab.until('document.querySelector("h1")', 20);

@@ -141,6 +141,8 @@ class Tasks {
       empty.textContent = 'No plan has run yet.';
       rows.push(empty);
     }
+    // A tree has to have an item.
+    this.list.setAttribute('role', shown.length ? 'tree' : 'group');
     const now = this.list.children;
     if (rows.length !== now.length || rows.some((row, i) => row !== now[i])) this.list.replaceChildren(...rows);
     const chosen = page.task?.id;
