@@ -81,6 +81,61 @@ fn a_layout_is_a_kitchen_in_which_things_are_opened_and_carried() {
     );
 }
 
+/// A counter, and beside it a fridge with one door, 0.78 m wide, which comes farther to open than an arm reaches from
+/// one place to stand.
+const FRIDGE: &str = "
+room:
+  walls:
+    - {name: wall, type: wall, size: [1.5, 1.5, 0.02], pos: [1.5, 0, 1.5]}
+  floor:
+    - {name: floor, type: floor, size: [1.5, 2, 0.02], pos: [1.5, -2, 0]}
+main_group:
+  row:
+    - {name: counter, type: counter, size: [1.4, 0.65, 0.92], pos: [0.8, -0.325, 0.46]}
+    - {name: fridge, type: fridge_bottom_freezer, align_to: counter, side: right, alignment: bottom_back}
+";
+
+#[test]
+fn a_door_too_wide_for_an_arm_is_opened_in_part_for_what_is_behind_it() {
+    let mut options = SessionOptions::default();
+    options.set_layout("kitchen.yaml", FRIDGE).unwrap();
+    let mut cook = Cook::with(&options);
+    cook.done(
+        "(defun in-fridge ()
+           (a location (in (an object (urdf-name fridge-main-group-main) (part-of kitchen)))
+                       (for (an object (type milk)))))
+         (defun opening ()
+           (third (assoc :fridge-main-group-main-door (list-containers))))
+         (btr-utils:spawn-object 'milk-1 :milk :pose (desig:reference (in-fridge)))",
+    );
+    // Somebody who wants it open gets it open, or the reason why not.
+    let refused = cook.fails(
+        "ENVIRONMENT-MANIPULATION-IMPOSSIBLE",
+        "(let ((?place (in-fridge))) (perform (an action (type accessing) (location ?place))))",
+    );
+    assert!(
+        refused.starts_with("fridge-main-group-main-door cannot be brought from 0.000 to 1.571"),
+        "{refused}"
+    );
+    assert_eq!(cook.done("(opening)"), "0.0d0\n");
+    // Who wants what is behind it gets that.
+    cook.done(
+        "(defparameter *widest* 0)
+         (with-simulated-robot
+           (let ((?place (in-fridge))
+                 (?counter (a location (on (an object (urdf-name counter-main-group) (part-of kitchen))))))
+             (cpl:pursue
+               (loop (cpl:sleep 0.5) (setf *widest* (max *widest* (opening))))
+               (perform (an action (type transporting)
+                            (object (an object (type milk) (location ?place)))
+                            (target ?counter))))))",
+    );
+    assert_eq!(
+        cook.done("(list (and (on-surface-p 'milk-1 'counter-main-group) t) (< 0.7 *widest* 1.3) (< (opening) 0.02))"),
+        "(T T T)\n"
+    );
+}
+
 #[test]
 fn what_is_wrong_with_a_layout_is_told_with_file_and_line() {
     let mut options = SessionOptions::default();
