@@ -86,9 +86,9 @@ fn a_layout_is_a_kitchen_in_which_things_are_opened_and_carried() {
 const FRIDGE: &str = "
 room:
   walls:
-    - {name: wall, type: wall, size: [1.5, 1.5, 0.02], pos: [1.5, 0, 1.5]}
+    - {name: wall, type: wall, size: [2.5, 1.5, 0.02], pos: [1.5, 0, 1.5]}
   floor:
-    - {name: floor, type: floor, size: [1.5, 2, 0.02], pos: [1.5, -2, 0]}
+    - {name: floor, type: floor, size: [2.5, 2, 0.02], pos: [1.5, -2, 0]}
 main_group:
   row:
     - {name: counter, type: counter, size: [1.4, 0.65, 0.92], pos: [0.8, -0.325, 0.46]}
@@ -103,7 +103,7 @@ fn a_door_too_wide_for_an_arm_is_opened_in_part_for_what_is_behind_it() {
     cook.done(
         "(defun in-fridge ()
            (a location (in (an object (urdf-name fridge-main-group-main) (part-of kitchen)))
-                       (for (an object (type milk)))))
+                       (for (an object (type milk))) (side front)))
          (defun opening ()
            (third (assoc :fridge-main-group-main-door (list-containers))))
          (btr-utils:spawn-object 'milk-1 :milk :pose (desig:reference (in-fridge)))",
