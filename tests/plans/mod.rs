@@ -5,6 +5,7 @@ mod braking;
 mod chores;
 mod clutter;
 mod cluttered_tables;
+mod container_measurements;
 mod containers;
 mod cook;
 mod definitions;

@@ -3,7 +3,7 @@
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
 
-use super::containers::somewhere;
+use super::container_measurements::somewhere;
 use super::cook::Cook;
 use super::deliveries::REACHABLE_P;
 use spatial::{pose, trig};

@@ -81,8 +81,8 @@ fn a_layout_is_a_kitchen_in_which_things_are_opened_and_carried() {
     );
 }
 
-/// A counter, and beside it a fridge with one door, 0.78 m wide, which comes farther to open than an arm reaches from
-/// one place to stand.
+/// A counter, and beside it a fridge with one door, 0.78 m wide, which no arm opens as far as it goes from one place to
+/// stand.
 const FRIDGE: &str = "
 room:
   walls:
