@@ -8,6 +8,7 @@ use std::time::Duration;
 use indexmap::IndexMap;
 use thiserror::Error;
 
+use crate::robot_clock::OVERTAKEN;
 use crate::value::Value;
 use spatial::Pose;
 
@@ -122,7 +123,11 @@ impl Frames {
                 edge.other = Some((parent, now));
                 return;
             }
-            if !is_still && stamp != 0.0 && stamp == edge.stamp && edge.parent == parent {
+            // What stands still is no news, and what was overtaken on its way tells of the past.
+            let is_overtaken =
+                stamp < edge.stamp && now.saturating_sub(edge.heard) < OVERTAKEN && !edge.is_still;
+            let is_old = stamp == edge.stamp || is_overtaken;
+            if !is_still && stamp != 0.0 && is_old && edge.parent == parent {
                 return;
             }
         } else if self.edges.len() >= MAX_FRAMES {
@@ -254,6 +259,19 @@ mod tests {
         assert_eq!(x(frames.pose("base", "map", SECOND, now)), Ok(3.0));
         assert_eq!(x(frames.pose("base", "odom", SECOND, now)), Ok(2.0));
         assert_eq!(x(frames.pose("map", "map", SECOND, now)), Ok(0.0));
+    }
+
+    #[test]
+    fn a_transform_that_was_overtaken_tells_of_the_past() {
+        let mut frames = Frames::default();
+        let ms = Duration::from_millis;
+        let at = |frames: &Frames, now| x(frames.pose("base", "map", SECOND, ms(now)));
+        frames.hear(&transform("map", "base", 2.0, 5.0), false, ms(0));
+        frames.hear(&transform("map", "base", 1.0, 4.0), false, ms(10));
+        assert_eq!(at(&frames, 10), Ok(2.0));
+        // Unless nothing else is told: then it is the clock that was set back.
+        frames.hear(&transform("map", "base", 1.5, 4.5), false, ms(320));
+        assert_eq!(at(&frames, 320), Ok(1.5));
     }
 
     #[test]

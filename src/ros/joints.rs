@@ -6,6 +6,7 @@ use indexmap::IndexMap;
 use thiserror::Error;
 
 use crate::frames::seconds;
+use crate::robot_clock::OVERTAKEN;
 use crate::value::Value;
 
 /// Why it is not known where a joint is.
@@ -95,7 +96,11 @@ impl Joints {
                 continue;
             };
             let known = self.joints.get(name);
-            let is_old = known.is_some_and(|known| stamp != 0.0 && known.stamp == stamp);
+            // What stands still is no news, and what was overtaken on its way tells of the past.
+            let is_old = known.is_some_and(|known| {
+                let is_overtaken = now.saturating_sub(known.at) < OVERTAKEN;
+                stamp != 0.0 && (known.stamp == stamp || (stamp < known.stamp && is_overtaken))
+            });
             let has_room = known.is_some() || self.joints.len() < MAX_JOINTS;
             if is_old || !has_room {
                 continue;
@@ -118,6 +123,13 @@ impl Joints {
             };
             self.joints.insert(name.to_owned(), heard);
             self.last = Some(now);
+        }
+    }
+
+    /// The clock of the speakers has jumped: what was said before has no stamp that could be compared.
+    pub fn forget_stamps(&mut self) {
+        for heard in self.joints.values_mut() {
+            heard.stamp = 0.0;
         }
     }
 
@@ -211,6 +223,23 @@ mod tests {
         let all = ["a", "b", "c"].map(|joint| at(&joints, joint, 100));
         assert_eq!(all, [Ok(1.5), Ok(2.5), Ok(3.0)]);
         assert_eq!(joints.fastest(["a", "c"], MAX_AGE, ms(100)), Some(5.0));
+    }
+
+    #[test]
+    fn a_message_that_was_overtaken_tells_of_the_past() {
+        let mut joints = Joints::default();
+        joints.hear(&message(2.0, &["a"], &[2.0]), ms(0));
+        joints.hear(&message(1.5, &["a"], &[1.5]), ms(10));
+        assert_eq!(at(&joints, "a", 10), Ok(2.0));
+        // Unless nothing else is told: then it is the clock that was set back, of which may also be told.
+        joints.hear(&message(1.6, &["a"], &[1.6]), ms(320));
+        assert_eq!(at(&joints, "a", 320), Ok(1.6));
+        joints.forget_stamps();
+        joints.hear(&message(0.5, &["a"], &[0.5]), ms(330));
+        assert_eq!(at(&joints, "a", 330), Ok(0.5));
+        // One without a stamp counts when it is heard.
+        joints.hear(&message(0.0, &["a"], &[0.1]), ms(340));
+        assert_eq!(at(&joints, "a", 340), Ok(0.1));
     }
 
     #[test]

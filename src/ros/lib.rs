@@ -13,6 +13,7 @@ mod layout;
 pub mod message;
 mod names;
 mod reach;
+pub mod robot_clock;
 mod scene_state;
 mod value;
 #[cfg(feature = "wire")]

@@ -6,14 +6,12 @@ each ends in a success that is true or in a failure that names what has happened
 
 import math
 import os
-import queue
 import random
 import re
 import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 from cyclonedds.domain import DomainParticipant
@@ -25,6 +23,7 @@ import messages as ros
 from actions import GRIPPER, RequestHeader
 from checks import check
 from faulty_robot import DOMAIN, GRIPPER_JOINT, PARTS, Faults, Robot
+from short_plan import PLAN, Goal, Plan, impatient
 
 PROGRAM = sys.argv[1]
 RUNS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -47,22 +46,6 @@ CAUSES = {
     r"no joint states for|no transform of|no transform": ("jump", "stop", "silent"),
     r"did not stand still": ("deaf", "dies", "silent", "stop", "jump", *CARRIED),
 }
-PLACES = [(0.0, 0.0, 0.0), (0.0, -0.4, 0.0), (0.15, -0.2, 0.3)]
-ARMS = [(1.9, 0.2, 1.4, -1.8, 1.3, -0.6, 0.4), (1.8, 0.4, 1.5, -2.0, 1.2, -0.5, 0.2)]
-PLAN = """(in-package :pp-tut)
-(defun run (number ?pose ?height ?point ?arm ?opening)
-  (format t "~&RUN ~a ~a~%" number
-          (handler-case
-              (with-real-robot
-                (perform (a motion (type going) (target (a location (pose ?pose)))))
-                (perform (a motion (type moving-torso) (joint-angle ?height)))
-                (perform (a motion (type looking) (target (a location (pose ?point)))))
-                (perform (a motion (type moving-arm-joints) (left-configuration ?arm)))
-                (perform (a motion (type moving-gripper-joint) (gripper left) (joint-angle ?opening)))
-                "done")
-            (cram-common-failures:low-level-failure (failure)
-              (format nil "~a: ~a" (type-of failure) (substitute #\\Space #\\Newline (princ-to-string failure)))))))
-"""
 
 
 def calibrated():
@@ -114,33 +97,6 @@ def calibrated():
         robot.wait(timeout=20)
 
 
-class Plan:
-    """The plan's process, and what it says."""
-
-    def __init__(self, description):
-        command = [PROGRAM, "--robot-description", description, f"--real-robot={sys.argv[2]}"]
-        pipe = subprocess.PIPE
-        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
-        self.lines, self.errors = queue.Queue(), queue.Queue()
-        for stream, lines in ((self.process.stdout, self.lines), (self.process.stderr, self.errors)):
-            threading.Thread(target=self.read, args=(stream, lines), daemon=True).start()
-
-    def read(self, stream, lines):
-        for line in stream:
-            lines.put(line.rstrip())
-
-    def tell(self, text):
-        self.process.stdin.write(text)
-        self.process.stdin.flush()
-
-    def said(self, lines):
-        """What has been said since."""
-        said = []
-        while not lines.empty():
-            said.append(lines.get())
-        return said
-
-
 def is_explained(text, faults, part):
     """Whether the faults of a run can have led to a failure, which speaks of the part that is concerned."""
     for words, causes in CAUSES.items():
@@ -154,15 +110,12 @@ def run(number, robot, plan):
     """A run: what has come of it, and whether that is as it must be."""
     faults = Faults(number)
     dice = random.Random(f"plan {number}")
-    place, height, arm = dice.choice(PLACES), dice.uniform(0.05, 0.15), dice.choice(ARMS)
-    opening = dice.uniform(0.03, 0.08)
-    x, y, turn = place
+    goal = Goal(dice)
+    place, height, arm = goal.place, goal.height, goal.arm
+    turn = place[2]
     plan.said(plan.lines), plan.said(plan.errors)
     robot.new_run(faults)
-    pose = f"""(make-pose "map" '(({x} {y} 0) (0 0 {math.sin(turn / 2)} {math.cos(turn / 2)})))"""
-    point = """(make-pose "map" '((2 0 1) (0 0 0 1)))"""
-    arm_list = " ".join(map(str, arm))
-    plan.tell(f"(run {number} {pose} {height} {point} '({arm_list}) {opening})\n")
+    plan.tell(goal.call(number))
     begin, end, said = robot.now, None, []
     while end is None:
         robot.step()
@@ -208,15 +161,8 @@ frame, joints, gaps = calibrated()
 robot = Robot(frame, joints, gaps)
 scratch = tempfile.TemporaryDirectory()
 description = os.path.join(scratch.name, "pr2.sexp")
-with open("world/pr2.sexp", encoding="utf-8") as file:
-    text = file.read()
-for name, seconds in (("base", 4), ("torso", 3), ("neck", 2), ("left-arm", 3), ("left-gripper", 3)):
-    text, count = re.subn(rf"(\(interface {name} [^)]*:time-out )\d+", rf"\g<1>{seconds}", text)
-    check(count == 1, f"the description has no time-out of {name}")
-text = text.replace("(interface server :time-out 10)", "(interface server :time-out 4)")
-with open(description, "w", encoding="utf-8") as file:
-    file.write(text)
-plan = Plan(description)
+impatient(description, base=4, torso=3, neck=2, left_arm=3, left_gripper=3, server=4)
+plan = Plan([PROGRAM, "--robot-description", description, f"--real-robot={sys.argv[2]}"])
 try:
     plan.tell(PLAN)
     results = [run(number, robot, plan) for number in range(FIRST, FIRST + RUNS)]

@@ -133,6 +133,11 @@ impl ActionClient {
         self.sent.iter().any(|sent| sent.goal.may_run())
     }
 
+    /// Whether no answer matters any more, also none that comes late.
+    pub fn is_idle(&self) -> bool {
+        self.sent.is_empty()
+    }
+
     /// How many answers were none: to nobody, doubled, before anything was asked.
     pub fn oddities(&self) -> u64 {
         let goals = self.sent.iter().map(|sent| sent.goal.oddities());

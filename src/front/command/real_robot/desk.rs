@@ -1,6 +1,7 @@
 //! Speaks with the robot, in a thread of its own: a session that thinks must not keep it waiting.
 
 mod camera;
+mod endpoints;
 mod groups;
 
 use std::collections::{BTreeMap, VecDeque};
@@ -12,24 +13,24 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::super::ros2::warn;
 use super::end::end_of;
-use super::goal_message::action_of;
 use camera::Question;
+pub(super) use endpoints::Endpoints;
+use endpoints::{LEAVING, Search};
 use groups::Waiting;
 use robotics::motion::RobotTrouble;
 use robotics::robot::{PartInterface, RobotInterface, RobotPart};
-use ros::action::GoalId;
+use ros::Value;
+use ros::action::{ClientEnd, GoalId};
 use ros::frames::Frames;
 use ros::joints::Joints;
-use ros::wire::{ActionClient, Node, NodeError, ServiceClient, TopicQos, TopicReader};
-use ros::{Value, service_type};
+use ros::robot_clock::{RobotClock, Timing};
+use ros::wire::ActionClient;
 use session::outside::{PartGoal, RobotEnd, SeenObject};
 use spatial::Pose;
 
 /// Real time between two looks at what has been sent.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(2);
-/// By how much (s) what is known of how far the robot's clock is ahead becomes less with each message.
-const DRIFT: f64 = 1e-4;
-/// A clock that jumps by more than this has jumped.
+/// A clock of this machine that jumps by more than this has jumped.
 const JUMP: f64 = 1.0;
 /// The time over which the velocity of the base is measured.
 pub(super) const BASE_TIME: Duration = Duration::from_millis(150);
@@ -88,12 +89,11 @@ struct Running {
 
 /// Speaks with the robot.
 pub(super) struct Desk {
-    /// Speaks last.
-    parts: Vec<Part>,
-    perception: ServiceClient,
-    transforms: TopicReader,
-    still_transforms: TopicReader,
-    joint_states: Vec<TopicReader>,
+    ends: Endpoints,
+    /// Those of before, as long as goals of theirs may turn out to be accepted.
+    retired: Vec<Endpoints>,
+    search: Search,
+    distribution: String,
     waiting: Vec<Waiting>,
     running: Vec<Running>,
     questions: Vec<Question>,
@@ -102,19 +102,15 @@ pub(super) struct Desk {
     camera: String,
     shared: Arc<Mutex<Shared>>,
     begin: Instant,
-    /// By how much the clock of this machine, and that of the robot, differ from the one that never jumps (s).
+    /// By how much the clock of this machine differs from the one that never jumps (s).
     own_clock: Option<f64>,
-    /// The latter for each topic of joint states.
-    robot_clocks: Vec<Option<f64>>,
-    /// By how much (s) the robot's clock is ahead of the one that never jumps: most of what was heard lately, since messages
-    /// take their time.
-    ahead: Option<f64>,
+    /// The robot's clock, by each topic of joint states.
+    robot_clocks: Vec<RobotClock>,
     /// The topics of which has been told that they cannot be heard.
     remarked: Vec<String>,
     looked: Duration,
     oddities: u64,
     oddities_of_camera: u64,
-    _node: Node,
 }
 
 /// What ends the work of a desk, or lets the robot stop.
@@ -130,44 +126,20 @@ pub(super) struct Signals {
 }
 
 impl Desk {
-    pub(super) fn open(
-        mut node: Node,
+    pub(super) fn new(
+        ends: Endpoints,
+        distribution: String,
         interface: &RobotInterface,
-        parts: &[PartInterface],
         base: String,
         camera: String,
         shared: Arc<Mutex<Shared>>,
         begin: Instant,
-    ) -> Result<Self, NodeError> {
-        let clients = parts.iter().map(|interface| {
-            let action = action_of(interface.part);
-            let client = ActionClient::open(&mut node, &interface.name, action)?;
-            Ok(Part {
-                interface: interface.clone(),
-                client,
-            })
-        });
-        let clients = clients.collect::<Result<Vec<_>, NodeError>>()?;
-        let [request, response] = service_type("planwright_msgs/srv/DetectObjects");
-        let perception = node.client(&interface.perception, request, response)?;
-        let tf = "tf2_msgs/msg/TFMessage";
-        let joints = "sensor_msgs/msg/JointState";
-        let transforms = node.reader("/tf", tf, TopicQos::volatile(100))?;
-        let still = TopicQos {
-            depth: 100,
-            ..TopicQos::latched()
-        };
-        let still_transforms = node.reader("/tf_static", tf, still)?;
-        let topics = interface.joint_states.iter();
-        // Some robots send them without sending again what is lost.
-        let joint_states =
-            topics.map(|topic| node.reader(topic, joints, TopicQos::best_effort(50)));
-        Ok(Self {
-            parts: clients,
-            perception,
-            transforms,
-            still_transforms,
-            joint_states: joint_states.collect::<Result<_, _>>()?,
+    ) -> Self {
+        Self {
+            ends,
+            retired: Vec::new(),
+            search: Search::default(),
+            distribution,
             waiting: Vec::new(),
             running: Vec::new(),
             questions: Vec::new(),
@@ -177,18 +149,25 @@ impl Desk {
             shared,
             begin,
             own_clock: None,
-            robot_clocks: vec![None; interface.joint_states.len()],
-            ahead: None,
+            robot_clocks: vec![RobotClock::default(); interface.joint_states.len()],
             remarked: Vec::new(),
             looked: Duration::ZERO,
             oddities: 0,
             oddities_of_camera: 0,
-            _node: node,
-        })
+        }
     }
 
     /// Works until it is to end; then the robot gets no goals any more, and those that it has are cancelled.
     pub(super) fn run(mut self, orders: &Receiver<Order>, signals: &Signals) {
+        self.work(orders, signals);
+        self.say_goodbye();
+        for ends in self.retired {
+            ends.leave(Duration::ZERO);
+        }
+        self.ends.leave(LEAVING);
+    }
+
+    fn work(&mut self, orders: &Receiver<Order>, signals: &Signals) {
         let mut was_interrupted = false;
         while !signals.stop.load(Ordering::Relaxed) {
             let now = self.begin.elapsed();
@@ -199,10 +178,7 @@ impl Desk {
                 match orders.try_recv() {
                     Ok(order) => self.take(order, now),
                     Err(TryRecvError::Empty) => break,
-                    Err(TryRecvError::Disconnected) => {
-                        self.say_goodbye();
-                        return;
-                    }
+                    Err(TryRecvError::Disconnected) => return,
                 }
             }
             // Also what was ordered just now.
@@ -215,14 +191,14 @@ impl Desk {
             signals.is_idle.store(is_idle, Ordering::Relaxed);
             self.ask_camera(now);
             self.remark(now);
+            self.search(now);
             thread::sleep(BETWEEN_LOOKS);
         }
-        self.say_goodbye();
     }
 
     /// Whether the robot may be carrying something out.
     fn may_run(&self) -> bool {
-        self.parts.iter().any(|part| part.client.may_run())
+        self.ends.parts.iter().any(|part| part.client.may_run())
     }
 
     fn say_goodbye(&mut self) {
@@ -231,7 +207,7 @@ impl Desk {
         while self.may_run() {
             let now = self.begin.elapsed();
             if now.saturating_sub(begin) > GOODBYE {
-                let running = self.parts.iter().filter(|part| part.client.may_run());
+                let running = self.ends.parts.iter().filter(|part| part.client.may_run());
                 let names: Vec<&str> = running.map(|part| part.interface.name.as_str()).collect();
                 warn(&format!(
                     "NOTHING SAYS THAT THE GOALS OF {} HAVE ENDED. Use the emergency stop if the robot moves.",
@@ -249,7 +225,7 @@ impl Desk {
             self.give_up(waiting, None);
         }
         for goal in &self.running {
-            if let Some(part) = self.parts.get_mut(goal.part) {
+            if let Some(part) = self.ends.parts.get_mut(goal.part) {
                 part.client.cancel(&goal.id, now);
             }
         }
@@ -266,7 +242,7 @@ impl Desk {
                     self.give_up(waiting, None);
                 }
                 for goal in self.running.iter().filter(|goal| goal.ticket == ticket) {
-                    if let Some(part) = self.parts.get_mut(goal.part) {
+                    if let Some(part) = self.ends.parts.get_mut(goal.part) {
                         part.client.cancel(&goal.id, now);
                     }
                 }
@@ -286,11 +262,12 @@ impl Desk {
     /// Sends and hears what concerns goals.
     fn speak(&mut self, now: Duration) {
         self.send_waiting(now);
-        for part in &mut self.parts {
+        for part in &mut self.ends.parts {
             part.client.poll(now);
         }
         self.keep_together(now);
-        let (parts, shared) = (&self.parts, &self.shared);
+        let (parts, shared) = (&self.ends.parts, &self.shared);
+        let unanswered = &mut self.search.is_unanswered;
         self.running.retain_mut(|goal| {
             let Some(part) = parts.get(goal.part) else {
                 return false;
@@ -298,6 +275,8 @@ impl Desk {
             let Some(end) = part.client.end(&goal.id) else {
                 return true;
             };
+            let is_there = part.client.counted().0 > 0;
+            *unanswered |= is_there && matches!(end, ClientEnd::NoAnswer { .. });
             let mut end = end_of(&part.interface.name, part.interface.part, end);
             if let Some(verdict) = goal.verdict.take() {
                 end.is_cancelled = false;
@@ -306,7 +285,7 @@ impl Desk {
             lock(shared).ends.insert(goal.ticket, end);
             false
         });
-        let of_parts = self.parts.iter().map(|part| part.client.oddities());
+        let of_parts = self.ends.parts.iter().map(|part| part.client.oddities());
         let oddities = of_parts.sum::<u64>() + self.oddities_of_camera;
         if oddities > self.oddities {
             if self.oddities == 0 {
@@ -322,20 +301,22 @@ impl Desk {
         let clock = clock.unwrap_or_default().as_secs_f64() - now.as_secs_f64();
         let mut has_jumped = jumps(&mut self.own_clock, clock).map(|by| ("of this machine", by));
         let mut shared = lock(&self.shared);
-        while let Some(message) = self.still_transforms.take() {
+        while let Some(message) = self.ends.still_transforms.take() {
             shared.frames.hear(&message, true, now);
         }
-        for (topic, clock) in self.joint_states.iter().zip(&mut self.robot_clocks) {
+        for (topic, clock) in self.ends.joint_states.iter().zip(&mut self.robot_clocks) {
             while let Some(message) = topic.take() {
-                if let Some(stamp) = stamp(&message) {
-                    let ahead = stamp - now.as_secs_f64();
-                    let robot = jumps(clock, ahead);
-                    let known = self.ahead.filter(|_| robot.is_none());
-                    let known = known.map_or(ahead, |known| known - DRIFT);
-                    self.ahead = Some(known.max(ahead));
-                    has_jumped = has_jumped.or(robot.map(|by| ("of the robot", by)));
+                let timing = stamp(&message).map(|stamp| clock.hear(stamp, now));
+                match timing {
+                    Some(Timing::Late) => continue,
+                    Some(Timing::Jumped(by)) => {
+                        shared.joints.forget_stamps();
+                        has_jumped = has_jumped.or(Some(("of the robot", by)));
+                    }
+                    Some(Timing::Usual) | None => {}
                 }
                 shared.joints.hear(&message, now);
+                self.search.joints = Some(now);
             }
         }
         if let Some((whose, by)) = has_jumped {
@@ -346,11 +327,12 @@ impl Desk {
             ));
         }
         let mut is_news = false;
-        while let Some(message) = self.transforms.take() {
+        while let Some(message) = self.ends.transforms.take() {
             shared.frames.hear(&message, false, now);
             is_news = true;
         }
         if is_news {
+            self.search.frames = Some(now);
             let pose = shared
                 .frames
                 .pose(&self.base, &self.interface.map, BASE_TIME, now);
@@ -364,14 +346,20 @@ impl Desk {
         }
     }
 
+    /// By how much (s) the robot's clock is ahead of the one that never jumps.
+    fn ahead(&self) -> Option<f64> {
+        let known = self.robot_clocks.iter().filter_map(RobotClock::ahead);
+        known.reduce(f64::max)
+    }
+
     /// Tells of topics that cannot be heard.
     fn remark(&mut self, now: Duration) {
         if now.saturating_sub(self.looked) < Duration::from_millis(200) {
             return;
         }
         self.looked = now;
-        let topics = [&self.transforms, &self.still_transforms].into_iter();
-        for topic in topics.chain(&self.joint_states) {
+        let topics = [&self.ends.transforms, &self.ends.still_transforms].into_iter();
+        for topic in topics.chain(&self.ends.joint_states) {
             let Some(policy) = topic.mismatch() else {
                 continue;
             };

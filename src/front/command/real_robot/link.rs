@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::super::failure::CommandError;
 use super::super::ros2::{open_node, say, warn};
-use super::desk::{BASE_TIME, Desk, Order, Shared, Signals, Wanted, lock, seconds};
+use super::desk::{BASE_TIME, Desk, Endpoints, Order, Shared, Signals, Wanted, lock, seconds};
 use robotics::motion::RobotTrouble;
 use robotics::robot::{RobotInterface, RobotPart};
 use session::Session;
@@ -71,8 +71,9 @@ pub(crate) fn connect(session: &mut Session, distribution: &str) -> Result<Drivi
     let shared = Arc::new(Mutex::new(Shared::default()));
     let begin = Instant::now();
     let known = Arc::clone(&shared);
-    let desk = Desk::open(node, &interface, &parts, base.clone(), camera, known, begin);
-    let desk = desk.map_err(|error| wrong(&error))?;
+    let ends = Endpoints::open(node, &interface, &parts).map_err(|error| wrong(&error))?;
+    let named = distribution.to_owned();
+    let desk = Desk::new(ends, named, &interface, base.clone(), camera, known, begin);
     let (halt, stop) = (Arc::<AtomicBool>::default(), Arc::<AtomicBool>::default());
     let is_idle = Arc::new(AtomicBool::new(true));
     let signals = Signals {

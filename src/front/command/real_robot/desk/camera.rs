@@ -26,21 +26,21 @@ impl Desk {
     /// Asks the camera, and hears what it sees.
     pub(super) fn ask_camera(&mut self, now: Duration) {
         let mut answers = Vec::new();
-        while let Some(answer) = self.perception.take() {
+        while let Some(answer) = self.ends.perception.take() {
             match answer {
                 Answer::To(sequence, value) => answers.push((sequence, Some(value))),
                 Answer::Unreadable(sequence) => answers.push((sequence, None)),
                 Answer::ToNobody => self.oddities_of_camera += 1,
             }
         }
-        let is_served = self.perception.is_served();
+        let is_served = self.ends.perception.is_served();
         let mut questions = std::mem::take(&mut self.questions);
         questions.retain_mut(|question| {
             let name = || self.interface.perception.clone();
             let end = match question.asked {
                 None => {
                     if is_served {
-                        let sequence = self.perception.ask(&question.request);
+                        let sequence = self.ends.perception.ask(&question.request);
                         question.asked = sequence.map(|sequence| (now, sequence));
                     }
                     let waited = now.saturating_sub(question.since).as_secs_f64();

@@ -41,7 +41,7 @@ impl Desk {
     pub(super) fn send_waiting(&mut self, now: Duration) {
         for waiting in std::mem::take(&mut self.waiting) {
             let place = |goal: &Wanted| {
-                let mut parts = self.parts.iter();
+                let mut parts = self.ends.parts.iter();
                 parts.position(|part| part.interface.part == goal.part)
             };
             let places: Option<Vec<usize>> = waiting.goals.iter().map(place).collect();
@@ -55,7 +55,10 @@ impl Desk {
             let mut trouble = None;
             let mut is_alone = true;
             let waited = now.saturating_sub(waiting.since).as_secs_f64();
-            for part in places.iter().filter_map(|place| self.parts.get(*place)) {
+            for part in places
+                .iter()
+                .filter_map(|place| self.ends.parts.get(*place))
+            {
                 let name = part.interface.name.clone();
                 let (servers, since) = part.client.counted();
                 match servers {
@@ -85,7 +88,7 @@ impl Desk {
         let is_group = goals.len() > 1 && goals.iter().all(follows);
         let is_free = self.running.is_empty();
         // A server that carries out one goal after the other would find the stamp out of date behind others.
-        let ahead = self.ahead.filter(|_| is_group && is_free);
+        let ahead = self.ahead().filter(|_| is_group && is_free);
         let stamp = ahead.and_then(|ahead| {
             let stamp = (now + TOGETHER).as_secs_f64() + ahead;
             Duration::try_from_secs_f64(stamp).ok()
@@ -93,7 +96,7 @@ impl Desk {
         let first = goals.first().map_or(0, |goal| goal.ticket);
         let together = stamp.map(|_| (now + TOGETHER, first));
         for (wanted, place) in goals.into_iter().zip(places) {
-            let Some(part) = self.parts.get_mut(*place) else {
+            let Some(part) = self.ends.parts.get_mut(*place) else {
                 continue;
             };
             let stamp = stamp.unwrap_or_default();
@@ -118,7 +121,8 @@ impl Desk {
     pub(super) fn keep_together(&mut self, now: Duration) {
         let mut apart: Vec<(u64, RobotTrouble)> = Vec::new();
         for goal in &self.running {
-            let (Some((begin, first)), Some(part)) = (goal.together, self.parts.get(goal.part))
+            let (Some((begin, first)), Some(part)) =
+                (goal.together, self.ends.parts.get(goal.part))
             else {
                 continue;
             };
@@ -133,7 +137,8 @@ impl Desk {
                 continue;
             };
             let trouble = apart.iter().find(|(known, _)| *known == first);
-            if let (Some((_, trouble)), Some(part)) = (trouble, self.parts.get_mut(goal.part)) {
+            if let (Some((_, trouble)), Some(part)) = (trouble, self.ends.parts.get_mut(goal.part))
+            {
                 goal.verdict = Some(trouble.clone());
                 part.client.cancel(&goal.id, now);
             }
