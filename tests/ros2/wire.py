@@ -3,6 +3,9 @@ packets, or is cut, as a seed has it: none hangs, each ends in a success that is
 and nothing moves after that unless planwright has said that it may. Prints a line for each run and a table of all.
 
     wire.py PLANWRIGHT [RUNS [FIRST]]
+
+PAIRS: how many pairs of hosts there are at once, instead of 2. KIND: only runs of this kind, or scenarios whose names have this in
+them. The environment is that of tests/ros2/run. Status 3 if there can be no hosts here.
 """
 
 import multiprocessing
@@ -17,12 +20,11 @@ import wire_scenarios
 from checks import check
 from short_plan import Goal
 from wire_network import TO_PLAN, TO_ROBOT, Faults, hinders, remove_left_over
-from wire_pair import MOVED, Pair
+from wire_pair import MOVED, Pair, RobotGone
 
 PROGRAM = sys.argv[1]
 RUNS = int(sys.argv[2]) if len(sys.argv) > 2 else 17
 FIRST = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-DOMAIN = int(os.environ.get("ROS_DOMAIN_ID", 82))
 # Pairs of hosts at once, and the status if there can be no hosts.
 PAIRS, IMPOSSIBLE = int(os.environ.get("PAIRS", 2)), 3
 # No run takes longer (s), and no robot that stands longer to be found again.
@@ -62,11 +64,11 @@ class Result:
     def __init__(self, number, kind, text, seconds, faults, panics, wrong):
         self.number, self.kind, self.text, self.seconds = number, kind, text, seconds
         self.faults, self.panics, self.wrong = faults, panics, wrong
-        self.note = ""
+        self.note, self.has_ended = "", False
 
     def __str__(self):
         wrong = "".join(f" WRONG: {what}." for what in self.wrong)
-        note = f" ({self.note})" if self.note else ""
+        note = f" ({self.note.strip()})" if self.note else ""
         return f"{self.number} [{self.kind}; {self.faults}] {self.text[:150]}{note}; {self.seconds:.1f} s{wrong}"
 
 
@@ -102,59 +104,77 @@ def run(pair, number, kind):
 
 def judge(pair, result, goal, text):
     """Whether a run has ended as it must, and what the robot does after that, until all is well again."""
-    begin, state = time.monotonic(), pair.now()
-    wrong = result.wrong
-    if text is None:
-        wrong.append(f"it hangs: {list(pair.plan.errors.queue)[-5:]}")
-    elif text == "done":
-        beside = pair.beside(goal) if goal else ""
-        if beside:
-            wrong.append(f"the success is false: {beside}")
-    elif not re.search(NAMED, text):
-        wrong.append("it does not name what happened")
-    if text != "done":
-        moved, last = pair.watch(state, begin, 1.5)
-        counts = dict(pair.network.counts)
-        pair.heal()
-        # What was under way arrives now.
-        moved, last = pair.watch(state, begin, time.monotonic() - begin + 2.5)
-        is_told = re.search(ANNOUNCED, " ".join([text or "", *pair.plan.errors.queue]))
-        if moved > MOVED:
-            result.note = f"moved on by {moved:.2f} for {last:.1f} s, " + ("announced" if is_told else "NOT ANNOUNCED")
-            if not is_told:
-                wrong.append("it moves on")
+    begin, wrong = time.monotonic(), result.wrong
+    try:
+        state = pair.now()
+        if text == "done":
+            beside = pair.beside(goal)
+            if beside:
+                wrong.append(f"the success is false: {beside}")
+        elif pair.plan.process.poll() is not None:
+            ended(pair.plan, "plan", result)
+        elif text is None:
+            wrong.append(f"it hangs: {list(pair.plan.errors.queue)[-5:]}")
+        elif not re.search(NAMED, text):
+            wrong.append("it does not name what happened")
+        if text != "done":
+            pair.watch(state, begin, 1.5)
+            pair.heal()
+            # What was under way arrives now.
+            moved, last = pair.watch(state, begin, time.monotonic() - begin + 2.5)
+            is_told = re.search(ANNOUNCED, " ".join([text or "", *pair.plan.errors.queue]))
+            if moved > MOVED and not result.has_ended:
+                result.note += f" moved on by {moved:.2f} for {last:.1f} s, " + ("announced" if is_told else "NOT ANNOUNCED")
+                if not is_told:
+                    wrong.append("it moves on")
+    except RobotGone as error:
+        ended(pair.robot, "robot", result, str(error))
     result.panics = pair.panics()
     pair.heal()
     recover(pair, result, text)
 
 
+def ended(process, whose, result, said=""):
+    """A program has ended: only a packet that is garbled with a checksum that fits may do that, by a library that reserves memory
+    for as much as it announces."""
+    result.has_ended = True
+    said = said or " ".join(process.errors.queue)
+    reason = re.search(r"memory allocation of \d+ bytes failed", said)
+    result.note += f" the program of the {whose} has ended or is stuck: {reason[0] if reason else said[-200:]}"
+    if "forge" not in result.faults:
+        result.wrong.append("a program has ended")
+
+
 def recover(pair, result, text):
     """Over a whole wire, plan and robot find each other again; processes whose threads have failed begin anew."""
-    if result.panics or text is None or pair.plan.process.poll() is not None:
+    if result.panics or result.has_ended or text is None or pair.plan.process.poll() is not None:
         result.note += f" panicked: {result.panics[:2]}" if result.panics else ""
         pair.start_robot()
         pair.start_plan()
     elif text == "done":
         return
-    begin, tries = time.monotonic(), 0
+    begin, tries, first = time.monotonic(), 0, None
     while (said := pair.settle()) != "done":
         tries += 1
+        first = first or str(said)
         if time.monotonic() - begin > AGAIN:
             result.wrong.append(f"plan and robot do not find each other again: {said}")
             pair.start_robot()
             pair.start_plan()
             return
+        time.sleep(0.5)
     if tries:
-        result.note += f" found again after {time.monotonic() - begin:.0f} s"
+        result.note += f" found again after {time.monotonic() - begin:.0f} s, before that: {first[:80]}"
 
 
-def work(worker, jobs, results):
+def work(jobs, results):
     """Carries out jobs with a pair of hosts of its own."""
     os.setsid()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     pair = None
     try:
-        pair = Pair(PROGRAM, DOMAIN + worker)
+        pair = Pair(PROGRAM)
         pair.start_robot()
         pair.start_plan()
         pair.calibrate()
@@ -168,20 +188,23 @@ def work(worker, jobs, results):
     except SystemExit as error:
         results.put(f"{error}")
     finally:
+        # From here on, it ends by itself.
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
         if pair is not None:
             pair.close()
 
 
 def table(results):
-    print(f"\n{'kind':<34}{'runs':>5}{'arrived':>9}{'failed':>8}{'told motion':>13}{'slowest':>9}{'panics':>8}")
+    print(f"\n{'kind':<34}{'runs':>5}{'arrived':>9}{'failed':>8}{'told motion':>13}{'slowest':>9}{'panics':>8}{'ended':>7}")
     kinds = dict.fromkeys(result.kind for result in results)
     for kind in sorted(kinds, key=lambda kind: (kind not in KINDS, list(KINDS).index(kind) if kind in KINDS else kind)):
         of_kind = [result for result in results if result.kind == kind]
         arrived = sum(result.text == "done" for result in of_kind)
         told = sum("announced" in result.note and not result.wrong for result in of_kind)
         slowest = max(result.seconds for result in of_kind)
+        ended = sum(result.has_ended for result in of_kind)
         panics = sum(bool(result.panics) for result in of_kind)
-        print(f"{kind:<34}{len(of_kind):>5}{arrived:>9}{len(of_kind) - arrived:>8}{told:>13}{slowest:>7.0f} s{panics:>8}")
+        print(f"{kind:<34}{len(of_kind):>5}{arrived:>9}{len(of_kind) - arrived:>8}{told:>13}{slowest:>7.0f} s{panics:>8}{ended:>7}")
 
 
 def main():
@@ -197,8 +220,10 @@ def main():
         jobs.put((name, name))
     for number in range(FIRST, FIRST + RUNS) if kinds else ():
         jobs.put((number, kinds[number % len(kinds)]))
-    workers = [multiprocessing.Process(target=work, args=(worker, jobs, results)) for worker in range(PAIRS)]
+    workers = [multiprocessing.Process(target=work, args=(jobs, results)) for _ in range(PAIRS)]
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    # Also where whoever has started this does not want it to be ended by that.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     begin, running = time.monotonic(), len(workers)
     for worker in workers:
         jobs.put(None)
@@ -228,4 +253,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -6,6 +6,7 @@ import math
 import os
 import random
 import resource
+import signal
 import sys
 import tempfile
 import threading
@@ -17,13 +18,9 @@ from wire_network import Network
 
 # How much faster than real time robot and plan are.
 PACE = 1
+DOMAIN = 82
 # How much memory a process may have (bytes).
 MEMORY = 4 << 30
-LOOPBACK = """<CycloneDDS><Domain Id="any">
-    <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
-    <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>
-        <Peers><Peer Address="localhost"/></Peers></Discovery>
-</Domain></CycloneDDS>"""
 HAND = "l_gripper_l_finger_joint"
 # Base (m, rad), torso (m), arm (rad), and the hand's joint (rad), within which a goal is reached: those of `world/pr2.sexp`.
 NEAR = {"base": 0.05, "turn": 0.1, "torso": 0.005, "arm": 0.17, "hand": 0.02}
@@ -41,10 +38,14 @@ class State:
         return max(base, *(abs(at - other.joints.get(name, at)) for name, at in self.joints.items()))
 
 
+class RobotGone(Exception):
+    """The robot's program has ended, or does not tell its own host any more where it is."""
+
+
 class Pair:
-    def __init__(self, program, domain):
+    def __init__(self, program):
         self.program, self.scratch = program, tempfile.TemporaryDirectory()
-        self.environment = dict(os.environ, ROS_DOMAIN_ID=str(domain), ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET")
+        self.environment = dict(os.environ, ROS_DOMAIN_ID=str(DOMAIN), ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET")
         self.description = os.path.join(self.scratch.name, "pr2.sexp")
         impatient(self.description, base=6, torso=4, neck=3, left_arm=4, left_gripper=4, server=4)
         self.robot = self.plan = self.referee = None
@@ -59,10 +60,15 @@ class Pair:
                 process.process.wait()
         self.network.remove()
 
-    def on(self, host, *command, **more):
-        # What arrives garbled must not cost others their memory.
-        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-        return Plan(["ip", "netns", "exec", host, *command], env=dict(self.environment, **more), preexec_fn=limit)
+    def on(self, host, *command):
+        """A process on a host."""
+
+        def alone():
+            # What arrives garbled must not cost others their memory, and Ctrl-C is to end what it is sent to.
+            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+        return Plan(["ip", "netns", "exec", host, *command], env=self.environment, preexec_fn=alone)
 
     def start_robot(self):
         for process in (self.robot, self.referee):
@@ -75,7 +81,7 @@ class Pair:
             check(time.monotonic() < end, f"the robot does not begin: {self.robot.said(self.robot.errors)}")
             time.sleep(0.05)
         referee = os.path.join(os.path.dirname(__file__), "wire_referee.py")
-        self.referee = self.on(self.network.robot, sys.executable, "-u", referee, CYCLONEDDS_URI=LOOPBACK)
+        self.referee = self.on(self.network.robot, sys.executable, "-u", referee)
         self.states.clear()
         threading.Thread(target=self.listen, args=(self.referee,), daemon=True).start()
         while not self.states:
@@ -118,7 +124,8 @@ class Pair:
         """Where the robot is, by what the referee has heard within the last half of a second."""
         end = time.monotonic() + 5
         while self.states[-1].time < time.monotonic() - 0.5:
-            check(time.monotonic() < end, "the robot does not tell its own host where it is")
+            if time.monotonic() > end or self.robot.process.poll() is not None:
+                raise RobotGone(" ".join(self.robot.said(self.robot.errors))[:200] or "it says nothing")
             time.sleep(0.02)
         return self.states[-1]
 
