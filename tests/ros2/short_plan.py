@@ -72,8 +72,12 @@ class Plan:
             lines.put(line.rstrip())
 
     def tell(self, text):
-        self.process.stdin.write(text)
-        self.process.stdin.flush()
+        try:
+            self.process.stdin.write(text)
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            # That it has ended is found by who waits for an answer.
+            pass
 
     def said(self, lines):
         """What has been said since."""

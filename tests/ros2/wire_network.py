@@ -79,7 +79,7 @@ class Network:
         self.whole_again = [0.0, 0.0]
         self.counts, self.queue, self.held, self.number = {}, [], [None, None], 0
         self.watched = None
-        self.ends, self.is_over = [], False
+        self.ends, self.is_over, self.thread = [], False, None
         try:
             for number, host in enumerate((self.plan, self.robot)):
                 self.ends.append(self.host(number, host))
@@ -106,6 +106,8 @@ class Network:
 
     def remove(self):
         self.is_over = True
+        if self.thread is not None:
+            self.thread.join(2)
         for end in self.ends:
             os.close(end)
         self.ends = []

@@ -27,6 +27,6 @@ while True:
     for message in states.take(100)[-1:]:
         if base:
             print(json.dumps([time.monotonic(), base, dict(zip(message.name, message.position))]), flush=True)
-    time.sleep(0.02)
+    time.sleep(0.03)
     if os.getppid() == 1:
         sys.exit()
