@@ -79,6 +79,8 @@ class Network:
         self.whole_again = [0.0, 0.0]
         self.counts, self.queue, self.held, self.number = {}, [], [None, None], 0
         self.watched = None
+        # For how long (s) the machine has let the proxy wait at most.
+        self.held_up = 0.0
         self.ends, self.is_over, self.thread = [], False, None
         try:
             for number, host in enumerate((self.plan, self.robot)):
@@ -115,7 +117,7 @@ class Network:
             subprocess.run(("ip", "netns", "delete", host), capture_output=True)
 
     def spoil(self, faults, seed):
-        self.dice, self.faults, self.counts = random.Random(f"wire {seed}"), faults, {}
+        self.dice, self.faults, self.counts, self.held_up = random.Random(f"wire {seed}"), faults, {}, 0.0
 
     def cut(self, seconds, ways=(TO_ROBOT, TO_PLAN)):
         """Nothing passes for so long, which may be for ever."""
@@ -134,7 +136,10 @@ class Network:
         self.counts[what] = self.counts.get(what, 0) + 1
 
     def forward(self):
+        last = time.monotonic()
         while not self.is_over:
+            now = time.monotonic()
+            last, self.held_up = now, max(self.held_up, now - last)
             wait = self.queue[0][0] - time.monotonic() if self.queue else 0.05
             try:
                 ready, _, _ = select.select(self.ends, (), (), min(max(wait, 0), 0.05))

@@ -77,12 +77,12 @@ impl Endpoints {
         let (gone, is_gone) = channel();
         let leave = move || {
             drop(self);
-            gone.send(()).ok();
+            let _ = gone.send(());
         };
         let leaving = thread::Builder::new().name("leaving".to_owned());
         if leaving.spawn(leave).is_ok() {
             // What is not said in time is not said.
-            is_gone.recv_timeout(most).ok();
+            let _ = is_gone.recv_timeout(most);
         }
     }
 }
