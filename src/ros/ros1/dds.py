@@ -63,6 +63,11 @@ def qos(reliability, durability, depth):
     return Qos(reliability, durability, Policy.History.KeepLast(depth))
 
 
+def unsigned(handles):
+    """Handles as they stand beside messages: Cyclone's package gives some of them as signed numbers."""
+    return {handle % 2**64 for handle in handles}
+
+
 class Reader:
     """Hears a topic. `hear` gets each message and the handle of who has written it."""
 
@@ -95,7 +100,7 @@ class Reader:
 
     def writers(self):
         """The handles of who writes what is heard here."""
-        return set(self.reader.get_matched_publications())
+        return unsigned(self.reader.get_matched_publications())
 
     def close(self):
         self.node.wait_set.detach(self.condition)
@@ -114,7 +119,7 @@ class Writer:
 
     def readers(self):
         """The handles of who hears what is written here."""
-        return set(self.writer.get_matched_subscriptions())
+        return unsigned(self.writer.get_matched_subscriptions())
 
     def close(self):
         self.writer = None
