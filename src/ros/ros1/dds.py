@@ -26,8 +26,12 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
+from transcoding import GarbledMessage
+
 # How often what depends on time is looked at, in seconds.
 TICK = 0.02
+# How many messages of one topic are heard before others have their turn.
+AT_ONCE = 50
 ON_THIS_MACHINE = """<CycloneDDS><Domain Id="any">
     <General>
         <Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
@@ -82,21 +86,29 @@ class Reader:
 
     def poll(self):
         """Hears what has come."""
-        while self.reader is not None:
+        for _ in range(AT_ONCE):
+            if self.reader is None:
+                return
             try:
                 taken = self.reader.take(1)
             except DDSException as error:
                 tell(f"{self.name} cannot be heard: {error}")
                 return
             except Exception as error:  # A message that is not what its type says is not for anybody.
-                if not self.complained:
-                    self.complained = True
-                    tell(f"a message of {self.name} cannot be read and is left out: {type(error).__name__}: {error}")
+                self.complain(error)
                 continue
             if not taken:
                 return
             if not isinstance(taken[0], InvalidSample):
-                self.hear(taken[0], taken[0].sample_info.publication_handle)
+                try:
+                    self.hear(taken[0], taken[0].sample_info.publication_handle)
+                except GarbledMessage as error:
+                    self.complain(error)
+
+    def complain(self, error):
+        if not self.complained:
+            self.complained = True
+            tell(f"a message of {self.name} cannot be read and is left out: {type(error).__name__}: {error}")
 
     def writers(self):
         """The handles of who writes what is heard here."""

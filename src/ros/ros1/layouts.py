@@ -69,6 +69,19 @@ class Layouts:
             self.classes[name] = self.make(name, self.fields(name))
         return self.classes[name]
 
+    def bytes_of(self, name):
+        """A class for messages of a name that are carried as bytes: `carry(data)` makes one, `data` is what came."""
+        made = self.make(name, self.fields(name))
+
+        def carry(data, **_):
+            message = object.__new__(made)
+            message.data = data
+            return message
+
+        made.carry = made.deserialize = staticmethod(carry)
+        made.serialize = lambda message, **_: message.data
+        return made
+
     def action(self, name):
         """The classes of the messages of an action such as `nav2_msgs/action/NavigateToPose`, by part."""
         parts = {}

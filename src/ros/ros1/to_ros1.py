@@ -7,6 +7,7 @@ import rospy
 from conversion import MissingMessage, ToRos1, ros1_class
 from dds import Reader, best_effort, latched, reliable, tell
 from static_frames import StaticFrames
+from transcoding import Transcoder
 
 # The topic; the message of ROS 2 and of ROS 1; what is asked for in ROS 2; whether who comes later gets the last message.
 TOPICS = (
@@ -30,18 +31,37 @@ QUEUE = 100
 COUNT = 0.5
 
 
+def ready(kind):
+    """Messages of a class of ROS 1 that are there as bytes already: `of(data)` makes one."""
+
+    def serialize(message, buffer):
+        buffer.write(message.data)
+
+    @classmethod
+    def of(cls, data):
+        message = cls.__new__(cls)
+        message.data = data
+        return message
+
+    # With a header, rospy would write a number into it.
+    return type(kind.__name__, (kind,), {"__slots__": ("data",), "_has_header": False, "serialize": serialize, "of": of})
+
+
 class Carried:
     """A topic that is carried."""
 
     def __init__(self, node, layouts, topic, wanted=lambda publisher: True):
         self.node, self.wanted = node, wanted
         self.name, ros2, ros1, self.quality, is_latched = topic
-        self.kind = layouts.message(ros2)
-        kind = ros1_class(ros1)
-        self.convert = ToRos1.of(kind)
+        self.kind, kind = self.prepare(layouts, ros2, ros1)
         self.publisher = rospy.Publisher(f"/{self.name}", kind, queue_size=QUEUE, latch=is_latched)
         self.reader = None
         self.look()
+
+    def prepare(self, layouts, ros2, ros1):
+        """The classes that the topic has in ROS 2 and in ROS 1."""
+        self.transcoder = Transcoder(layouts, ros2, ros1)
+        return layouts.bytes_of(ros2), ready(self.transcoder.ros1)
 
     def look(self):
         """Hears the topic as long as that is wanted."""
@@ -53,10 +73,22 @@ class Carried:
             self.reader = None
 
     def hear(self, message, _):
+        self.publisher.publish(self.publisher.data_class.of(self.transcoder.to_ros1(message.data)))
+
+
+class Converted(Carried):
+    """A topic whose messages the bridge itself has to understand."""
+
+    def prepare(self, layouts, ros2, ros1):
+        kind = ros1_class(ros1)
+        self.convert = ToRos1.of(kind)
+        return layouts.message(ros2), kind
+
+    def hear(self, message, _):
         self.publisher.publish(self.convert(message))
 
 
-class Description(Carried):
+class Description(Converted):
     """The description of the robot, which is also a parameter: RobotModel of rviz reads that, not the topic."""
 
     def hear(self, message, publisher):
@@ -67,7 +99,7 @@ class Description(Carried):
             tell(f"the parameter /robot_description cannot be set: {error}")
 
 
-class Static(Carried):
+class Static(Converted):
     """Still frames."""
 
     def __init__(self, *arguments):

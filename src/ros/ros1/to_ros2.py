@@ -3,8 +3,9 @@
 import rospy
 
 from conversion import ToRos2, ros1_class
-from dds import Writer, latched, reliable
+from dds import Writer, latched, reliable, tell
 from static_frames import StaticFrames
+from transcoding import GarbledMessage, Transcoder
 
 # The topic, and its message in ROS 1 and ROS 2.
 MOVING = (
@@ -18,11 +19,17 @@ def publisher_of(message):
     return message._connection_header.get("callerid", "?")
 
 
+def keep(message, data):
+    """A message stays the bytes that it is."""
+    message.data = bytes(data)
+    return message
+
+
 class ToRos2Topics:
     """All topics that go this way."""
 
     def __init__(self, node, layouts):
-        self.node = node
+        self.node, self.garbled = node, set()
         self.subscribers = [self.carry(layouts, *topic) for topic in MOVING]
         self.frames = StaticFrames()
         kind = "tf2_msgs/msg/TFMessage"
@@ -32,15 +39,25 @@ class ToRos2Topics:
         self.subscribers.append(rospy.Subscriber("/tf_static", ros1_class("tf2_msgs/TFMessage"), hear, queue_size=100))
 
     def carry(self, layouts, name, ros1, ros2, depth):
-        writer = Writer(self.node, f"rt/{name}", layouts.message(ros2), reliable(depth))
-        convert = ToRos2(layouts, ros2)
+        kind = layouts.bytes_of(ros2)
+        writer = Writer(self.node, f"rt/{name}", kind, reliable(depth))
+        transcoder = Transcoder(layouts, ros2, ros1)
+        heard = type(transcoder.ros1.__name__, (transcoder.ros1,), {"__slots__": ("data",), "deserialize": keep})
 
         def hear(message):
             # What the bridge itself has published must not come back.
             if publisher_of(message) != rospy.get_name():
-                self.node.call(lambda: writer.write(convert(message)))
+                self.node.call(lambda: self.write(name, writer, kind, transcoder, message.data))
 
-        return rospy.Subscriber(f"/{name}", ros1_class(ros1), hear, queue_size=depth)
+        return rospy.Subscriber(f"/{name}", heard, hear, queue_size=depth)
+
+    def write(self, name, writer, kind, transcoder, data):
+        try:
+            writer.write(kind.carry(transcoder.to_ros2(data)))
+        except GarbledMessage as error:
+            if name not in self.garbled:
+                self.garbled.add(name)
+                tell(f"a message of /{name} of ROS 1 cannot be read and is left out: {error}")
 
     def hear_static(self, publisher, message):
         if publisher != rospy.get_name():
