@@ -12,17 +12,18 @@ and `cyclonedds` of PyPI. It runs until Ctrl-C. docs/ros.md says more.
 Ends with status 0 after Ctrl-C or SIGTERM, 1 if there is no master or the master has changed, 2 for wrong options."""
 
 import argparse
+import http.client
 import os
 import signal
 import sys
 import threading
 import time
+import xmlrpc.client
 
 try:
     import actionlib  # noqa: F401
     import rosgraph
     import rospy
-    import xmlrpc.client
 except ImportError as error:
     sys.exit(f"bridge: {error}: Debian has rospy in python3-rospy and actionlib in python3-actionlib, for /usr/bin/python3")
 try:
@@ -82,9 +83,11 @@ def options(arguments):
 
 def run_of_master():
     """What tells a master from the one before it, or None if there is none."""
+    master = rosgraph.Master("/planwright_bridge")
     try:
-        return rosgraph.Master("/planwright_bridge").getParam("/run_id")
-    except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+        # A master that roscore has not started has no number of its run.
+        return master.getPid(), master.getParam("/run_id") if master.hasParam("/run_id") else None
+    except (OSError, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException):
         return None
 
 
@@ -129,7 +132,8 @@ def main():
     except (MissingMessage, TableError) as error:
         tell(str(error))
         return 1
-    tell(f"ROS 2 (domain {asked.domain}, {asked.distribution}) and ROS 1 ({rosgraph.get_master_uri()}); the robot is in {asked.robot.upper().replace('S', 'S ')}")
+    sides = {"ros1": "ROS 1", "ros2": "ROS 2"}
+    tell(f"ROS 2 ({asked.distribution}, domain {asked.domain}), ROS 1 ({rosgraph.get_master_uri()}); the robot is in {sides[asked.robot]}")
     try:
         node.run(lambda: not (wanted_end.is_set() or watch.has_changed or rospy.is_shutdown()))
     finally:
