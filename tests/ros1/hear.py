@@ -94,6 +94,8 @@ order = {topic: [] for topic in heard}
 
 def keep(topic):
     def hear(message):
+        if getattr(message, "transforms", True) == []:
+            return
         heard[topic][key(message)] = message
         order[topic].append(key(message))
 
@@ -223,23 +225,28 @@ time.sleep(1.5)
 check("shelf" not in late()["still"], "the frames of a publisher that is gone are still told")
 
 
-# Bytes that are no message are left out; the rest goes on.
+# What no session says is carried as it is, or left out; the rest goes on. Cyclone drops bytes that are no message before anybody
+# sees them; what the bridge makes of such bytes is tried in transcoding.py.
+# It would say much about such frames.
+listener.unregister()
 strange = DomainParticipant(DOMAIN)
-for topic, kind in (("tf", ros.TFMessage), ("joint_states", ros.JointState), ("objects", ros.MarkerArray)):
-    quality = ros.latched() if topic == "objects" else ros.reliable(100)
-    writer = DataWriter(strange, Topic(strange, f"rt/{topic}", kind), qos=quality)
-    eventually(writer.get_matched_subscriptions, "garbage finds nobody")
-    for length in (1, 9, 300, 60000):
-        for value in (255, 0, 77):
-            garbage = kind([]) if topic != "joint_states" else kind(ros.Header(ros.Time(0, 0), ""), [], [], [], [])
-            garbage.serialize = lambda bytes=b"\x00\x01\x00\x00" + bytes([value] * length), **_: bytes
-            writer.write(garbage)
-carrying.expect("cannot be read and is left out")
+odd = DataWriter(strange, Topic(strange, "rt/tf", ros.TFMessage), qos=ros.reliable(100))
+eventually(odd.get_matched_subscriptions, "an odd publisher finds nobody")
+nowhere = ros.Transform(ros.Vector3(float("nan"), 0.0, 0.0), ros.Quaternion(0.0, 0.0, 0.0, 0.0))
+frame = ros.TransformStamped(ros.Header(ros.Time(-1, 4_000_000_000), "????"), "????" * 50, nowhere)
+odd.write(ros.TFMessage([]))
+odd.write(ros.TFMessage([frame] * 5))
+frame.header.stamp = ros.Time(1, 0)
+odd.write(ros.TFMessage([frame] * 5))
+frame_message = ros.TFMessage([frame])
+bytes_of = frame_message.serialize(use_version_2=False).replace(b"????", b"\xff\xfe\xc3\x28")
+frame_message.serialize = lambda **_: bytes_of
+odd.write(frame_message)
+carrying.expect("no time that both")
 before = len(order["tf"])
-eventually(lambda: len(order["tf"]) > before + 50, "after garbage, nothing is carried")
-del strange, writer
-complaints = [line for line in carrying.said if "cannot be read" in line]
-check(len(complaints) <= 3, f"the bridge says too much: {complaints}")
+eventually(lambda: len(order["tf"]) > before + 50, "after odd messages, nothing is carried")
+check(carrying.process.poll() is None, "the bridge has died of an odd message")
+del strange, odd
 
 # A session that ends, and the next one, with another robot.
 session.process.stdin.close()

@@ -108,6 +108,16 @@ class MasterWatch(threading.Thread):
             self.has_changed |= run is not None and run != self.run_id
 
 
+def run_node(node, goes_on):
+    """Lets the node do its work as long as something says so. Where ROS 1 has ended the bridge, nothing can be published any more."""
+    while goes_on():
+        try:
+            node.run(goes_on)
+        except rospy.ROSException:
+            if not rospy.is_shutdown():
+                raise
+
+
 def main():
     asked = options(rospy.myargv(sys.argv)[1:])
     run = run_of_master()
@@ -135,11 +145,11 @@ def main():
     sides = {"ros1": "ROS 1", "ros2": "ROS 2"}
     tell(f"ROS 2 ({asked.distribution}, domain {asked.domain}), ROS 1 ({rosgraph.get_master_uri()}); the robot is in {sides[asked.robot]}")
     try:
-        node.run(lambda: not (wanted_end.is_set() or watch.has_changed or rospy.is_shutdown()))
+        run_node(node, lambda: not (wanted_end.is_set() or watch.has_changed or rospy.is_shutdown()))
     finally:
         server.stop()
         end = time.monotonic() + ENDING
-        node.run(lambda: not server.is_idle() and time.monotonic() < end)
+        run_node(node, lambda: not server.is_idle() and time.monotonic() < end)
         if not server.is_idle():
             tell(f"a goal has not ended within {ENDING} s: THE ROBOT MAY STILL MOVE")
         watch.ends.set()

@@ -10,6 +10,10 @@ FRAMES = ("frame_id", "child_frame_id")
 NUMBERS = ("bool", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64")
 
 
+class GarbledMessage(Exception):
+    """What is not the message that it is to be, or what the other ROS has no words for."""
+
+
 class MissingMessage(Exception):
     """A message of ROS 1 that is not installed."""
 
@@ -25,6 +29,13 @@ def ros1_class(name):
 def frame(name):
     """The name of a frame as tf2 has it."""
     return name.lstrip("/")
+
+
+def checked_time(seconds, nanoseconds):
+    """Seconds and nanoseconds of a time that both have: libraries of ROS 1 abort on others, also those of tf2."""
+    if not (0 <= seconds < 2**31 and 0 <= nanoseconds < 10**9):
+        raise GarbledMessage(f"{seconds} s and {nanoseconds} ns is no time that both ROS 1 and ROS 2 have")
+    return seconds, nanoseconds
 
 
 class ToRos1:
@@ -56,7 +67,7 @@ class ToRos1:
 
 def field_to_ros1(name, kind):
     if kind == "time":
-        return lambda value: rospy.Time(value.sec, value.nanosec)
+        return lambda value: rospy.Time(*checked_time(value.sec, value.nanosec))
     if kind == "duration":
         return lambda value: rospy.Duration(value.sec, value.nanosec)
     if name in FRAMES:
@@ -82,9 +93,9 @@ class ToRos2:
 
 
 def field_to_ros2(layouts, name, kind):
-    if kind in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
+    if kind == "builtin_interfaces/msg/Time":
         make = layouts.message(kind)
-        return lambda value: make(value.secs, value.nsecs)
+        return lambda value: make(*checked_time(value.secs, value.nsecs))
     if name in FRAMES:
         return frame
     inner, bracket, _ = kind.partition("[")

@@ -26,7 +26,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
-from transcoding import GarbledMessage
+from conversion import GarbledMessage
 
 # How often what depends on time is looked at, in seconds.
 TICK = 0.02

@@ -8,7 +8,7 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 
 from action_client import ActionClient
-from conversion import ToRos1, ToRos2, ros1_class, wrong_pose
+from conversion import GarbledMessage, ToRos1, ToRos2, ros1_class, wrong_pose
 from dds import tell
 
 ACTION = "nav2_msgs/action/NavigateToPose"
@@ -19,6 +19,7 @@ class Drive:
 
     def __init__(self, server, handle):
         self.server, self.handle = server, handle
+        self.fields = server.goal(handle.get_goal().target_pose)
         self.goal = None
         self.is_superseded = False
 
@@ -29,7 +30,7 @@ class Drive:
         return self.handle.get_goal_status().status
 
     def begin(self):
-        self.goal = self.server.client.send(self.server.goal(self.handle.get_goal().target_pose), self)
+        self.goal = self.server.client.send(self.fields, self)
 
     def cancel(self):
         self.server.client.cancel(self.goal)
@@ -43,6 +44,12 @@ class Drive:
         self.handle.publish_feedback(message)
 
     def ended(self, end, result, text):
+        try:
+            self.report(end, result, text)
+        finally:
+            self.server.over(self)
+
+    def report(self, end, result, text):
         if result is not None and end == "aborted":
             text = text or f"the robot has aborted the goal (error code {getattr(result, 'error_code', 'unknown')})"
         if end == "rejected":
@@ -61,7 +68,6 @@ class Drive:
                 self.handle.set_succeeded(text=text or "the robot is there")
             else:
                 self.handle.set_aborted(text=text)
-        self.server.over(self)
 
 
 class MoveBaseServer:
@@ -100,7 +106,11 @@ class MoveBaseServer:
         if wrong is not None:
             handle.set_rejected(text=wrong)
             return
-        drive = Drive(self, handle)
+        try:
+            drive = Drive(self, handle)
+        except GarbledMessage as error:
+            handle.set_rejected(text=str(error))
+            return
         before = [known for known in (self.current, self.next) if known is not None]
         if any(known.stamp() > drive.stamp() for known in before):
             handle.set_canceled(text="a newer goal had come before this one")

@@ -10,7 +10,7 @@ from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
 
 from action_server import ABORTED, ACCEPTED, CANCELED, EXECUTING, SUCCEEDED, ActionServer
-from conversion import ToRos1, ToRos2, ros1_class, wrong_pose
+from conversion import GarbledMessage, ToRos1, ToRos2, ros1_class, wrong_pose
 from dds import tell
 
 ACTION = "nav2_msgs/action/NavigateToPose"
@@ -77,6 +77,10 @@ class NavigationServer:
     def begin(self, goal):
         """A client of ROS 2 has sent a goal."""
         wrong = wrong_pose(goal.goal.pose.pose)
+        try:
+            pose = self.to_ros1(goal.goal.pose)
+        except GarbledMessage as error:
+            wrong = str(error)
         if wrong is not None:
             tell(f"a goal of /{self.name} is rejected: {wrong}")
             self.server.reject(goal)
@@ -85,7 +89,7 @@ class NavigationServer:
         self.errands.append(errand)
         soon = lambda *_: self.node.call(self.follow, errand)
         feedback = lambda _, message: self.node.call(self.feedback, errand, message)
-        errand.handle = self.client.send_goal(self.goal_kind(self.to_ros1(goal.goal.pose)), soon, feedback)
+        errand.handle = self.client.send_goal(self.goal_kind(pose), soon, feedback)
 
     def cancel(self, goal):
         """A client of ROS 2 wants a goal to end."""
@@ -134,7 +138,10 @@ class NavigationServer:
     def feedback(self, errand, message):
         if errand not in self.errands or errand.goal.state is None:
             return
-        pose, wanted = self.to_ros2(message.base_position), errand.goal.goal.pose
+        try:
+            pose, wanted = self.to_ros2(message.base_position), errand.goal.goal.pose
+        except GarbledMessage:
+            return
         at, to = pose.pose.position, wanted.pose.position
         # In different frames, nobody here knows how far it is.
         is_known = pose.header.frame_id == wanted.header.frame_id.lstrip("/")

@@ -2,10 +2,10 @@
 
 import rospy
 
-from conversion import ToRos2, ros1_class
+from conversion import GarbledMessage, ToRos2, ros1_class
 from dds import Writer, latched, reliable, tell
 from static_frames import StaticFrames
-from transcoding import GarbledMessage, Transcoder
+from transcoding import Transcoder
 
 # The topic, and its message in ROS 1 and ROS 2.
 MOVING = (
@@ -47,13 +47,15 @@ class ToRos2Topics:
         def hear(message):
             # What the bridge itself has published must not come back.
             if publisher_of(message) != rospy.get_name():
-                self.node.call(lambda: self.write(name, writer, kind, transcoder, message.data))
+                write = lambda: writer.write(kind.carry(transcoder.to_ros2(message.data)))
+                self.node.call(self.guard, name, write)
 
         return rospy.Subscriber(f"/{name}", heard, hear, queue_size=depth)
 
-    def write(self, name, writer, kind, transcoder, data):
+    def guard(self, name, deed):
+        """Leaves out what cannot be carried."""
         try:
-            writer.write(kind.carry(transcoder.to_ros2(data)))
+            deed()
         except GarbledMessage as error:
             if name not in self.garbled:
                 self.garbled.add(name)
@@ -63,4 +65,4 @@ class ToRos2Topics:
         if publisher != rospy.get_name():
             self.frames.hear(publisher, message.transforms)
             merged = type(message)(self.frames.merged())
-            self.static.write(self.to_static(merged))
+            self.guard("tf_static", lambda: self.static.write(self.to_static(merged)))

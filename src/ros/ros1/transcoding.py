@@ -5,19 +5,14 @@ number `seq`. Objects for each number would take thirty times as long, and a rob
 
 from struct import Struct
 
-from conversion import FRAMES, ros1_class
+from conversion import FRAMES, GarbledMessage, checked_time, ros1_class
 
 COUNT = Struct("<I")
+TIME = Struct("<iI")
 SIZES = {"bool": 1, "int8": 1, "uint8": 1, "int16": 2, "uint16": 2, "int32": 4, "uint32": 4, "float32": 4}
 SIZES.update({"int64": 8, "uint64": 8, "float64": 8})
-# The encodings of CDR that are read, with the greatest alignment that numbers have in them.
-ALIGNMENTS = {0x0001: 8, 0x0007: 4}
+# What stands before CDR in little-endian, the encoding that ROS 2 has; the last two bytes do not matter.
 ENCODING = b"\x00\x01\x00\x00"
-TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
-
-
-class GarbledMessage(Exception):
-    """Bytes that are not the message that they are to be."""
 
 
 class Transcoder:
@@ -64,7 +59,9 @@ class Transcoder:
             return [("copy", SIZES[kind], 1)]
         if kind == "string":
             return [("string", name in FRAMES)]
-        if ros1 is None or kind in TIMES:
+        if kind == "builtin_interfaces/msg/Time":
+            return [("time",)]
+        if ros1 is None or kind == "builtin_interfaces/msg/Duration":
             steps = []
             for field, inner in self.layouts.fields(kind):
                 for step in self.step(field, inner, None):
@@ -74,11 +71,10 @@ class Transcoder:
 
     def to_ros1(self, data):
         """What ROS 1 has on the wire for what ROS 2 has there."""
-        encoding = int.from_bytes(data[:2], "big")
-        if encoding not in ALIGNMENTS:
-            raise GarbledMessage(f"the encoding {encoding:#06x} is not known: CDR in little-endian was expected")
+        if data[:2] != ENCODING[:2]:
+            raise GarbledMessage(f"the encoding {data[:2].hex()} is not known: CDR in little-endian (0001) was expected")
         out = []
-        Decoding(data[4:], ALIGNMENTS[encoding], out).run(self.steps, 0)
+        Decoding(data[4:], out).run(self.steps, 0)
         return b"".join(out)
 
     def to_ros2(self, data):
@@ -98,13 +94,12 @@ def add(steps, *step):
 class Decoding:
     """A message of ROS 2 that is being read."""
 
-    def __init__(self, data, alignment, out):
-        self.data, self.alignment, self.out = data, alignment, out
+    def __init__(self, data, out):
+        self.data, self.out = data, out
 
     def numbers(self, size, position, count):
         """Reads numbers of a size."""
-        align = min(size, self.alignment)
-        position += -position % align
+        position += -position % size
         end = position + size * count
         if end > len(self.data):
             raise GarbledMessage(f"it ends after {len(self.data)} bytes, and {end} were expected")
@@ -132,6 +127,9 @@ class Decoding:
                     text = text.lstrip(b"/")
                 self.out += (COUNT.pack(len(text)), text)
                 position = end
+            elif what == "time":
+                position = self.numbers(4, position, 2)
+                checked_time(*TIME.unpack(self.out[-1]))
             elif what == "insert":
                 self.out.append(bytes(4))
             elif what == "numbers":
@@ -147,7 +145,7 @@ class Decoding:
                 for _ in range(count):
                     position = self.run(step[1], position)
             else:
-                position = Decoding(self.data, self.alignment, []).run(step[1], position)
+                position = Decoding(self.data, []).run(step[1], position)
         return position
 
 
@@ -171,6 +169,9 @@ def encode(steps, data, position, out):
         what = step[0]
         if what == "copy":
             position = numbers(step[1], step[2])
+        elif what == "time":
+            position = numbers(4, 2)
+            checked_time(*TIME.unpack(out[-8:]))
         elif what == "insert":
             position += 4
         elif what == "skip":
