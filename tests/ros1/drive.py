@@ -12,7 +12,7 @@ import rospy
 import tf2_ros
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped
-from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
+from move_base_msgs.msg import MoveBaseAction, MoveBaseActionResult, MoveBaseGoal
 from tf2_msgs.msg import TFMessage
 
 from checks import check, timely
@@ -59,7 +59,12 @@ def drive(wanted, seconds=40):
 
 def ended(handle, seconds=40):
     """The state in which a goal of the other client has ended, and its text."""
-    eventually(lambda: handle.get_comm_state() == actionlib.CommState.DONE, "a goal does not end", seconds)
+    done = lambda: handle.get_comm_state() == actionlib.CommState.DONE
+    end = time.monotonic() + seconds
+    while not done():
+        state = actionlib.CommState.to_string(handle.get_comm_state())
+        check(time.monotonic() < end, f"a goal does not end, and is {state}, last {NAMES[handle.get_goal_status()]}")
+        time.sleep(0.01)
     return NAMES[handle.get_terminal_state()], handle.get_goal_status_text()
 
 
@@ -159,17 +164,25 @@ check(states == ["PREEMPTED", "RECALLED", "RECALLED", "SUCCEEDED"], f"four goals
 check(abs(base()[0] + 0.2) < 0.05, f"the last of four goals is not where the base is: {base()}")
 print(f"four goals: {', '.join(states)}")
 
-# Goals that come and are cancelled at random moments all end.
+# Goals that come and are cancelled at random moments all end, each once. That is judged by the topic of results: Debian's client waits
+# for ever for a goal that is cancelled just after its end.
 dice = random.Random(3)
+results = {}
+rospy.Subscriber("/move_base/result", MoveBaseActionResult, lambda m: results.setdefault(m.status.goal_id.id, []).append(m.status))
+time.sleep(0.5)
 handles = []
 for _ in range(40):
-    handles.append(client.send_goal(goal(dice.uniform(-0.5, 0.5), dice.uniform(0.5, 0.8))))
+    handles.append(client.send_goal(goal(dice.uniform(-0.3, 0.4), dice.uniform(0.5, 0.7))))
     time.sleep(dice.choice((0, 0.002, 0.02, 0.2)))
     if dice.random() < 0.5:
         dice.choice(handles[-2:]).cancel()
         time.sleep(dice.choice((0, 0.05)))
-states = [ended(handle)[0] for handle in handles]
-check(set(states) <= {"SUCCEEDED", "PREEMPTED", "RECALLED"}, f"goals at random moments: {states}")
+eventually(lambda: len(results) == len(handles), "not all goals at random moments end", 40)
+time.sleep(0.5)
+check(all(len(ends) == 1 for ends in results.values()), "a goal ends twice")
+states = [NAMES[ends[0].status] for ends in results.values()]
+aborted = [ends[0].text for ends in results.values() if NAMES[ends[0].status] == "ABORTED"]
+check(set(states) <= {"SUCCEEDED", "PREEMPTED", "RECALLED"}, f"goals at random moments: {states}, {aborted}")
 print("40 goals at random moments: " + ", ".join(f"{states.count(state)} {state}" for state in sorted(set(states))))
 check(drive(goal(-0.3, 0.6))[0] == "SUCCEEDED", "after all these, a goal is not reached")
 
@@ -195,7 +208,7 @@ for how in (signal.SIGKILL, signal.SIGINT):
     robot.expect("/navigate_to_pose")
     returned = time.monotonic()
     while drive(goal(-0.3, 0.6))[0] != "SUCCEEDED":
-        check(time.monotonic() - returned < 60, "when the robot has returned, goals are not reached")
+        check(time.monotonic() - returned < 100, "when the robot has returned, goals are not reached")
     check(abs(base()[0] + 0.3) < 0.05, f"the robot that has returned is at {base()}")
     print(f"a robot that has returned reaches a goal within {time.monotonic() - returned:.1f} s")
 

@@ -75,7 +75,7 @@ class Program:
             try:
                 line = self.lines.get(timeout=max(0.01, end - time.monotonic()))
             except queue.Empty:
-                check(False, f"{words!r} is not said within {seconds} s, but {''.join(self.said[-10:])!r}")
+                check(False, f"{words!r} is not said within {seconds} s, but {''.join(self.said[-10:])!r}, by {self.process.args}")
             if words in line:
                 return line
 

@@ -13,6 +13,9 @@ SETTLED = 1.0
 AGAIN, RARELY = 0.5, 5.0
 # For how long a goal that was given up is still cancelled.
 REMEMBERED = 60.0
+# A server that has told how far it is at least this often, and at least every so often, is gone once it is silent for so long: of one
+# that was killed, DDS learns only after a minute.
+TOLD, TELLS, SILENT = 3, 0.5, 2.0
 # When it is told that a goal that was cancelled has not ended.
 OVERDUE = 2.0
 
@@ -31,6 +34,19 @@ class Goal:
         self.server = frozenset()
         self.asked_result = self.wanted_end = self.asked_end = None
         self.has_ended = self.is_given_up = self.is_overdue = False
+        self.told, self.told_first, self.told_last = 0, 0.0, 0.0
+
+    def tells(self):
+        """The server has told how far it is."""
+        self.told_last = time.monotonic()
+        self.told += 1
+        if self.told == 1:
+            self.told_first = self.told_last
+
+    def is_silent(self, now):
+        """Whether a server that used to tell how far it is does not any more."""
+        is_steady = self.told >= TOLD and self.told_last - self.told_first <= TELLS * (self.told - 1)
+        return is_steady and now - self.told_last >= SILENT
 
     def move(self, stage):
         self.stage, self.since = stage, time.monotonic()
@@ -151,6 +167,7 @@ class ActionClient:
     def feedback(self, message, _):
         goal = self.goal_of(message.goal_id)
         if goal is not None and goal.stage == ACCEPTED:
+            goal.tells()
             goal.listener.feedback(message.feedback)
 
     def status(self, message, _):
@@ -191,6 +208,9 @@ class ActionClient:
             self.give_up(goal, f"the server of /{self.name} in ROS 2 is gone; nobody knows whether the robot stands")
         elif goal.stage == SENT and now - goal.since >= ANSWER:
             self.give_up(goal, f"the server of /{self.name} has not said within {ANSWER:.0f} s whether it accepts the goal")
+        elif goal.stage == ACCEPTED and goal.is_silent(now):
+            text = f"the server of /{self.name} in ROS 2 has been silent for {SILENT:.0f} s; nobody knows whether the robot stands"
+            self.give_up(goal, text)
         elif goal.stage == ACCEPTED:
             is_urgent = goal.has_ended or goal.wanted_end is not None
             if is_due(goal.asked_result, AGAIN if is_urgent else RARELY):

@@ -114,7 +114,7 @@ def run_node(node, goes_on):
         try:
             node.run(goes_on)
         except rospy.ROSException:
-            if not rospy.is_shutdown():
+            if not rospy.core.is_shutdown_requested():
                 raise
 
 
@@ -145,7 +145,7 @@ def main():
     sides = {"ros1": "ROS 1", "ros2": "ROS 2"}
     tell(f"ROS 2 ({asked.distribution}, domain {asked.domain}), ROS 1 ({rosgraph.get_master_uri()}); the robot is in {sides[asked.robot]}")
     try:
-        run_node(node, lambda: not (wanted_end.is_set() or watch.has_changed or rospy.is_shutdown()))
+        run_node(node, lambda: not (wanted_end.is_set() or watch.has_changed or rospy.core.is_shutdown_requested()))
     finally:
         server.stop()
         end = time.monotonic() + ENDING
@@ -155,7 +155,7 @@ def main():
         watch.ends.set()
     if watch.has_changed:
         tell("another master has taken the place of the one before, and does not know the bridge: start it again")
-    elif rospy.is_shutdown() and not wanted_end.is_set():
+    elif rospy.core.is_shutdown_requested() and not wanted_end.is_set():
         tell("ROS 1 has ended the bridge: another node of its name has come, or somebody has asked for that")
     time.sleep(0.2)  # What was told last is on its way.
     rospy.signal_shutdown("the bridge ends")

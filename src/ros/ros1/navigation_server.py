@@ -7,7 +7,7 @@ import time
 
 import actionlib
 from actionlib import CommState
-from actionlib_msgs.msg import GoalStatus
+from actionlib_msgs.msg import GoalID, GoalStatus
 
 from action_server import ABORTED, ACCEPTED, CANCELED, EXECUTING, SUCCEEDED, ActionServer
 from conversion import GarbledMessage, ToRos1, ToRos2, ros1_class, wrong_pose
@@ -67,7 +67,7 @@ class NavigationServer:
             tell(f"/{self.name} is not served in ROS 2 any more: nobody serves {self.move_base}")
             for errand in self.errands:
                 # Should it be only out of sight, it is to stop.
-                errand.handle.cancel()
+                self.cancel_in_ros1(errand)
             self.errands.clear()
             self.server.close()
             self.server = None
@@ -96,7 +96,11 @@ class NavigationServer:
         for errand in self.errands:
             if errand.goal is goal:
                 errand.is_cancelled = True
-                errand.handle.cancel()
+                self.cancel_in_ros1(errand)
+
+    def cancel_in_ros1(self, errand):
+        """Not by the handle: that would wait for ever where the goal has just ended."""
+        self.client.pub_cancel.publish(GoalID(id=errand.handle.comm_state_machine.action_goal.goal_id.id))
 
     def follow(self, errand):
         """Tells what has become of a goal."""
@@ -113,7 +117,7 @@ class NavigationServer:
         elif state == CommState.WAITING_FOR_GOAL_ACK:
             if waited >= ACKNOWLEDGED:
                 self.errands.remove(errand)
-                errand.handle.cancel()
+                self.cancel_in_ros1(errand)
                 tell(f"{self.move_base} has not noticed a goal within {ACKNOWLEDGED:.0f} s; it is rejected")
                 self.server.reject(errand.goal)
         elif state == CommState.PENDING:
@@ -162,7 +166,7 @@ class NavigationServer:
         for errand in self.errands:
             tell(f"a goal of {self.move_base} is cancelled")
             errand.is_cancelled = True
-            errand.handle.cancel()
+            self.cancel_in_ros1(errand)
 
     def is_idle(self):
         return not self.errands
