@@ -237,7 +237,23 @@ check(track and all(abs(x - track[0][1]) < 1e-4 for _, x, _ in track), "the robo
 
 # A bridge that has been killed is no hang either: actionlib's client learns nothing, and the next bridge serves the next goal.
 watching.end(signal.SIGKILL)
-bridge()
+carrying = bridge()
 eventually(lambda: drive(goal(-0.3, 0.6))[0] == "SUCCEEDED", "after a bridge was killed, goals are not reached", 40)
 check(robot.end() == 0, "the robot ends badly")
+
+# Other distributions have other results and other feedback.
+for distribution in ("humble", "lyrical"):
+    check(carrying.end() == 0, "the bridge ends badly")
+    carrying = bridge("--distribution", distribution)
+    robot = Program([PROGRAM, "robot", f"--ros2={distribution}"])
+    robot.expect("/navigate_to_pose")
+    told.clear()
+    simple.wait_for_server(rospy.Duration(20))
+    simple.send_goal(goal(-0.3, 0.6), feedback_cb=lambda feedback: told.append(feedback.base_position.pose.position.x))
+    check(simple.wait_for_result(rospy.Duration(40)), f"{distribution}: the goal does not end")
+    check(NAMES[simple.get_state()] == "SUCCEEDED" and told and abs(told[-1]) < 0.4, f"{distribution}: {simple.get_goal_status_text()}")
+    state, text, _ = drive(goal(-1.0, 1.5))
+    expected = "error code unknown" if distribution == "humble" else "island"
+    check(state == "ABORTED" and expected in text, f"{distribution}: {state}, {text}")
+    check(robot.end() == 0, f"{distribution}: the robot ends badly")
 print("ROS 1: all goals end as they should")

@@ -2,6 +2,8 @@
 
 import json
 import os
+import signal
+import socket
 import subprocess
 import sys
 import time
@@ -129,11 +131,14 @@ spoken = {topic: {} for topic in said}
 images, infos = [], []
 rospy.Subscriber("/camera/image", Image, images.append)
 rospy.Subscriber("/camera/camera_info", CameraInfo, infos.append)
+used, begin = carrying.processor_time(), time.monotonic()
 end = time.monotonic() + SECONDS
 while time.monotonic() < end:
     for topic, found in said.items():
         spoken[topic].update((key(message), message) for message in found.take(1000))
     time.sleep(0.002)
+share = (carrying.processor_time() - used) / (time.monotonic() - begin)
+print(f"the bridge takes {100 * share:.0f} % of a processor")
 time.sleep(0.3)
 for topic, messages in spoken.items():
     stamps = sorted(messages)[5:-5]
@@ -266,4 +271,19 @@ session.process.stdin.close()
 session.process.wait(20)
 check(second.end() == 0, "Ctrl-C ends the bridge with another status")
 check("/planwright_bridge" not in str(rosgraph.Master("/hear").getSystemState()), "the bridge is still known to the master")
+
+# A master that is gone is told; another one does not know the bridge, which ends.
+with socket.socket() as free:
+    free.bind(("127.0.0.1", 0))
+    port = free.getsockname()[1]
+elsewhere = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+for turn in ("first", "second"):
+    master = Program(["rosmaster", "--core", "-p", str(port)])
+    eventually(lambda: rosgraph.is_master_online(elsewhere["ROS_MASTER_URI"]), "a master does not come")
+    if turn == "first":
+        carrying = bridge(**elsewhere)
+        master.end(signal.SIGKILL)
+        carrying.expect("the master does not answer")
+carrying.expect("start it again")
+check(carrying.process.wait(10) == 1, "the bridge of another master ends with another status")
 print("ROS 1: all heard")

@@ -95,6 +95,8 @@ for manner, kind, words in (
     carrying.expect("not served in ROS 2 any more")
     base = robot(manner)
     carrying.expect("is served in ROS 2")
+    # Until its joints are heard: a plan does nothing without.
+    time.sleep(2)
     end, took = drive(-0.2, 0.6)
     print(f"{manner} ({took:.1f} s): {end[:140]}")
     check(kind in end and words in end, f"{manner}: {end}")
@@ -104,6 +106,7 @@ for manner, kind, words in (
 base.process.wait(10)
 base = robot()
 carrying.expect("is served in ROS 2")
+time.sleep(2)
 end, took = drive(-0.3, 0.6)
 check(end == "reached", f"a robot that has returned: {end}")
 print(f"returned ({took:.1f} s): reached")

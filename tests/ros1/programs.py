@@ -64,6 +64,12 @@ class Program:
             self.said.append(line)
             self.lines.put(line)
 
+    def processor_time(self):
+        """What it has taken so far, in seconds."""
+        with open(f"/proc/{self.process.pid}/stat", encoding="utf-8") as file:
+            fields = file.read().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def tell(self, text):
         self.process.stdin.write(text)
         self.process.stdin.flush()
