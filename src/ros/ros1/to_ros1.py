@@ -12,8 +12,8 @@ from transcoding import Transcoder
 # The topic; the message of ROS 2 and of ROS 1; what is asked for in ROS 2; whether who comes later gets the last message.
 TOPICS = (
     ("tf", "tf2_msgs/msg/TFMessage", "tf2_msgs/TFMessage", reliable(100), False),
-    ("joint_states", "sensor_msgs/msg/JointState", "sensor_msgs/JointState", reliable(10), False),
-    ("kitchen/joint_states", "sensor_msgs/msg/JointState", "sensor_msgs/JointState", reliable(10), False),
+    ("joint_states", "sensor_msgs/msg/JointState", "sensor_msgs/JointState", reliable(100), False),
+    ("kitchen/joint_states", "sensor_msgs/msg/JointState", "sensor_msgs/JointState", reliable(100), False),
     ("robot_description", "std_msgs/msg/String", "std_msgs/String", latched(), True),
     ("objects", "visualization_msgs/msg/MarkerArray", "visualization_msgs/MarkerArray", latched(), True),
     ("kitchen/furniture", "visualization_msgs/msg/MarkerArray", "visualization_msgs/MarkerArray", latched(), True),
