@@ -20,6 +20,8 @@ import threading
 import time
 import xmlrpc.client
 
+# The folder of the sources stays as it is.
+sys.dont_write_bytecode = True
 try:
     import actionlib  # noqa: F401
     import rosgraph
