@@ -238,7 +238,8 @@ check(track and all(abs(x - track[0][1]) < 1e-4 for _, x, _ in track), "the robo
 # A bridge that has been killed is no hang either: actionlib's client learns nothing, and the next bridge serves the next goal.
 watching.end(signal.SIGKILL)
 carrying = bridge()
-eventually(lambda: drive(goal(-0.3, 0.6))[0] == "SUCCEEDED", "after a bridge was killed, goals are not reached", 40)
+# A goal that is sent before the client has found the new bridge is lost: that is how actionlib is.
+eventually(lambda: drive(goal(-0.3, 0.6), 8)[0] == "SUCCEEDED", "after a bridge was killed, goals are not reached", 40)
 check(robot.end() == 0, "the robot ends badly")
 
 # Other distributions have other results and other feedback.
