@@ -109,7 +109,7 @@ fn bring(kind: &str, height: f64, [x, y]: [f64; 2]) -> String {
 }
 
 fn brings(joints: &[(&str, f64)], kind: &str, height: f64) {
-    let mut cook = Cook::watched_in(&with_arm(joints), true);
+    let mut cook = Cook::watched_with(&with_arm(joints));
     let before = cook.session.simulation().world().robot_configuration().base;
     cook.done(&bring(kind, height, [-1.55, -1.3]));
     let there = from_xyz_rpy([-1.55, -1.3, height], [0.0; 3]);

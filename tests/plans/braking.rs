@@ -17,7 +17,7 @@ struct Ride(Rc<RefCell<Vec<Vector2<f64>>>>);
 impl Ride {
     /// A robot that is about to drive two metres, and what its base does from then on.
     fn begin() -> (Cook, Ride) {
-        let mut cook = Cook::unwatched();
+        let mut cook = Cook::new();
         cook.done(
             "(with-simulated-robot (get-ready-at (make-pose \"map\" '((0 0 0) (0 0 0 1)))))
              (defparameter *far* (make-pose \"map\" '((0 2 0) (0 0 0 1))))",

@@ -28,7 +28,7 @@ fn pouring(keys: &str) -> String {
 }
 
 fn at_island() -> Cook {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(AT_ISLAND);
     cook
 }
@@ -49,7 +49,7 @@ fn volume(cook: &mut Cook, name: &str) -> f64 {
 
 #[test]
 fn a_hand_points_within_five_degrees_for_two_seconds() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     for target in ["2 0 1", "1 2 0.5", "0 -2 2", "-2 0 1", "0.8 0.3 0.1"] {
         let began = cook.session.simulation().world().time();
         let said = cook.done(&format!(
@@ -90,7 +90,7 @@ fn a_hand_that_cannot_point_does_not_move() {
 
 #[test]
 fn what_is_above_the_rim_of_a_tilted_vessel_leaves_it() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.95) (0 0 0 1)))
          (set-content 'cup-1 :water 200)
@@ -113,7 +113,7 @@ fn what_is_above_the_rim_of_a_tilted_vessel_leaves_it() {
 
 #[test]
 fn contents_are_part_of_the_world() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done("(btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.95) (0 0 0 1)))");
     cook.done("(set-content 'cup-1 :water 200)");
     cook.done("(snapshot 'full)");
@@ -129,7 +129,7 @@ fn contents_are_part_of_the_world() {
 
 #[test]
 fn what_cannot_be_filled_is_refused_with_the_reason() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.95) (0 0 0 1)))
          (btr-utils:spawn-object 'bottle-1 :bottle :pose '((1.4 0.2 0.95) (0 0 0 1)))",
@@ -305,7 +305,7 @@ fn handing_over_what_no_hand_holds_is_refused() {
 
 #[test]
 fn failures_of_chores_are_failures_of_the_arms() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let said = cook.done(
         "(every (lambda (class) (subtypep class 'manipulation-low-level-failure))
                 '(pouring-spilled container-empty container-full tool-missing wrong-tool handover-failed))",

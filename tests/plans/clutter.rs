@@ -8,7 +8,7 @@ type Scene = [(&'static str, &'static str, f64, f64, f64)];
 /// Spawns the scene, looks for a bottle and picks it up with the arm as the tutorial does. Nothing
 /// but that bottle may have moved unless the action failed.
 fn pick_up(scene: &Scene, arm: &str) -> (Cook, bool) {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     for (name, kind, x, y, yaw) in scene {
         let (s, c) = (yaw / 2.0).sin_cos();
         cook.done(&format!(

@@ -59,7 +59,7 @@ struct Table {
 impl Table {
     /// Three to eight objects; returns their types, too.
     fn laid(rng: &mut Pcg64) -> (Self, Vec<&'static str>) {
-        let mut cook = Cook::unwatched();
+        let mut cook = Cook::new();
         let count = 3 + pick(rng, 6);
         let mut types = Vec::new();
         for i in 0..count {

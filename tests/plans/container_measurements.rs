@@ -37,7 +37,7 @@ struct Run {
 
 /// Opens and closes a container from a random place, with a thing in it if one fits.
 fn run(name: &str, joint: &str, wanted: f64, seed: u64) -> Run {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(FUNCTIONS);
     let mut rng = Pcg64::seed_from_u64(seed);
     let [x, y, yaw] = somewhere(&cook, &mut rng);

@@ -22,7 +22,7 @@ pub(super) const FUNCTIONS: &str = "
         (btr-utils:spawn-object name ?type :pose pose)))";
 
 fn cook() -> Cook {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(FUNCTIONS);
     cook
 }

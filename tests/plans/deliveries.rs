@@ -186,7 +186,7 @@ fn how_often_objects_are_transported() {
     let worlds = std::env::var("WORLDS").ok().and_then(|n| n.parse().ok());
     let worlds: u32 = worlds.unwrap_or(5);
     let is_blocked = std::env::var("BLOCKED").is_ok();
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(PLAN);
     cook.done(REACHABLE_P);
     let types = match std::env::var("TYPES") {

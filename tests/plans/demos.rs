@@ -44,7 +44,7 @@ fn is_home(cook: &mut Cook) -> bool {
 
 #[test]
 fn the_table_is_set_and_not_again() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     let said = cook.done(DEMO);
     let off = off_their_places(&cook);
     assert!(off.iter().all(|off| *off < NEAR), "{off:?}\n{said}");
@@ -59,7 +59,7 @@ fn the_table_is_set_and_not_again() {
 
 #[test]
 fn the_steps_of_the_demo_are_made_by_hand() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(LOAD);
     cook.done("(demo::spawn-objects-on-sink-counter) (demo::go-to-sink-or-island :sink)");
     let base = cook.session.simulation().world().robot_configuration().base;
@@ -100,7 +100,7 @@ fn the_steps_of_the_demo_are_made_by_hand() {
 
 #[test]
 fn a_system_with_plans_is_loaded_once() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let missing = cook.say("(demo::demo-hard-coded)").unwrap_err().0;
     assert!(
         missing.starts_with("Package DEMO does not exist."),
@@ -134,7 +134,7 @@ fn a_system_with_plans_is_loaded_once() {
 
 #[test]
 fn a_bowl_is_set_out_from_its_drawer_and_cleaned_away() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(LOAD_HOUSEHOLD);
     cook.done("(demos::initialize) (demos::spawn-objects '(:bowl)) (demos::set-table '(:bowl))");
     let at = cook.pose("BOWL-1").translation;
@@ -242,7 +242,7 @@ fn achieved(cook: &mut Cook, things: [bool; 5], said: &str, is_end: bool) -> Ach
 }
 
 fn random_demo(seed: u64) -> Achieved {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(LOAD);
     let said = cook.done(&format!("(demo::demo-random t demo::*types* :seed {seed})"));
     let things = set_as_described(&cook);
@@ -352,7 +352,7 @@ const BREAKFAST: &str = include_str!("../../plans/demos/breakfast.plan");
 #[test]
 #[ignore = "takes a minute"]
 fn breakfast_is_made_and_cleared_away() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::watched();
     let said = cook.done(BREAKFAST);
     assert!(said.contains("7 of 7 steps have worked."), "{said}");
     assert!(!said.contains("failed: "), "{said}");

@@ -92,7 +92,7 @@ fn spread(number: usize) -> (f64, [f64; 2]) {
 /// Picks the object up, brings it close to the body, and puts it back. What went wrong, if
 /// anything did.
 fn picked_and_put_back(kind: &str, surface: &Surface, number: usize) -> Result<(), String> {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     let (turn, [dx, dy]) = spread(number);
     let [x, y, z] = surface.spot;
     let (s, c) = (turn / 2.0).sin_cos();

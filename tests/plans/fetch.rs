@@ -17,7 +17,7 @@ const BOTTLE: &str =
 
 #[test]
 fn fetch_brings_a_bottle_to_the_island() {
-    let mut cook = Cook::watched_in(&fetch(), true);
+    let mut cook = Cook::watched_with(&fetch());
     cook.done(BOTTLE);
     cook.done(
         "(with-simulated-robot
@@ -44,7 +44,7 @@ fn the_first_plan_of_the_tutorial_runs_with_fetch() {
 
 #[test]
 fn fetch_opens_and_closes_a_drawer() {
-    let mut cook = Cook::watched_in(&fetch(), true);
+    let mut cook = Cook::watched_with(&fetch());
     cook.done("(defparameter *there* (a location (in (an object (type drawer) (urdf-name sink_area_left_upper_drawer_main)))))");
     let mut perform = |kind: &str| {
         cook.done(&format!(
@@ -105,7 +105,7 @@ fn handing_over_needs_two_arms() {
 
 #[test]
 fn another_robot_takes_the_place_of_the_first_and_goes_again() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(BOTTLE);
     let said =
         cook.done("(list (use-robot :fetch) (rob-int::robot-name) cram-tf:*robot-base-frame*)");

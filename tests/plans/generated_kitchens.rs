@@ -87,7 +87,7 @@ fn a_generated_kitchen_has_names_for_plans() {
 
 #[test]
 fn another_kitchen_can_be_undone() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done("(init-projection)");
     cook.done("(spawn-object '((-1.5 -0.9 0.85) (0 0 0 1)) :bottle 'bottle-1)");
     let before = cook.session.simulation().world().hash();
@@ -238,7 +238,7 @@ fn kitchens_with_settings_open_without_hitting_anything() {
 fn kitchens_are_drawn_side_by_side() {
     let folder = std::env::temp_dir().join(format!("planwright-kitchens-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let before = cook.session.simulation().world().hash();
     let mut draw = |name: &str, keys: &str| {
         let file = folder.join(name);

@@ -13,7 +13,7 @@ fn fell(cook: &Cook) -> bool {
 
 #[test]
 fn a_flat_thing_is_not_pressed_into_the_table_while_it_is_gripped() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(btr-utils:spawn-object 'fork-1 :fork :pose '((-1.55 -0.78 0.86) (0 0 0.728 0.685)))
          (with-simulated-robot (get-ready-at *place-at-table*))
@@ -85,7 +85,7 @@ fn every_way_of_opening_the_fingers_drops_what_they_hold() {
 
 #[test]
 fn closing_the_fingers_further_drops_nothing() {
-    let mut cook = Cook::at_table_with_bottle();
+    let mut cook = Cook::watched_at_table_with_bottle();
     cook.take_bottle();
     cook.done(
         "(with-simulated-robot
@@ -140,7 +140,7 @@ pub(super) const LIFT: &str = "(let ((?p *lift*))
 
 #[test]
 fn fingers_that_grip_hold_whatever_is_known_about_it() {
-    let mut cook = Cook::at_table_with_bottle();
+    let mut cook = Cook::watched_at_table_with_bottle();
     cook.done(GRIP_ONLY);
     assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
     let before = cook.pose("BOTTLE-1").translation.z;

@@ -20,7 +20,7 @@ const BOTTLE: &str =
 
 #[test]
 fn the_hsr_brings_a_bottle_to_the_island() {
-    let mut cook = Cook::watched_in(&hsr(), true);
+    let mut cook = Cook::watched_with(&hsr());
     cook.done(BOTTLE);
     cook.done(
         "(with-simulated-robot

@@ -204,7 +204,7 @@ struct Laid {
 
 impl Laid {
     fn new(seed: u64) -> Self {
-        let mut cook = Cook::unwatched();
+        let mut cook = Cook::new();
         cook.done(PLAN);
         Self {
             cook,

@@ -23,7 +23,7 @@ fn angle(cook: &Cook) -> f64 {
 
 #[test]
 fn a_hand_turns_a_knob_on_and_off_and_goes_on_the_way_that_the_hand_turns() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     assert_eq!(angle(&cook), 0.0);
     let said = turning(&mut cook, "(configuration on)");
     assert!(
@@ -49,7 +49,7 @@ fn a_hand_turns_a_knob_on_and_off_and_goes_on_the_way_that_the_hand_turns() {
 
 #[test]
 fn the_joint_stays_where_it_is_if_the_fingers_press_too_little() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done("(setf pp-plans::*handle-effort* 4)");
     let said = said(
         &mut cook,
@@ -63,7 +63,7 @@ fn the_joint_stays_where_it_is_if_the_fingers_press_too_little() {
 
 #[test]
 fn what_cannot_be_turned_is_refused_before_anything_moves() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let before = cook.session.simulation().world().steps();
     for (action, wanted) in [
         (

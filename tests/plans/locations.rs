@@ -166,7 +166,7 @@ fn a_location_that_cannot_be_says_why() {
 
 #[test]
 fn the_robot_can_pick_up_from_where_it_is_sent() {
-    let mut cook = Cook::at_table_with_bottle();
+    let mut cook = Cook::watched_at_table_with_bottle();
     let here = cook.done("(get-robot-transformation)");
     // It stands well already.
     let at = reference(
@@ -333,7 +333,7 @@ fn a_table_is_set_in_slots() {
 
 #[test]
 fn a_held_object_is_put_down_at_a_symbolic_target() {
-    let mut cook = Cook::at_table_with_bottle();
+    let mut cook = Cook::watched_at_table_with_bottle();
     cook.take_bottle();
     let why = refusal(
         &mut cook,

@@ -183,11 +183,11 @@ fn errors_are_felt_where_things_end() {
         ":odometry-yaw 0.02",
         ":grasp-position 0.01",
     ] {
-        let felt = misses(noise, 3);
+        let felt = misses(noise, 2);
         let most = felt.last().copied().unwrap_or_default();
         assert!((2e-3..0.05).contains(&most), "{noise}: {felt:?}");
     }
-    let usual = misses(":usual", 7);
+    let usual = misses(":usual", 5);
     let middle = usual.get(usual.len() / 2).copied().unwrap_or_default();
     assert!((5e-3..30e-3).contains(&middle), "{usual:?}");
 }

@@ -51,7 +51,7 @@ fn folder(name: &str) -> PathBuf {
 
 #[test]
 fn a_new_object_is_transported_without_a_number() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     assert_eq!(cook.done(CARTON).trim(), ":JUICE");
     let listed = cook.done("(last (list-available-objects))");
     assert_eq!(listed.trim(), "(:JUICE)");
@@ -75,7 +75,7 @@ fn a_new_object_is_transported_without_a_number() {
 
 #[test]
 fn what_no_hand_can_grasp_is_refused_with_the_reason() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let said =
         cook.done("(def-object-type crate :shapes '((box :size (0.12 0.2 0.2))) :kind :bottle)");
     let why =
@@ -107,7 +107,7 @@ fn what_no_hand_can_grasp_is_refused_with_the_reason() {
 
 #[test]
 fn a_type_belongs_to_its_session_and_survives_undo() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done("(init-projection)");
     cook.done("(spawn-object '((-1.5 -0.9 0.85) (0 0 0 1)) :bottle 'bottle-1)");
     cook.done(CARTON);
@@ -152,7 +152,7 @@ fn copies_of_a_session_know_its_types_and_not_each_others() {
 
 #[test]
 fn a_redefined_type_changes_what_is_spawned_from_now_on() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(init-projection) (def-object-type tin :shapes '((cylinder :radius 0.03 :length 0.1)))",
     );
@@ -230,7 +230,7 @@ fn meshes_lie_beside_the_file_that_defines_their_type() {
 
 #[test]
 fn mistakes_are_one_clear_error() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let mut report = |text: &str| match cook.say(text) {
         Err((report, _)) => report,
         Ok(said) => panic!("{text}: {said}"),

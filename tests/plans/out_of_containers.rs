@@ -6,6 +6,7 @@ use rand_pcg::rand_core::SeedableRng;
 use super::container_measurements::somewhere;
 use super::cook::Cook;
 use super::deliveries::REACHABLE_P;
+use session::SessionOptions;
 use spatial::{pose, trig};
 
 /// Where something is that is to be brought to the island.
@@ -127,6 +128,13 @@ const PLAN: &str = "
         (reachable-p type (append usual
                                   (set-difference (pp-plans::grasps-from-above type) usual)))))";
 
+fn seeded(seed: u64) -> SessionOptions {
+    SessionOptions {
+        seed,
+        ..SessionOptions::default()
+    }
+}
+
 /// Why a thing did not get to where it was to be, or what has not been tidied up.
 fn flaw(cook: &mut Cook, store: &Store, form: &str, is_there: &str) -> Option<String> {
     if let Err((report, _)) = cook.say(form) {
@@ -169,7 +177,7 @@ fn how_often_things_are_brought_out_of_containers() {
         let worlds = super::demos::range("WORLDS", 0..store.worlds);
         let (mut all, mut brought, mut back, mut out_of_reach) = (0, 0, 0, 0);
         for seed in worlds {
-            let mut cook = Cook::with_seed(seed);
+            let mut cook = Cook::watched_with(&seeded(seed));
             cook.done(REACHABLE_P);
             cook.done(PLAN);
             if let Some(level) = store.level {
@@ -220,7 +228,7 @@ fn how_often_things_are_brought_out_of_containers() {
 #[test]
 fn milk_that_stands_askew_at_the_back_of_the_fridge_is_taken_over_its_edge() {
     let fridge = &STORES[1];
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(PLAN);
     cook.done(
         "(spawn-object (list '(1.62 -0.98 0.68) (list 0 0 (sin 0.5) (cos 0.5))) :milk 'thing)",
@@ -234,7 +242,7 @@ fn milk_that_stands_askew_at_the_back_of_the_fridge_is_taken_over_its_edge() {
 fn milk_is_grasped_for_a_place_in_the_fridge_where_it_can_be_put_down() {
     let fridge = &STORES[1];
     for seed in [1, 2, 3, 5] {
-        let mut cook = Cook::with_seed(seed);
+        let mut cook = Cook::with(&seeded(seed));
         cook.done(PLAN);
         cook.done(
             "(let ((?for (an object (type milk))))

@@ -26,7 +26,7 @@ fn a_hand_that_cannot_be_parked_is_taken_straight_back_first() {
 
 /// A robot with the torso at a height (m) and the right arm at seven angles (rad).
 fn reaching_out(height: f64, angles: &str) -> Cook {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(&format!(
         "(init-projection)
          (with-simulated-robot
@@ -91,7 +91,7 @@ fn the_torso_is_put_back_when_no_height_helps_to_park_the_arms() {
 /// With the torso down, the parked hand holds a bowl behind the front of an open drawer: no path leads away from there.
 #[test]
 fn what_a_hand_holds_over_an_open_drawer_is_lifted_over_its_front() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     let said = cook.done(
         "(in-package :pp-tut)
          (with-simulated-robot

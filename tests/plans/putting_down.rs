@@ -4,7 +4,7 @@ use super::cook::Cook;
 
 /// The robot in front of the island, with the bottle in its right hand.
 fn at_island() -> Cook {
-    let mut cook = Cook::at_table_with_bottle();
+    let mut cook = Cook::watched_at_table_with_bottle();
     cook.take_bottle();
     cook.done("(with-simulated-robot (go-to *place-at-island*))");
     cook
@@ -92,7 +92,7 @@ fn a_round_object_that_is_put_down_with_another_heading_is_logged() {
 /// Hands used to open as far as they go, which takes 4 cm on both sides.
 #[test]
 fn a_spoon_is_put_down_closer_to_a_bowl_than_a_wide_open_hand_would_fit() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(
         "(init-projection)
          (btr-utils:spawn-object 'bowl-1 :bowl :pose '((-0.9 1.5 0.9) (0 0 0 1)))

@@ -14,7 +14,7 @@ fn candidates(report: &str) -> usize {
 /// used to reject 131,390 places to stand, one after another.
 #[test]
 fn a_cup_that_leaves_no_hand_any_room_is_refused_without_a_search() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(spawn-object '((-0.9 1.4 0.96) (0 0 0 1)) :cup 'cup-1)
          (loop for (x y c s) in '((-0.82 1.4 1 0) (-0.98 1.4 1 0)
@@ -42,7 +42,7 @@ fn a_cup_that_leaves_no_hand_any_room_is_refused_without_a_search() {
 /// It used to be picked up however that was possible, carried there, and put back.
 #[test]
 fn milk_whose_target_leaves_no_hand_any_room_is_left_where_it_is() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(btr-utils:spawn-object 'milk-1 :milk :pose '((-1.6 -0.9 0.85) (0 0 0 1)))
          (loop for (x y c s) in '((-0.81 1.4 0.70711 0.70711) (-0.99 1.4 0.70711 0.70711)
@@ -70,7 +70,7 @@ fn milk_whose_target_leaves_no_hand_any_room_is_left_where_it_is() {
 /// again from one place after another.
 #[test]
 fn a_lying_carton_is_lifted_straight_up() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(btr-utils:spawn-object 'milk-1 :milk
            :pose '((-1.7456 -0.9181 0.84) (0.60163 0.37153 0.37153 0.60163)))",
@@ -92,7 +92,7 @@ fn a_lying_carton_is_lifted_straight_up() {
 
 #[test]
 fn fetching_gives_up_after_some_places_to_stand_and_says_so() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(in-package :fd-plans)
          (setf *max-stands* 3)

@@ -135,7 +135,7 @@ fn an_object_does_not_change_its_type_but_its_colour_and_mass() {
 
 #[test]
 fn a_target_to_which_no_way_leads_is_given_up_earlier_than_one_that_is_no_good() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(in-package :fd-plans)
          (defparameter *class* 'object-undeliverable)

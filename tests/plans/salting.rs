@@ -21,7 +21,7 @@ const ON_ISLAND: &str = "
   (defparameter *bottle* (seen :bottle))";
 
 fn at_island() -> Cook {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(ON_ISLAND);
     cook
 }

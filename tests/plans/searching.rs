@@ -28,7 +28,11 @@ const PLACES: &str = "
                             (robot-location (a location (poses ?stands)))))))))))";
 
 fn cook() -> Cook {
-    let mut cook = Cook::new();
+    at_places(Cook::new())
+}
+
+/// One who knows the places of the searches, and a bottle on the island.
+fn at_places(mut cook: Cook) -> Cook {
     cook.done(PLACES);
     cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((-0.8 2.0 0.95) (0 0 0 1)))");
     cook
@@ -100,7 +104,7 @@ fn a_blocked_place_to_stand_is_passed_over() {
 
 #[test]
 fn what_is_not_in_the_world_is_searched_for_and_the_robot_is_parked_then() {
-    let mut cook = cook();
+    let mut cook = at_places(Cook::watched());
     let search = "(search-for :cup (list *at-first* *at-second*) (list *stand*))";
     assert_eq!(attempts(&mut cook, search), "((\"look\" 4) (\"place\" 1))");
     let parked = "(coe:holds '(cpoe:arms-positioned-at :carry :carry))";
@@ -202,7 +206,7 @@ fn what_the_front_of_a_drawer_hides_at_first_is_found_from_near_by() {
 /// It used to try all places to stand for each point of each place, for minutes.
 #[test]
 fn where_no_way_leads_anywhere_a_search_ends_soon() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(
         "(in-package :pp-tut)
          (btr-utils:spawn-object 'spoon-1 :spoon :pose '((1.425 0.94 0.4631) (0 0 0 1)))

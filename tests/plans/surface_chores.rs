@@ -30,7 +30,7 @@ fn wiping(x: f64, y: f64, keys: &str) -> String {
 }
 
 fn with_sponge() -> Cook {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(WITH_SPONGE);
     cook
 }
@@ -262,7 +262,7 @@ fn bread_without_a_board_leaves_no_room_for_the_hand() {
 
 #[test]
 fn a_hand_holds_what_stands_there_until_it_opens() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(WITH_SPONGE);
     cook.done("(btr-utils:spawn-object 'milk-1 :milk :pose '((-0.8 2.0 0.95) (0 0 0 1)))
                (defparameter *milk* (seen :milk))
@@ -363,7 +363,7 @@ fn a_bowl_is_stirred_without_being_touched() {
 
 #[test]
 fn failures_of_these_chores_are_failures_of_the_arms() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     let said = cook.done(
         "(every (lambda (class) (subtypep class 'manipulation-low-level-failure))
                 '(wiping-incomplete cutting-failed))",

@@ -4,7 +4,7 @@ use super::cook::Cook;
 
 /// A plate on the island with a cup on it.
 fn cup_on_plate() -> Cook {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done(
         "(btr-utils:spawn-object 'plate-1 :plate :pose '((-0.85 1.5 0.867) (0 0 0 1)))
          (btr-utils:spawn-object 'cup-1 :cup :pose '((-0.85 1.5 0.911) (0 0 0 1)))
@@ -115,7 +115,7 @@ fn a_heavy_tray_that_is_held_by_its_rim_is_more_than_the_pads_transmit() {
 
 #[test]
 fn a_drawer_is_not_moved_through_what_stands_in_it_nor_a_door_through_the_robot() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     let joint = "sink_area_left_upper_drawer_main_joint";
     cook.done(&format!(
         "(move-kitchen-joint :joint-name \"{joint}\" :joint-angle 0.45)

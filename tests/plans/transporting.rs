@@ -16,7 +16,10 @@ const PLACES: &str = "
 
 /// A kitchen with a bottle on the counter.
 fn cook() -> Cook {
-    let mut cook = Cook::new();
+    with_bottle_on_counter(Cook::new())
+}
+
+fn with_bottle_on_counter(mut cook: Cook) -> Cook {
     cook.done(PLACES);
     cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((1.45 0.7 0.96) (0 0 0 1)))");
     cook
@@ -24,7 +27,7 @@ fn cook() -> Cook {
 
 #[test]
 fn a_bottle_is_transported_and_not_again() {
-    let mut cook = cook();
+    let mut cook = with_bottle_on_counter(Cook::watched());
     cook.done("(defparameter *bottle* (an object (type bottle)))");
     let transport = "(transport *bottle* *on-the-island* *on-the-counter*)";
     let said = cook.done(transport);
@@ -48,7 +51,7 @@ fn a_bottle_is_transported_and_not_again() {
 
 #[test]
 fn a_bowl_that_somebody_has_taken_out_of_its_drawer_is_brought_to_its_place() {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     cook.done("(btr-utils:spawn-object 'bowl-1 :bowl :pose '((-1.5 -0.85 0.79) (0 0 0 1)))");
     let said = cook.done(
         "(with-simulated-robot

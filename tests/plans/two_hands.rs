@@ -36,7 +36,7 @@ const TRAY: &str = "
         (perform (an action (type searching) (object (an object (type tray))) (location ?table))))))";
 
 fn with_tray() -> Cook {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(TRAY);
     cook
 }
@@ -121,7 +121,7 @@ fn what_is_too_heavy_for_one_arm_is_taken_with_both_and_what_is_too_heavy_for_bo
         ("2.5", "it weighs 2.5 kg, and one arm may carry 1.8 kg"),
         ("4.5", "both arms may carry 3.6 kg"),
     ] {
-        let mut cook = Cook::unwatched();
+        let mut cook = Cook::new();
         let said = said(&mut cook, &format!(
             "(progn
                (btr-utils:spawn-object 'tray-1 :tray :mass {mass} :pose '((-1.5 -0.95 0.82) (0 0 0 1)))
@@ -150,7 +150,7 @@ const POT: &str = "
 
 #[test]
 fn a_pot_of_soup_is_carried_by_its_handles_and_nothing_is_spilled() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(POT);
     let world = cook.session.simulation().world();
     let pot = world.object_pose("POT-1").unwrap();
@@ -171,7 +171,7 @@ fn a_pot_of_soup_is_carried_by_its_handles_and_nothing_is_spilled() {
 
 #[test]
 fn hands_that_pull_at_a_pot_from_both_sides_feel_it() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(POT);
     let at_rest = number(&mut cook, "(first (btr::%force-between-hands))");
     assert!(at_rest < 2.0, "{at_rest} N");

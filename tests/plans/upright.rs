@@ -4,7 +4,7 @@ use super::cook::Cook;
 
 /// A robot before the table that has picked up things of a type, each with a hand, from the left and from the right.
 fn holding(kind: &str, arms: &[&str]) -> Cook {
-    let mut cook = Cook::new();
+    let mut cook = Cook::watched();
     for (arm, x) in [("left", -1.25), ("right", -1.65)] {
         if arms.contains(&arm) {
             cook.done(&format!(
