@@ -19,6 +19,7 @@ mod names;
 pub(crate) mod open_action;
 mod overview;
 pub mod package;
+pub mod package_table;
 pub mod packages;
 pub mod pose;
 pub mod prolog;

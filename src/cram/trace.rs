@@ -25,9 +25,17 @@ pub(super) enum RowKind {
     Performed,
 }
 
+/// By what changes know a row as long as it has not ended.
+#[derive(Clone, Copy)]
+enum Key {
+    Task(TaskId),
+    Action(u64),
+}
+
 /// Something that was performed, or is.
 pub(super) struct Row {
     pub(super) kind: RowKind,
+    key: Key,
     /// The number of the row that it is part of.
     pub(super) parent: Option<usize>,
     /// Its name; empty for what has a designator.
@@ -75,17 +83,13 @@ impl Trace {
             Change::Task(change) => {
                 let number = match self.tasks.get(&change.id) {
                     Some(number) => *number,
-                    None => {
-                        let number = match change.starter {
-                            Some(by) => {
-                                let parent = self.starter(by, change.time);
-                                self.add(RowKind::Task, parent, change.time)
-                            }
-                            None => self.add_top_level(change.time),
-                        };
-                        self.tasks.insert(change.id, number);
-                        number
-                    }
+                    None => match change.starter {
+                        Some(by) => {
+                            let parent = self.starter(by, change.time);
+                            self.add(RowKind::Task, Key::Task(change.id), parent, change.time)
+                        }
+                        None => self.add_top_level(change.id, change.time),
+                    },
                 };
                 if let Some(row) = self.row_mut(number) {
                     row.name.clone_from(&change.name);
@@ -104,8 +108,8 @@ impl Trace {
             }
             Change::Begun(begun) => {
                 let parent = begun.starter.and_then(|by| self.starter(by, begun.time));
-                let number = self.add(RowKind::Performed, parent, begun.time);
-                self.actions.insert(begun.id.0, number);
+                let key = Key::Action(begun.id.0);
+                let number = self.add(RowKind::Performed, key, parent, begun.time);
                 if let Some(row) = self.row_mut(number) {
                     row.designator = begun.designator.clone();
                     row.place = begun.place;
@@ -146,33 +150,33 @@ impl Trace {
             return Some(*number);
         }
         // What no task has started is evaluated at top level.
-        let number = self.add_top_level(time);
+        let number = self.add_top_level(id, time);
         if let Some(row) = self.row_mut(number) {
             row.started = Some(time);
             row.status = Status::Running;
         }
-        self.tasks.insert(id, number);
         Some(number)
     }
 
     /// A new row for a plan at top level.
-    fn add_top_level(&mut self, created: f64) -> usize {
+    fn add_top_level(&mut self, id: TaskId, created: f64) -> usize {
         if self.top_levels.len() >= MAX_TOP_LEVELS {
             self.top_levels.pop_front();
             let next = self.top_levels.front().copied();
             self.forget(next.unwrap_or(self.first));
         }
-        let number = self.add(RowKind::TopLevel, None, created);
+        let number = self.add(RowKind::TopLevel, Key::Task(id), None, created);
         self.top_levels.push_back(number);
         number
     }
 
-    fn add(&mut self, kind: RowKind, parent: Option<usize>, created: f64) -> usize {
+    fn add(&mut self, kind: RowKind, key: Key, parent: Option<usize>, created: f64) -> usize {
         if self.rows.len() >= MAX_ROWS {
             self.forget(self.first + 1);
         }
         self.rows.push_back(Row {
             kind,
+            key,
             parent,
             name: String::new(),
             designator: Value::NIL,
@@ -183,7 +187,12 @@ impl Trace {
             status: Status::Created,
             result: Value::NIL,
         });
-        self.first + self.rows.len() - 1
+        let number = self.first + self.rows.len() - 1;
+        match key {
+            Key::Task(id) => self.tasks.insert(id, number),
+            Key::Action(id) => self.actions.insert(id, number),
+        };
+        number
     }
 
     fn row_mut(&mut self, number: usize) -> Option<&mut Row> {
@@ -193,12 +202,28 @@ impl Trace {
 
     /// Forgets the rows before a number.
     fn forget(&mut self, first: usize) {
-        while self.first < first && self.rows.pop_front().is_some() {
+        while self.first < first
+            && let Some(row) = self.rows.pop_front()
+        {
             self.first += 1;
+            // What has ended is no longer among these; its key may belong to a later row.
+            let is_forgotten = |number: &usize| *number < self.first;
+            match row.key {
+                Key::Task(id) if self.tasks.get(&id).is_some_and(is_forgotten) => {
+                    self.tasks.remove(&id);
+                }
+                Key::Action(id) if self.actions.get(&id).is_some_and(is_forgotten) => {
+                    self.actions.remove(&id);
+                }
+                Key::Task(_) | Key::Action(_) => {}
+            }
         }
-        let first = self.first;
-        self.tasks.retain(|_, number| *number >= first);
-        self.actions.retain(|_, number| *number >= first);
-        self.top_levels.retain(|number| *number >= first);
+        while self
+            .top_levels
+            .front()
+            .is_some_and(|number| *number < self.first)
+        {
+            self.top_levels.pop_front();
+        }
     }
 }

@@ -16,6 +16,7 @@
 //! `typed` of the language: `use …::typed::{self, builtin, builtins}` brings all into scope.
 
 mod attribute;
+mod conversion;
 mod doc;
 mod expand;
 mod lambda_list;

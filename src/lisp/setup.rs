@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::builtins::{implementation, number_constants, number_theory, reading, registry};
+use super::builtins::{implementation, number_constants, number_theory, readtables, registry};
 use super::condition;
 use super::image::{Image, precompiled};
 use super::library;
@@ -43,7 +43,7 @@ impl Image {
         number_constants::define(image);
         number_theory::define_constants(image);
         implementation::define_constants(image);
-        reading::define_variables(image);
+        readtables::define_variables(image);
         library::install(image, &library::LIBRARY);
     }
 }

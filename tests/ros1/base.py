@@ -1,8 +1,9 @@
 """A robot of ROS 1 for the checks: a base that `move_base` drives, a simple action server of actionlib, with tf and joint states.
 
-    base.py [honest|rejects|aborts|beside|preempts|dies]
+    base.py [honest|rejects|aborts|beside|preempts|dies|mute]
 
-It prints each goal and how it ended. Its arms hang still. `beside` reports success 0.2 m from the goal; `dies` ends by itself on the way."""
+It prints each goal and how it ended. Its arms hang still. `rejects` tells so by its status before it tells the result; `beside` reports
+success 0.2 m from the goal; `dies` ends by itself on the way; `mute` arrives, and says so only by its status."""
 
 import math
 import os
@@ -13,6 +14,7 @@ import xml.etree.ElementTree as xml
 
 import actionlib
 import rospy
+from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import TransformStamped
 from move_base_msgs.msg import MoveBaseAction, MoveBaseFeedback
 from sensor_msgs.msg import JointState
@@ -60,7 +62,12 @@ class Base:
 
     def reject(self, handle):
         print("goal, rejected", flush=True)
-        handle.set_rejected(text="not today")
+        status = handle.status_tracker.status
+        with self.server.lock:
+            status.status, status.text = GoalStatus.REJECTED, "not today"
+            self.server.publish_status()
+            time.sleep(0.3)
+            self.server.publish_result(status, handle.get_default_result())
 
     def drive(self, goal):
         print("goal", flush=True)
@@ -87,6 +94,8 @@ class Base:
                 self.server.set_aborted(text="the wheels are stuck")
                 return
         print("there", flush=True)
+        if MANNER == "mute":
+            self.server.action_server.result_pub.publish = lambda _: None
         self.server.set_succeeded(text="there")
 
 

@@ -125,7 +125,7 @@ check(state == "ABORTED" and "odometry" in text, f"a strange frame: {state}, {te
 nan, infinite = float("nan"), float("inf")
 for wrong in (goal(nan, 0), goal(0, infinite), goal(0, 0, 0, 0), goal(0, 0, nan, 1)):
     state, text, _ = drive(wrong)
-    check(state == "REJECTED" and "expected" in text or "quaternion" in text, f"{wrong}: {state}, {text}")
+    check(state == "REJECTED" and ("expected" in text or "quaternion" in text), f"{wrong}: {state}, {text}")
 late = goal(0, 0)
 late.target_pose.header.stamp = rospy.Time(2**32 - 1, 0)
 state, text, _ = drive(late)

@@ -23,7 +23,6 @@ BEGIN = """
 """
 
 
-
 def is_drawn():
     """Whether the picture has something of a bottle, which is the only red thing, and of the kitchen, which is dark."""
     pixels = subprocess.run(["convert", PICTURE, "-depth", "8", "rgb:-"], check=True, capture_output=True).stdout
@@ -46,11 +45,13 @@ screen = subprocess.Popen(
     pass_fds=[writing],
     stderr=subprocess.DEVNULL,
 )
+begun = [screen]
 try:
     os.close(writing)
     display = ":" + os.read(reading, 16).decode().strip()
     environment = {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "XDG_RUNTIME_DIR": os.environ["ROS_HOME"]}
     rviz = Program(["rviz", "-d", "tests/ros1/scene.rviz"], **environment)
+    begun.insert(0, rviz.process)
     # rviz says nothing when it has drawn: it is looked at until two pictures are the same, and no longer empty.
     last, end = b"", time.monotonic() + 90
     while True:
@@ -68,7 +69,7 @@ try:
     wrong = [line for line in rviz.said if "ERROR" in line]
     check(not wrong, f"rviz complains: {wrong}")
 finally:
-    for program in (rviz.process, screen):
+    for program in begun:
         program.terminate()
         program.wait(10)
 print(f"{PICTURE}: {len(now)} bytes. Look at it: robot, kitchen, a red bottle on the table, frames at hands and head")

@@ -14,18 +14,8 @@ import rosgraph
 from checks import check
 
 DOMAIN = int(os.environ["ROS_DOMAIN_ID"])
-# What the C++ library of DDS in these checks needs to stay on this machine; the bridge knows that by itself.
-LOOPBACK = """<CycloneDDS><Domain Id="any">
-    <General>
-        <Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
-        <AllowMulticast>false</AllowMulticast>
-    </General>
-    <Discovery>
-        <ParticipantIndex>auto</ParticipantIndex>
-        <MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>
-        <Peers><Peer Address="localhost"/></Peers>
-    </Discovery>
-</Domain></CycloneDDS>"""
+# What Cyclone DDS in these checks needs to stay on this machine; the bridge knows that by itself.
+LOOPBACK = "file://" + os.path.abspath("tests/ros2/loopback.xml")
 STARTED = []
 
 

@@ -6,4 +6,5 @@ mod prompt;
 mod properties;
 mod task_outcomes;
 mod tasks;
+mod trace;
 mod waiting_for_fluents;

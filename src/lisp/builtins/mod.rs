@@ -39,6 +39,7 @@ pub(crate) mod pretty_printing;
 pub mod printing;
 pub(crate) mod property_lists;
 pub mod reading;
+pub mod readtables;
 pub mod registry;
 pub mod restarts;
 pub(crate) mod sequence_access;

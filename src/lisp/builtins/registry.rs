@@ -61,6 +61,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     numbers::TABLE,
     printing::TABLE,
     reading::TABLE,
+    readtables::TABLE,
     transcendental::TABLE,
 ];
 
@@ -83,6 +84,7 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     stream_parts::SYSTEM_TABLE,
     metaobjects::SYSTEM_TABLE,
     reading::SYSTEM_TABLE,
+    readtables::SYSTEM_TABLE,
     files::SYSTEM_TABLE,
     pathnames::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
@@ -101,7 +103,7 @@ pub(crate) static SETTERS: &[&[Builtin]] = &[
     arrays::SETTERS,
     fill_pointers::SETTERS,
     hash_tables::SETTERS,
-    reading::SETTERS,
+    readtables::SETTERS,
     symbols::SETTERS,
     documentation::SETTERS,
     objects::SETTERS,

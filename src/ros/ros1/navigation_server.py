@@ -20,6 +20,7 @@ UNKNOWN_ERROR = 9000
 PENDING = 0.5
 # How long ROS 1 may take to notice a goal.
 ACKNOWLEDGED = 3.0
+OVER = {GoalStatus.SUCCEEDED, GoalStatus.PREEMPTED, GoalStatus.RECALLED, GoalStatus.ABORTED, GoalStatus.REJECTED}
 ENDS = {GoalStatus.SUCCEEDED: SUCCEEDED, GoalStatus.PREEMPTED: CANCELED, GoalStatus.RECALLED: CANCELED}
 
 
@@ -107,7 +108,9 @@ class NavigationServer:
         if errand not in self.errands or errand.handle is None:
             return
         state, waited = errand.handle.get_comm_state(), time.monotonic() - errand.since
-        if state == CommState.DONE:
+        # Asked after the state, and before anything is made of that: on the way to the end of a goal that was rejected, actionlib passes
+        # through states in which it looks accepted. The result, which may come later or never, has nothing in it that is not known by now.
+        if state == CommState.DONE or errand.handle.get_goal_status() in OVER:
             self.errands.remove(errand)
             self.end(errand)
         elif state == CommState.LOST:
@@ -127,7 +130,7 @@ class NavigationServer:
             self.server.accept(errand.goal, EXECUTING)
 
     def end(self, errand):
-        status, text = errand.handle.get_terminal_state(), errand.handle.get_goal_status_text()
+        status, text = errand.handle.get_goal_status(), errand.handle.get_goal_status_text()
         if status == GoalStatus.REJECTED and errand.goal.state is None:
             tell(f"{self.move_base} has rejected a goal: {text or 'it does not say why'}")
             self.server.reject(errand.goal)
