@@ -300,6 +300,71 @@
        :translation (0.11 -0.1755 0.012) :rotation top-across-x
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
+; Between these, and nearer to the corners: where things stand along the walls, too.
+(grasp top-back-left-near-middle :types (tray) :arms (left right)
+       :translation (-0.2102 0.05 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-back-left-near-corner :types (tray) :arms (left right)
+       :translation (-0.2102 0.145 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-back-right-near-middle :types (tray) :arms (left right)
+       :translation (-0.2102 -0.05 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-back-right-near-corner :types (tray) :arms (left right)
+       :translation (-0.2102 -0.145 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-left-near-middle :types (tray) :arms (left right)
+       :translation (0.2102 0.05 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-left-near-corner :types (tray) :arms (left right)
+       :translation (0.2102 0.145 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-right-near-middle :types (tray) :arms (left right)
+       :translation (0.2102 -0.05 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front-right-near-corner :types (tray) :arms (left right)
+       :translation (0.2102 -0.145 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-back-near-middle :types (tray) :arms (left right)
+       :translation (-0.055 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-back-near-corner :types (tray) :arms (left right)
+       :translation (-0.16 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-front-near-middle :types (tray) :arms (left right)
+       :translation (0.055 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left-front-near-corner :types (tray) :arms (left right)
+       :translation (0.16 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-back-near-middle :types (tray) :arms (left right)
+       :translation (-0.055 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-back-near-corner :types (tray) :arms (left right)
+       :translation (-0.16 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-front-near-middle :types (tray) :arms (left right)
+       :translation (0.055 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right-front-near-corner :types (tray) :arms (left right)
+       :translation (0.16 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
 ; Flat and too wide for anything else: where an edge stands out over what carries it.
 (grasp front :types (tray-base) :arms (left right)
        :translation (0.08 0 0.0116) :rotation flat-from-front

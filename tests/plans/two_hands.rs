@@ -35,6 +35,14 @@ const TRAY: &str = "
       (with-simulated-robot
         (perform (an action (type searching) (object (an object (type tray))) (location ?table))))))";
 
+/// The tray is carried from the table to the island.
+const CARRY: &str = "
+  (with-simulated-robot
+    (perform (an action (type transporting)
+                 (object (an object (type tray) (name tray-1)))
+                 (location (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))
+                 (target (a location (on (an object (urdf-name kitchen-island-surface) (part-of kitchen))))))))";
+
 fn with_tray() -> Cook {
     let mut cook = Cook::new();
     cook.done(TRAY);
@@ -88,6 +96,53 @@ fn both_hands_carry_a_tray_with_cups_from_the_table_to_the_island() {
     let said =
         cook.done("(list (on-surface-p 'tray-1 'kitchen-island-surface) (nothing-on-floor-p))");
     assert!(said.contains("(T T)"), "{said}");
+}
+
+/// Hands found no room between the cups, then hung so far askew that they could put the tray down nowhere.
+#[test]
+fn a_tray_whose_cups_stand_along_its_walls_is_carried_too() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(btr-utils:spawn-object 'tray-1 :tray :pose '((-1.309 -0.948 0.72) (0 0 -0.7121 0.7021)))
+         (btr-utils:spawn-object 'cup-1 :cup :pose '((-1.228 -1.095 0.77) (0 0 -0.539 0.842)))
+         (btr-utils:spawn-object 'cup-2 :cup :pose '((-1.233 -0.958 0.77) (0 0 -1 0.019)))
+         (btr-utils:spawn-object 'cup-3 :cup :pose '((-1.376 -1.096 0.77) (0 0 -0.288 0.958)))",
+    );
+    let before = cups(&cook);
+    cook.done(CARRY);
+    for (then, now) in before.iter().zip(cups(&cook)) {
+        assert!(
+            (0..3).all(|i| (then[i] - now[i]).abs() < 0.02),
+            "{then:?} {now:?}"
+        );
+    }
+    let said = cook.done("(on-surface-p 'tray-1 'kitchen-island-surface)");
+    assert_eq!(said.trim(), "T");
+}
+
+#[test]
+fn where_cups_leave_no_room_for_hands_it_says_so_before_anything_is_touched() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(btr-utils:spawn-object 'tray-1 :tray :pose '((-1.5 -0.95 0.72) (0 0 0 1)))
+         (defparameter *tray*
+           (with-simulated-robot
+             (perform (an action (type searching)
+                          (object (an object (type tray)))
+                          (location (a location (on (an object (urdf-name table-area-main) (part-of kitchen)))))))))
+         (loop for (x y) in '((0.15 0.12) (0.05 0.12) (-0.05 0.12) (-0.15 0.12) (0.15 0) (-0.15 0)
+                              (0.15 -0.12) (0.05 -0.12) (-0.05 -0.12) (-0.15 -0.12))
+               for number from 1
+               do (btr-utils:spawn-object (intern (format nil \"CUP-~a\" number)) :cup
+                                          :pose (list (list (- x 1.5) (- y 0.95) 0.77) '(0 0 0 1))))",
+    );
+    let before = cups(&cook);
+    let fetch = "(with-simulated-robot
+                   (let ((?tray *tray*)) (perform (an action (type fetching) (object ?tray)))))";
+    let said = said(&mut cook, fetch);
+    let why = "tray-1 cannot be taken with both hands: from no place do they get to both sides of it; with one, cup-1, ";
+    assert!(said.contains(why) && said.contains(" would fall"), "{said}");
+    assert_eq!(before, cups(&cook));
 }
 
 #[test]
