@@ -137,11 +137,19 @@ fn where_cups_leave_no_room_for_hands_it_says_so_before_anything_is_touched() {
                                           :pose (list (list (- x 1.5) (- y 0.95) 0.77) '(0 0 0 1))))",
     );
     let before = cups(&cook);
-    let fetch = "(with-simulated-robot
-                   (let ((?tray *tray*)) (perform (an action (type fetching) (object ?tray)))))";
-    let said = said(&mut cook, fetch);
-    let why = "tray-1 cannot be taken with both hands: from no place do they get to both sides of it; with one, cup-1, ";
-    assert!(said.contains(why) && said.contains(" would fall"), "{said}");
+    let said = cook.done(
+        "(handler-case
+             (with-simulated-robot
+               (let ((?tray *tray*)) (perform (an action (type fetching) (object ?tray)))))
+           (serious-condition (failure) (format t \"~a\" failure)))",
+    );
+    for why in [
+        "from no place do they get to both sides of it",
+        "TRAY-1 carries CUP-1, ",
+        "which would fall",
+    ] {
+        assert!(said.contains(why), "{said}");
+    }
     assert_eq!(before, cups(&cook));
 }
 
