@@ -20,6 +20,7 @@ UNKNOWN_ERROR = 9000
 PENDING = 0.5
 # How long ROS 1 may take to notice a goal.
 ACKNOWLEDGED = 3.0
+# With these, a goal has ended.
 OVER = {GoalStatus.SUCCEEDED, GoalStatus.PREEMPTED, GoalStatus.RECALLED, GoalStatus.ABORTED, GoalStatus.REJECTED}
 ENDS = {GoalStatus.SUCCEEDED: SUCCEEDED, GoalStatus.PREEMPTED: CANCELED, GoalStatus.RECALLED: CANCELED}
 
