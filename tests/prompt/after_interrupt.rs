@@ -196,3 +196,42 @@ fn a_name_with_a_question_mark_is_the_local_variable_first() {
     let known = talk.say("?car");
     assert!(known.contains("The car of a list"), "{known}");
 }
+
+#[test]
+fn an_interrupt_while_macros_are_expanded_stops_the_form_that_they_are_part_of() {
+    let mut talk = Talk::new();
+    talk.say("(defmacro counted (n) (loop for i below n sum i into s finally (return s)))");
+    let form = "(loop repeat 9 for x = (counted 500) then (counted 2000) sum
+                  (loop for i from 1 upto 2000 count (evenp i)))";
+    let whole = talk.say(form);
+    assert_eq!(whole, "9000\n");
+    let mut stopped = 0;
+    for at in 1..80 {
+        talk.session.interrupt_next_at(at);
+        let (shown, outcome) = talk.take(form);
+        if outcome == Outcome::Stopped {
+            stopped += 1;
+            assert!(shown.contains("\n 0: Continue.\n"), "at {at}: {shown}");
+            assert_eq!(talk.say("0"), whole, "at {at}");
+        } else {
+            assert_eq!(shown, whole, "at {at}");
+        }
+    }
+    assert!(stopped > 30, "{stopped} interrupts");
+}
+
+#[test]
+fn an_interrupt_ends_a_macro_that_never_returns() {
+    let mut talk = Talk::new();
+    talk.say("(defmacro endless () (loop))");
+    for form in [
+        "(endless)",
+        "(list (endless))",
+        "(macroexpand-1 '(endless))",
+    ] {
+        talk.session.interrupt_next_at(10);
+        let (shown, _) = talk.take(form);
+        assert!(shown.starts_with("Interrupted."), "{form}: {shown}");
+        talk.say("q");
+    }
+}

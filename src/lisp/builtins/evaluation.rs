@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::builtin::Builtin;
 use crate::compile::{self, is_executed};
-use crate::guard::{descend, look};
+use crate::guard::{descend, look_patiently};
 use crate::image::Image;
 use crate::image::locks::Meaning;
 use crate::image::warnings::Warning;
@@ -105,7 +105,7 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value, is_judged: bool) -
 fn expanded(image: &mut Image, form: &Value) -> Result<Value> {
     let mut form = form.clone();
     loop {
-        look();
+        look_patiently();
         let place = match &form {
             Value::Cons(cons) => cons.place(),
             _ => Place::NONE,

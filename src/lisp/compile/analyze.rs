@@ -11,7 +11,7 @@ use super::scope::{
 };
 use super::special_forms;
 use crate::evaluator::nested;
-use crate::guard::{Pace, Stopped, descend, leave, look, reason};
+use crate::guard::{Pace, Stopped, descend, leave, look_patiently, patient_reason};
 use crate::image::Image;
 use crate::image::notes::NoteKind;
 use crate::source::Place;
@@ -253,7 +253,7 @@ impl<'a> Compiler<'a> {
     /// An error if there is a reason to stop: to unwind many thousands of levels would take long.
     fn look(&mut self) -> Compiled<()> {
         if self.stopped.is_none() && self.pace.is_due() {
-            self.stopped = reason();
+            self.stopped = patient_reason();
         }
         self.stopped.map_or(Ok(()), |stopped| Err(stopped.into()))
     }
@@ -459,7 +459,7 @@ impl<'a> Compiler<'a> {
         form: &Value,
         scope: &Scope,
     ) -> Compiled<Value> {
-        look();
+        look_patiently();
         let args = vec![form.clone(), Environment::value(scope)];
         let expansion = nested::call_nested(self.image, Value::Function(function.clone()), args)
             .map_err(|r| r.at(self.place))?;

@@ -4,7 +4,7 @@ use super::analyze::keep_place;
 use super::environment;
 use super::shape;
 use crate::evaluator::nested;
-use crate::guard::look;
+use crate::guard::look_patiently;
 use crate::image::Image;
 use crate::value::Value;
 use crate::value::raise::Raise;
@@ -75,7 +75,7 @@ pub(crate) fn macroexpand_in(
     let mut form = form.clone();
     let mut expanded = false;
     while let Some(expansion) = macroexpand_1_in(image, &form, environment)? {
-        look();
+        look_patiently();
         form = expansion;
         expanded = true;
     }

@@ -38,7 +38,7 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
         ));
     }
     // A macro that expands into itself makes many short calls.
-    if let Some(reason) = image.limits.reason() {
+    if let Some(reason) = image.limits.patient_reason() {
         return Err(reason.into());
     }
     image.nesting += 1;
@@ -61,6 +61,7 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
                     "A macro function cannot wait, move the robot or start tasks.",
                 ));
             }
+            Event::Interrupted if machine.image.limits.polls.put_off() => event = machine.run(),
             Event::Interrupted => {
                 machine.unwind_all();
                 break Err(Stopped::Interrupted.into());

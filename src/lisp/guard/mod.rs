@@ -73,6 +73,13 @@ impl Limits {
         }
         self.heap.is_exhausted().then_some(Stopped::HeapExhausted)
     }
+
+    /// The same for work that soon ends in most cases, such as compiling a form: for a while an
+    /// interrupt is put off, since the form can be continued once it runs.
+    pub fn patient_reason(&self) -> Option<Stopped> {
+        self.reason()
+            .filter(|reason| *reason != Stopped::Interrupted || !self.polls.put_off())
+    }
 }
 
 impl Drop for Watch {
@@ -84,11 +91,21 @@ impl Drop for Watch {
 
 /// Why what runs on this thread is to stop, if it is.
 pub fn reason() -> Option<Stopped> {
+    in_force()?.reason()
+}
+
+/// The same for work that soon ends in most cases ([`Limits::patient_reason`]).
+pub(crate) fn patient_reason() -> Option<Stopped> {
+    in_force()?.patient_reason()
+}
+
+/// The limits in force on this thread, after memory that is overdue has been given back.
+fn in_force() -> Option<Rc<Limits>> {
     // At the end of the thread, when values may still be dropped, nothing is in force.
     let limits = CURRENT.try_with(|limits| limits.borrow().clone());
     let limits = limits.ok().flatten()?;
     reclaim::if_overdue(limits.heap.in_use());
-    limits.reason()
+    Some(limits)
 }
 
 /// Does somebody want to interrupt what runs on this thread? This is no poll of the flag that counts.
@@ -107,6 +124,13 @@ pub(crate) fn memory_in_use() -> Option<usize> {
 /// Leaves the calling function by unwinding if there is a reason to stop.
 pub fn look() {
     if let Some(reason) = reason() {
+        leave(reason);
+    }
+}
+
+/// The same for work that soon ends in most cases ([`Limits::patient_reason`]).
+pub(crate) fn look_patiently() {
+    if let Some(reason) = patient_reason() {
         leave(reason);
     }
 }

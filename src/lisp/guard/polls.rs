@@ -11,6 +11,7 @@ pub struct Polls {
     flag: Arc<AtomicBool>,
     count: Cell<u64>,
     seen_at: Cell<Option<u64>>,
+    put_off: Cell<u32>,
     due_at: Cell<Option<u64>>,
     again: Cell<Option<u64>>,
     breathe: Cell<Option<fn()>>,
@@ -19,11 +20,15 @@ pub struct Polls {
 /// Number of polls from one breath to the next.
 const BETWEEN_BREATHS: u64 = 64;
 
+/// How often may interrupts be put off from one poll to the next? For some ten milliseconds.
+const MAX_PUT_OFF: u32 = 256;
+
 impl Polls {
     /// Begins a new count. At the given poll, if any, the flag will be found set.
     pub fn begin(&self, due_at: Option<u64>) {
         self.count.set(0);
         self.seen_at.set(None);
+        self.put_off.set(0);
         self.due_at.set(due_at);
     }
 
@@ -72,6 +77,18 @@ impl Polls {
             self.flag.store(false, Ordering::Relaxed);
         }
         was_set
+    }
+
+    /// Puts off an interrupt that [`take`](Self::take) has told: the next poll tells it again.
+    /// Returns false where that has been done so often that it is to be heard at once.
+    pub fn put_off(&self) -> bool {
+        let put_off = self.put_off.get();
+        if put_off == MAX_PUT_OFF {
+            return false;
+        }
+        self.put_off.set(put_off + 1);
+        self.flag.store(true, Ordering::Relaxed);
+        true
     }
 
     /// Polls the flag.
