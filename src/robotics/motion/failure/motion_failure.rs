@@ -441,6 +441,7 @@ impl MotionFailure {
             Self::GoalOccupied { .. }
             | Self::Enclosed { .. }
             | Self::DriveStartOccupied { .. }
+            | Self::TorsoBlocked { .. }
             | Self::ArmGoalInCollision { .. }
             | Self::ArmStartInCollision { .. }
             | Self::ArmPathNotFound { .. }

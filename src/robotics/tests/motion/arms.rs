@@ -324,24 +324,6 @@ fn a_hand_goal_holds_although_the_torso_moves_at_the_same_time() {
     assert!(distance_between(&tcp_in_base(&kitchen.world, Side::Right), &goal) < 1e-3);
 }
 
-#[test]
-fn a_torso_goal_beyond_the_limits_is_cropped_and_then_reported() {
-    let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.2);
-    for (goal, reached) in [(0.5, 0.33), (-0.1, 0.0)] {
-        let torso = kitchen.torso(goal);
-        let failure = kitchen.run_one(torso).unwrap_err();
-        assert_eq!(
-            failure.to_string(),
-            format!("Torso goal {goal} was out of joint limits\nthe torso goes from 0 to 0.33 m")
-        );
-        let joint = kitchen.world.models().description.torso.joint.unwrap();
-        let height = kitchen.world.robot_configuration().joints.get(joint);
-        assert!((height - reached).abs() < 1e-12);
-    }
-    let torso = kitchen.torso(0.33);
-    assert_eq!(kitchen.run_one(torso), ARRIVED);
-}
-
 /// What a hand holds gives way where it grazes an edge, and is torn out of the hand.
 #[test]
 fn what_is_carried_is_clear_of_furniture_in_a_posture_or_does_not_get_there() {

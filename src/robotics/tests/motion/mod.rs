@@ -13,3 +13,4 @@ mod not_finite;
 mod pick_and_place;
 mod shape_grasps;
 mod together;
+mod torso;
