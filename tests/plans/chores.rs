@@ -88,6 +88,65 @@ fn a_hand_that_cannot_point_does_not_move() {
     assert_eq!(cook.session.simulation().world().steps(), before);
 }
 
+/// How many grains are in a vessel.
+fn grains(cook: &mut Cook, name: &str) -> f64 {
+    number(
+        cook,
+        &format!("(float (or (second (grains-in '{name})) 0) 1d0)"),
+    )
+}
+
+#[test]
+fn grains_are_poured_and_counted() {
+    let mut cook = at_island();
+    cook.done(TAKE_CUP);
+    cook.done("(fill-with-grains 'cup-1 :rice 40)");
+    let half = pouring("(amount 0.5)");
+    cook.done(&format!("(with-simulated-robot {half})"));
+    let (cup, bowl) = (grains(&mut cook, "cup-1"), grains(&mut cook, "bowl-1"));
+    assert!((17.0..=24.0).contains(&bowl), "{bowl} of 40");
+    assert!(cup + bowl >= 39.0, "{cup} and {bowl}");
+    let all = pouring("");
+    cook.done(&format!("(with-simulated-robot {all})"));
+    let bowl = grains(&mut cook, "bowl-1");
+    assert!(bowl >= 38.0, "{bowl} of 40");
+    assert_eq!(grains(&mut cook, "cup-1"), 0.0);
+    let lost = number(&mut cook, "(spilled-from 'cup-1)");
+    assert!((lost - (40.0 - bowl) * 0.904_779).abs() < 1e-3, "{lost}");
+    assert_eq!(
+        cook.done("(on-surface-p 'bowl-1 'kitchen-island-surface)"),
+        "T\n"
+    );
+}
+
+#[test]
+fn grains_that_would_not_fit_are_refused_before_anything_moves() {
+    let mut cook = at_island();
+    cook.done(TAKE_CUP);
+    cook.done("(fill-with-grains 'cup-1 :rice 60)");
+    cook.done("(fill-with-grains 'bowl-1 :peas 300)");
+    let before = cook.session.simulation().world().steps();
+    let report = cook.fails("CONTAINER-FULL", &pouring(""));
+    assert!(
+        report.contains("54 ml are to be poured into it, which take 90 ml, "),
+        "{report}"
+    );
+    assert_eq!(cook.session.simulation().world().steps(), before);
+    for (form, wanted) in [
+        (
+            "(fill-with-grains 'cup-1 :rice 500)",
+            "CUP-1 does not hold 500 grains: it is full with ",
+        ),
+        (
+            "(progn (btr-utils:spawn-object 'cap-1 :cap :pose '((1.4 1.0 0.95) (0 0 0 1))) (fill-with-grains 'cap-1 :rice 1))",
+            "CAP-1 is no open vessel: grains do not get into it.",
+        ),
+    ] {
+        let report = cook.fails("SIMPLE-ERROR", form);
+        assert!(report.starts_with(wanted), "{report}");
+    }
+}
+
 #[test]
 fn what_is_above_the_rim_of_a_tilted_vessel_leaves_it() {
     let mut cook = Cook::new();

@@ -128,6 +128,21 @@ impl Cavity {
         })
     }
 
+    /// Height (m) of its floor.
+    pub fn floor(&self) -> f64 {
+        self.rim - self.radii.len() as f64 * self.thickness
+    }
+
+    /// How far (m) the walls are from the axis at a height (m), on average; 0 above the rim and below the floor.
+    pub fn radius_at(&self, height: f64) -> f64 {
+        let slice = ((self.rim - height) / self.thickness).floor();
+        let radius = match slice >= 0.0 {
+            true => self.radii.get(slice as usize),
+            false => None,
+        };
+        radius.copied().unwrap_or(0.0)
+    }
+
     /// How much (ml) it holds when it is upright.
     pub fn capacity(&self) -> f64 {
         self.volume_at(0.0)

@@ -549,6 +549,7 @@ impl<'w> CollisionChecker<'w> {
     fn name_of(&self, key: PartKey) -> Option<BodyName> {
         Some(match key {
             PartKey::Floor => BodyName::Floor,
+            PartKey::Grain => return None,
             PartKey::Robot(i) => {
                 BodyName::Robot(self.surroundings.models.robot_geometry.name(i)?.clone())
             }

@@ -70,12 +70,12 @@ impl World {
         Ok(self.forces_on(body, |_, other| is_robot(other)))
     }
 
-    /// Sum of the forces (N) on the object from anything but the robot: its support and what it
+    /// Sum of the forces (N) on the object from anything but the robot and grains: its support and what it
     /// bumps into.
     pub fn support_force(&self, name: &str) -> Result<f64, WorldError> {
         let mut sum = 0.0;
         let body = self.object(name)?.body;
-        let counts = |_, other| !is_robot(other);
+        let counts = |_, other| is_outside(other);
         self.physics
             .visit_contacts(body, counts, |contact| sum += contact.force);
         Ok(sum)
@@ -95,9 +95,9 @@ impl World {
         Ok(load.max(0.0))
     }
 
-    /// Whether the object presses on anything but the robot.
+    /// Whether the object presses on anything but the robot and grains.
     pub(super) fn touches_others(&self, object: &Object) -> bool {
-        self.touches(object, |other| !is_robot(other))
+        self.touches(object, is_outside)
     }
 
     fn touches(&self, object: &Object, counts: impl Fn(u64) -> bool) -> bool {
@@ -192,6 +192,11 @@ fn any(_: u64, _: u64) -> bool {
 /// Whether that is the code of one of the robot's links.
 fn is_robot(code: u64) -> bool {
     matches!(PartKey::from_code(code), PartKey::Robot(_))
+}
+
+/// Whether that is the code of what is neither the robot nor a grain in the object.
+fn is_outside(code: u64) -> bool {
+    !matches!(PartKey::from_code(code), PartKey::Robot(_) | PartKey::Grain)
 }
 
 fn add(forces: &mut Vec<ContactForce>, one: ContactForce) {

@@ -20,6 +20,9 @@ const CLINGS: f64 = 0.05;
 /// A vessel that is tilted more than this (rad) catches nothing.
 const CATCHES: f64 = 0.5;
 
+/// What a content of several parts is called.
+pub const MIXTURE: &str = "mixture";
+
 /// What is in a vessel, or has been.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Content {
@@ -65,10 +68,11 @@ impl Object {
 }
 
 impl World {
-    /// Fills a vessel with so much (ml) of something, in place of what was in it; nothing is spilled any
-    /// more. What is too much for it is lost at the next step.
+    /// Fills a vessel with so much (ml) of something, in place of what was in it, grains, too; nothing is
+    /// spilled any more. What is too much for it is lost at the next step.
     pub fn set_content(&mut self, name: &str, what: &str, volume: f64) -> Result<(), WorldError> {
-        self.object(name)?;
+        let number = self.object(name)?.number;
+        self.remove_grains_of(number);
         if let Some(object) = self.state.objects.get_mut(name) {
             object.content = Content {
                 what: what.to_owned(),
@@ -131,7 +135,7 @@ impl World {
                     if target.content.what.is_empty() || target.content.volume <= fits {
                         target.content.what = what;
                     } else if target.content.what != what {
-                        "mixture".clone_into(&mut target.content.what);
+                        MIXTURE.clone_into(&mut target.content.what);
                     }
                 }
                 amount - fits

@@ -37,6 +37,18 @@ pub enum WorldError {
         /// The requested type.
         wanted: String,
     },
+    /// Grains are filled into what has no room for so many, or is not upright.
+    #[error("{name} is no open vessel that stands upright and has room for so many grains")]
+    NoRoomForGrains {
+        /// Name of the object.
+        name: String,
+    },
+    /// There would be more grains than there may be.
+    #[error("there would be more than {most} grains")]
+    TooManyGrains {
+        /// The most that there may be.
+        most: usize,
+    },
     /// The kitchen has no movable joint with that name.
     #[error("the kitchen has no moving joint {name}{}", suggestion(.closest))]
     UnknownKitchenJoint {

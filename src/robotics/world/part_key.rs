@@ -13,6 +13,8 @@ pub enum PartKey {
     Robot(u32),
     /// An object, by the number assigned when it was spawned. Numbers are never reused.
     Object(u32),
+    /// A grain; all are the same.
+    Grain,
 }
 
 impl PartKey {
@@ -23,6 +25,7 @@ impl PartKey {
             Self::Furniture(i) => (1, i),
             Self::Robot(i) => (2, i),
             Self::Object(i) => (3, i),
+            Self::Grain => (4, 0),
         };
         (kind << 32) | u64::from(index)
     }
@@ -35,6 +38,7 @@ impl PartKey {
             1 => Self::Furniture(index),
             2 => Self::Robot(index),
             3 => Self::Object(index),
+            4 => Self::Grain,
             _ => Self::Floor,
         }
     }
@@ -57,6 +61,7 @@ mod tests {
             PartKey::Furniture(7),
             PartKey::Robot(87),
             PartKey::Object(u32::MAX),
+            PartKey::Grain,
         ];
         assert_eq!(keys.map(|k| PartKey::from_code(k.code())), keys);
     }

@@ -34,7 +34,7 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
 
 pub use self::groups::Robot;
-use self::groups::groups;
+use self::groups::{groups, groups_of_grains};
 pub(crate) use self::packed::{LEFT_OUT, LEFT_OUT_AS_READ, Shapes};
 use super::hash::Hasher;
 use super::object_library::FRICTION;
@@ -80,6 +80,12 @@ const WELD_DAMPING: f64 = 1.0;
 const ANGULAR_DAMPING: f64 = 1.0;
 /// The same for a ball, which nothing else stops: fruit comes to rest on a slope of some tenths of a degree.
 const BALL_DAMPING: f64 = 10.0;
+
+/// The same for a grain, which is no perfect ball either, and damping (1/s) of its way.
+const GRAIN_ANGULAR_DAMPING: f64 = 20.0;
+const GRAIN_DAMPING: f64 = 0.5;
+/// What marks the bodies of grains.
+const GRAIN: u128 = 1;
 
 /// A body of the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -259,6 +265,39 @@ impl Physics {
                 .insert_with_parent(collider, handle, &mut self.sets.bodies);
         }
         BodyHandle(handle)
+    }
+
+    /// Adds a ball with a radius (m) and a mass (kg) that rolls about with others of its kind.
+    pub(crate) fn add_grain(
+        &mut self,
+        pose: &Pose,
+        radius: f64,
+        mass: f64,
+        key: u64,
+    ) -> BodyHandle {
+        let builder = RigidBodyBuilder::dynamic()
+            .angular_damping(GRAIN_ANGULAR_DAMPING)
+            .linear_damping(GRAIN_DAMPING)
+            .user_data(GRAIN)
+            .pose(to_parry(pose));
+        let s = self.edit();
+        let body = s.bodies.insert(builder);
+        let collider = ColliderBuilder::new(SharedShape::ball(radius))
+            .friction(FRICTION)
+            .friction_combine_rule(CoefficientCombineRule::Average)
+            .collision_groups(groups_of_grains())
+            .mass(mass)
+            .user_data(u128::from(key));
+        s.colliders
+            .insert_with_parent(collider, body, &mut s.bodies);
+        BodyHandle(body)
+    }
+
+    /// Takes a body out of what the engine moves, or puts it back.
+    pub(crate) fn set_enabled(&mut self, body: BodyHandle, is_enabled: bool) {
+        if let Some(b) = self.edit().bodies.get_mut(body.0) {
+            b.set_enabled(is_enabled);
+        }
     }
 
     /// Gives an object another mass (kg), spread over its solids by volume.
@@ -545,6 +584,8 @@ impl Sets {
     fn margin(&self) -> f64 {
         let awake = self.islands.active_bodies();
         let awake = awake.filter_map(|body| self.bodies.get(body));
+        // With the greater one, each grain that falls would be checked against all others around.
+        let awake = awake.filter(|body| body.user_data != GRAIN);
         let speed = |body: &RigidBody| body.linvel().length() + body.angvel().length() * EXTENT;
         let fastest = awake.map(speed).fold(0.0, f64::max);
         match fastest * STEP_SECONDS > MARGIN {

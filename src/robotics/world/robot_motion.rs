@@ -27,11 +27,15 @@ impl World {
         self.release_handles(None);
         self.state.robot_moves = false;
         self.place_robot_bodies();
-        for object in self.state.objects.values() {
-            if let Some(attachment) = &object.attachment {
-                let link = pose_of(&self.state.robot_poses, attachment.link);
-                self.physics.place(object.body, &(link * attachment.at));
-            }
+        let held = self.state.objects.values().filter_map(|object| {
+            let attachment = object.attachment.as_ref()?;
+            let link = pose_of(&self.state.robot_poses, attachment.link);
+            Some((object.name.clone(), object.body, link * attachment.at))
+        });
+        for (name, body, to) in held.collect::<Vec<_>>() {
+            let from = self.physics.pose(body);
+            self.take_grains_along(&name, &from, &to);
+            self.physics.place(body, &to);
         }
     }
 

@@ -20,6 +20,7 @@ use super::content::Content;
 use super::cutting::Cut;
 use super::error::WorldError;
 use super::explored_floor::ExploredFloor;
+use super::grains::Grains;
 use super::handle_hold::{HandleHold, HandleSlip};
 use super::hash::Hasher;
 use super::holding::Slip;
@@ -90,6 +91,8 @@ pub(super) struct State {
     pub(super) riding: Riding,
     /// Fingers that are opening, and when that was last said.
     pub(super) opening: Vec<OpeningFingers>,
+    /// What vessels have been filled with in grains.
+    pub(super) grains: Vec<Grains>,
 }
 
 impl State {
@@ -100,6 +103,7 @@ impl State {
             + size_of_val(self.left_behind.as_slice())
             + size_of_val(self.kitchen_poses.as_slice())
             + self.objects.len() * (size_of::<Object>() + OBJECT_NAMES)
+            + self.grains.iter().map(Grains::bytes).sum::<usize>()
     }
 }
 
@@ -173,6 +177,7 @@ impl World {
                 cuts: Vec::new(),
                 opening: Vec::new(),
                 riding: Riding::default(),
+                grains: Vec::new(),
             },
             robot_bodies,
             kitchen_bodies,
@@ -233,6 +238,7 @@ impl World {
         self.watch_holds();
         self.pour();
         self.shake();
+        self.follow_grains();
         self.note_touches();
         self.state.steps += 1;
     }
@@ -262,17 +268,18 @@ impl World {
         is_at_rest(self)
     }
 
-    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s; one in a hand
-    /// rests when the hand does.
+    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s, and no grain much faster; one in a
+    /// hand rests when the hand does.
     pub fn is_at_rest(&self) -> bool {
-        self.moving_objects().next().is_none()
+        self.moving_objects().next().is_none() && self.grains_are_at_rest()
     }
 
-    /// Whether every object that no hand holds sleeps: nothing moves any of them unless something else does. One that
+    /// Whether every grain, and every object that no hand holds, sleeps: nothing moves any of them unless something else does. One that
     /// has just lost its support is at rest, but awake.
     pub fn sleeps(&self) -> bool {
         let mut objects = self.state.objects.values();
         objects.all(|object| object.attachment.is_some() || !self.physics.is_awake(object.body))
+            && self.grains_sleep()
     }
 
     /// The objects that no hand holds and that are not at rest.
@@ -453,6 +460,9 @@ impl World {
         }
         if self.state.riding != Riding::default() {
             self.state.riding.hash_into(&mut hasher);
+        }
+        for grains in &self.state.grains {
+            grains.hash_into(&mut hasher);
         }
         hasher.finish()
     }

@@ -232,6 +232,8 @@ impl World {
         if let Some(object) = self.state.objects.get(name).cloned() {
             self.let_fall_around(&object);
         }
+        let from = self.physics.pose(body);
+        self.take_grains_along(name, &from, &report.pose);
         self.physics.place(body, &report.pose);
         Ok(report)
     }
@@ -239,6 +241,8 @@ impl World {
     /// Removes the object from the world.
     pub fn remove(&mut self, name: &str) -> Result<(), WorldError> {
         self.detach(name)?;
+        let number = self.object(name)?.number;
+        self.release_grains_of(number);
         // The line above has found it. The remaining objects keep their order.
         if let Some(object) = self.state.objects.shift_remove(name) {
             self.let_fall_around(&object);
@@ -262,8 +266,9 @@ impl World {
         }
     }
 
-    /// Removes all objects from the world.
+    /// Removes all objects and grains from the world.
     pub fn remove_all(&mut self) {
+        self.remove_grains(|_| true);
         for (_, object) in std::mem::take(&mut self.state.objects) {
             self.physics.remove_body(object.body);
         }
@@ -385,6 +390,7 @@ impl World {
     pub fn body_name(&self, key: PartKey) -> Option<BodyName> {
         Some(match key {
             PartKey::Floor => BodyName::Floor,
+            PartKey::Grain => return None,
             PartKey::Robot(i) => BodyName::Robot(self.models.robot_geometry.name(i)?.clone()),
             PartKey::Furniture(i) => {
                 BodyName::Furniture(self.models.kitchen_geometry.name(i)?.clone())

@@ -160,7 +160,8 @@ impl World {
         let mut push = Vector3::zeros();
         let mut points: Vec<(u64, Vector3<f64>)> = Vec::new();
         self.physics.visit_touch_points(object.body, |point| {
-            if matches!(PartKey::from_code(point.other), PartKey::Robot(_)) {
+            let other = PartKey::from_code(point.other);
+            if matches!(other, PartKey::Robot(_) | PartKey::Grain) {
                 return;
             }
             push += point.push;

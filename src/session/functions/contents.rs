@@ -1,5 +1,6 @@
 //! Builtins for what is in vessels.
 
+use super::grains;
 use crate::simulation::Simulation;
 use crate::simulation::names::{type_keyword, type_text_of};
 use lisp::builtin::Builtin;
@@ -10,7 +11,7 @@ use lisp::value::Value;
 use lisp::value::known;
 use lisp::value::number;
 use lisp::value::raise::Raise;
-use robotics::world::{Cavity, Object};
+use robotics::world::{Cavity, MIXTURE, Object};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -68,7 +69,7 @@ fn set_content(
     content_of(simulation, image, name)
 }
 
-/// What is in a vessel, and how much (ml), as a list; NIL if it is empty.
+/// What is in a vessel, and how much (ml), as a list; NIL if it is empty. A grain has 0.9 ml.
 ///
 /// `(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (content-of 'cup-1))` => `NIL`
 #[builtin]
@@ -77,10 +78,20 @@ fn content_of(
     image: &mut Image,
     name: &Value,
 ) -> Result<Option<Value>> {
-    let content = object(simulation, image, name)?.content().clone();
-    Ok((content.volume > 0.0).then(|| {
-        let what = type_keyword(image, &content.what);
-        Value::list([what, Value::Double(content.volume)])
+    let vessel = object(simulation, image, name)?;
+    let content = vessel.content().clone();
+    let level = (content.volume > 0.0).then_some((content.what, content.volume));
+    let all = match (level, grains::content(&simulation.world, vessel.name())?) {
+        (Some((what, level)), Some((other, grains))) => {
+            let is_mixed = what != other;
+            let what = if is_mixed { MIXTURE.to_owned() } else { what };
+            Some((what, level + grains))
+        }
+        (level, grains) => level.or(grains),
+    };
+    Ok(all.map(|(what, volume)| {
+        let what = type_keyword(image, &what);
+        Value::list([what, Value::Double(volume)])
     }))
 }
 
@@ -102,8 +113,8 @@ fn capacity_of(
 /// `(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (spilled-from 'cup-1))` => `0.0d0`
 #[builtin]
 fn spilled_from(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<f64> {
-    let content = object(simulation, image, name)?.content();
-    Ok(content.spilled)
+    let vessel = object(simulation, image, name)?;
+    Ok(vessel.content().spilled + grains::spilled(&simulation.world, vessel.name())?)
 }
 
 /// Where the mouth of a vessel is in its own frame, and how wide: x, y, z of its middle, its radius, the z of

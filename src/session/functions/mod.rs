@@ -8,6 +8,7 @@ mod containers;
 mod contents;
 mod cutting;
 mod explaining;
+mod grains;
 mod grasps;
 mod kitchen_pictures;
 mod kitchens;

@@ -180,7 +180,7 @@ fn world_error(error: WorldError) -> Box<Raise> {
 }
 
 /// A colour: a list of red, green, blue and optionally alpha, in 0..1.
-fn color(value: &Value) -> Result<[f32; 4]> {
+pub(super) fn color(value: &Value) -> Result<[f32; 4]> {
     let parts: Vec<f32> = value
         .iter_list()
         .filter_map(|v| number::to_f64(&v))

@@ -29,7 +29,9 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::locations::FURNITURE_TABLE),
     ("PLANWRIGHT", functions::containers::TABLE),
     ("PLANWRIGHT", functions::contents::TABLE),
+    ("PLANWRIGHT", functions::grains::TABLE),
     ("CRAM-BULLET-REASONING", functions::contents::SHAPE_TABLE),
+    ("CRAM-BULLET-REASONING", functions::grains::VOLUME_TABLE),
     (
         "CRAM-BULLET-REASONING",
         functions::locations::VISUALIZATION_TABLE,

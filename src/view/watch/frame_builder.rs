@@ -6,7 +6,7 @@ use indexmap::IndexMap;
 
 use super::Observation;
 use super::frame::{Frame, Hit, Hold, Path, Placed, Press};
-use super::node::{Kind, MAP_OF_LOCATION, Node, VisualMesh};
+use super::node::{GRAIN, Kind, MAP_OF_LOCATION, Node, VisualMesh};
 use super::trajectory_lines::TrajectoryLines;
 use crate::picture::LocationMap;
 use crate::picture::scene::Scene;
@@ -182,6 +182,7 @@ impl FrameBuilder {
                 force: <[f64; 3]>::from(press.force).map(rounded),
             }));
         }
+        self.place_grains(world, &mut placed);
         if let Some(node) = observation.location.and_then(|map| self.map_node(map)) {
             placed.push(Placed::new(node, &Pose::identity()));
         }
@@ -264,6 +265,43 @@ impl FrameBuilder {
             .iter()
             .flat_map(|trajectory| trajectory.lines.iter().cloned());
         self.paths = lines.collect();
+    }
+
+    /// Each grain is a node, with a number behind its name.
+    fn place_grains(&mut self, world: &World, placed: &mut Vec<Placed>) {
+        let mut counts: IndexMap<String, usize> = IndexMap::new();
+        for (grains, places) in world.grains() {
+            let color = grains.color().map(f32::to_bits);
+            let mesh = self.meshes.entry((GRAIN.to_owned(), color, 0));
+            let mesh = mesh.or_insert_with(|| VisualMesh::of(&Scene::of_grain(grains)).into());
+            let mesh = Arc::clone(mesh);
+            let count = counts.entry(grains.what().to_owned()).or_default();
+            for place in places {
+                *count += 1;
+                let name = format!("{} {count}", grains.what());
+                let key = (name.clone(), GRAIN.to_owned(), color, 0);
+                let node = match self.objects.get(&key) {
+                    Some(known) => *known,
+                    None => {
+                        let node = self.add(Node {
+                            id: 0,
+                            name,
+                            kind: Kind::Object,
+                            type_name: GRAIN.to_owned(),
+                            parent: None,
+                            still: None,
+                            mesh: Arc::clone(&mesh),
+                            shapes: Arc::default(),
+                        });
+                        self.objects.insert(key, node);
+                        node
+                    }
+                };
+                let at =
+                    Pose::from_parts(place.coords.into(), nalgebra::UnitQuaternion::identity());
+                placed.push(Placed::new(node, &at));
+            }
+        }
     }
 
     fn object_node(&mut self, object: &Object) -> u32 {

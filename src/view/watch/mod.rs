@@ -20,8 +20,8 @@ pub use base64::base64;
 pub use frame::{Frame, Hit, Hold, Path, Placed, Press};
 pub use frame_builder::FrameBuilder;
 pub use halt::{Halt, HaltKind};
+pub(crate) use node::{GRAIN, MAP_OF_LOCATION, Vertex};
 pub use node::{Kind, Node, VisualMesh};
-pub(crate) use node::{MAP_OF_LOCATION, Vertex};
 pub use watch_event::{About, TaskId, TaskNews, TaskState, WatchEvent};
 
 use std::sync::Arc;

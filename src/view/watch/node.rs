@@ -11,6 +11,9 @@ use spatial::PlacedShape;
 /// The type of the node that shows the map of a location: no thing in the world.
 pub(crate) const MAP_OF_LOCATION: &str = "map of a location";
 
+/// The type of the node that shows one of many grains: no thing in the world.
+pub(crate) const GRAIN: &str = "grain";
+
 /// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

@@ -6,6 +6,7 @@ mod contents;
 mod derived_robots;
 mod falling;
 pub(crate) mod fixture;
+mod grains;
 mod kitchen_surfaces;
 mod link_shapes;
 mod motion;

@@ -10,6 +10,8 @@ const ROBOT: Group = Group::GROUP_3;
 const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
 /// What is being cut: solid for all but the tool that cuts it.
 const BEING_CUT: Group = Group::GROUP_6;
+/// Grains, which the robot does not touch: a finger beside the thin wall of a vessel would squeeze those in it.
+const GRAIN: Group = Group::GROUP_7;
 
 /// How much of the robot is solid for an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +36,7 @@ impl Physics {
                 let hand = HANDS.get(hand).copied();
                 hand.map_or(solid, |hand| solid.difference(hand))
             }
-            Robot::Absent => FURNITURE.union(OBJECT).union(BEING_CUT),
+            Robot::Absent => FURNITURE.union(OBJECT).union(BEING_CUT).union(GRAIN),
         };
         let groups = InteractionGroups::new(OBJECT, filter, InteractionTestMode::And);
         self.regroup(object, |own| *own = groups);
@@ -77,12 +79,18 @@ impl Physics {
 pub(super) fn groups(kind: BodyKind, surface: Surface) -> InteractionGroups {
     let (own, others) = match kind {
         BodyKind::Static | BodyKind::MovingFurniture | BodyKind::Fixed { .. } => {
-            (FURNITURE, OBJECT.union(BEING_CUT))
+            (FURNITURE, OBJECT.union(BEING_CUT).union(GRAIN))
         }
         BodyKind::Robot => (robot_group(surface), OBJECT.union(BEING_CUT)),
         BodyKind::Object { .. } => (OBJECT, solid_for_objects()),
     };
     InteractionGroups::new(own, others, InteractionTestMode::And)
+}
+
+/// What grains collide with.
+pub(super) fn groups_of_grains() -> InteractionGroups {
+    let others = FURNITURE.union(OBJECT).union(BEING_CUT).union(GRAIN);
+    InteractionGroups::new(GRAIN, others, InteractionTestMode::And)
 }
 
 fn robot_group(surface: Surface) -> Group {
@@ -99,6 +107,7 @@ fn solid_for_objects() -> Group {
     FURNITURE
         .union(OBJECT)
         .union(BEING_CUT)
+        .union(GRAIN)
         .union(ROBOT)
         .union(left)
         .union(right)

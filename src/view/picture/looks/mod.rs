@@ -16,8 +16,8 @@ use super::surface::Surface;
 use appearances::Appearances;
 use look::{Look, PLAIN};
 use robotics::robot::{KinematicTree, Link, LinkId};
-use robotics::world::{Models, Object, World};
-use spatial::Pose;
+use robotics::world::{GRAIN_RADIUS, Grains, Models, Object, World};
+use spatial::{Pose, trig};
 
 /// Half the edge length (m) of the drawn floor.
 const FLOOR_HALF: f64 = 30.0;
@@ -26,10 +26,14 @@ const FLOOR_HALF: f64 = 30.0;
 const FURNITURE_BEVEL: f64 = 0.003;
 const ROBOT_BEVEL: f64 = 0.022;
 
+/// Number of straight pieces of the outline of a grain.
+const GRAIN_PIECES: u32 = 6;
+
 /// The looks of everything that a world may contain; made once, they serve any number of
 /// scenes.
 pub struct Looks {
     floor: Arc<Surface>,
+    grain: Look,
     furniture: Vec<Dressed>,
     robot: Vec<Dressed>,
     /// By type, with the definition that they are of.
@@ -49,6 +53,7 @@ impl Looks {
         let kinds = models.objects.types();
         Self {
             floor: Arc::new(Surface::ground(FLOOR_HALF)),
+            grain: look_of_grain(),
             furniture: dressed(&models.kitchen, Kind::Furniture),
             robot: dressed(&models.robot, Kind::Robot),
             objects: kinds
@@ -94,7 +99,29 @@ impl Looks {
                 }
             }
         }
+        for (grains, places) in world.grains() {
+            let owner = Owner::new(Kind::Object, grains.what());
+            bodies.extend(places.into_iter().map(|place| {
+                let at =
+                    Pose::from_parts(place.coords.into(), nalgebra::UnitQuaternion::identity());
+                self.grain.body(&owner, &at, grains.color())
+            }));
+        }
         Scene { bodies }
+    }
+}
+
+/// A ball of few corners, since there are many.
+fn look_of_grain() -> Look {
+    let arc = (0..=GRAIN_PIECES).map(|i| {
+        let (sine, cosine) =
+            trig::sin_cos(std::f64::consts::PI * f64::from(i) / f64::from(GRAIN_PIECES));
+        [GRAIN_RADIUS * sine, -GRAIN_RADIUS * cosine]
+    });
+    let ball = Surface::lathed(&arc.collect::<Vec<_>>());
+    Look {
+        finish: Finish::Satin,
+        ..Look::of_surface(Arc::new(ball), Pose::identity(), None)
     }
 }
 
@@ -129,6 +156,13 @@ impl Scene {
             Kind::Furniture
         };
         link_scene(tree, link, kind)
+    }
+
+    /// The appearance of a grain, in its own frame.
+    pub(crate) fn of_grain(grains: &Grains) -> Self {
+        let owner = Owner::new(Kind::Object, grains.what());
+        let body = look_of_grain().body(&owner, &Pose::identity(), grains.color());
+        Self { bodies: vec![body] }
     }
 
     /// The appearance of an object, in its own frame.

@@ -14,7 +14,7 @@ use super::rows::{self, Datum, Rows};
 use super::shapes::MAP;
 use super::told::Objects;
 use super::wire::{Content, field};
-use crate::watch::MAP_OF_LOCATION;
+use crate::watch::{GRAIN, MAP_OF_LOCATION};
 
 /// The time (s) after which there is a moment in any case.
 const INTERVAL: f64 = 2.0;
@@ -66,7 +66,7 @@ impl Places {
             let mut pairs = entity.metadata.iter();
             let type_name = pairs.find(|pair| pair.key == "type");
             let type_name = type_name.map_or("", |pair| pair.value.as_str());
-            if type_name == MAP_OF_LOCATION {
+            if type_name == MAP_OF_LOCATION || type_name == GRAIN {
                 continue;
             }
             let mut object = before.shift_remove(&entity.frame_id).unwrap_or_default();

@@ -1,5 +1,7 @@
 // The things of the scene as a tree, by what carries them: to select, hide and name them.
 
+const GRAIN = 'grain'; // The type of the node of a grain.
+
 class SceneTree {
   constructor(list, filter) {
     Object.assign(this, { list, filter, key: '', folded: new Set() });
@@ -30,7 +32,17 @@ class SceneTree {
       const all = here.filter((node) => node.kind === kind);
       if (!all.length) continue;
       if (!text) rows.push(this.row(kind, name, all, 0, true));
-      if (text || !this.folded.has(kind)) (inner.get(kind) ?? []).forEach((node) => add(node, 1));
+      if (!text && this.folded.has(kind)) continue;
+      const grains = new Map();
+      for (const node of inner.get(kind) ?? []) {
+        if (node.type !== GRAIN) { add(node, 1); continue; }
+        const what = node.name.replace(/ \d+$/, '');
+        grains.set(what, [...grains.get(what) ?? [], node]);
+      }
+      // All grains of a kind have one row.
+      for (const [what, nodes] of grains) {
+        if (!text || what.toLowerCase().includes(text)) rows.push(this.row(`grains ${what}`, `${what}: ${nodes.length}`, nodes, 1, false));
+      }
     }
     this.list.replaceChildren(...rows);
   }
