@@ -15,7 +15,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(super) static TABLE: &[Builtin] = builtins![fill_with_grains, grains_in, remove_spilled_grains];
 
 /// Builtins of package `CRAM-BULLET-REASONING`.
-pub(super) static VOLUME_TABLE: &[Builtin] = builtins![volume_of_grains];
+pub(super) static SHAPE_TABLE: &[Builtin] = builtins![volume_of_grains, grains_that_fit];
 
 /// The colour of grains for which none is given: that of rice.
 const COLOR: [f32; 4] = [0.93, 0.9, 0.78, 1.0];
@@ -117,4 +117,14 @@ fn volume_of_grains(simulation: &mut Simulation, image: &mut Image, name: &Value
     let vessel = simulation.object_named(image, name)?;
     let known = content(&simulation.world, &vessel)?;
     Ok(known.map_or(0.0, |(_, volume)| volume))
+}
+
+/// How many grains fit into a vessel, when it is filled up to its rim; 0 if none get in.
+///
+/// `(progn (pp-tut:init-projection) (btr-utils:spawn-object 'fork-1 :fork :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr::%grains-that-fit 'fork-1))` => `0`
+#[builtin("%GRAINS-THAT-FIT")]
+fn grains_that_fit(simulation: &mut Simulation, image: &mut Image, name: &Value) -> Result<usize> {
+    let vessel = simulation.object_named(image, name)?;
+    let fit = simulation.world.grains_that_fit(&vessel);
+    Ok(fit.map_err(Raise::reporting)?.unwrap_or(0))
 }

@@ -31,7 +31,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::contents::TABLE),
     ("PLANWRIGHT", functions::grains::TABLE),
     ("CRAM-BULLET-REASONING", functions::contents::SHAPE_TABLE),
-    ("CRAM-BULLET-REASONING", functions::grains::VOLUME_TABLE),
+    ("CRAM-BULLET-REASONING", functions::grains::SHAPE_TABLE),
     (
         "CRAM-BULLET-REASONING",
         functions::locations::VISUALIZATION_TABLE,
