@@ -38,6 +38,8 @@ const UPRIGHT: f64 = 0.1;
 const SLOW: f64 = 0.01;
 /// A grain that moves less than this (m) in its vessel in a tenth of a second lies still: in a hand, it trembles.
 const STILL: f64 = 0.002;
+/// So near (m) above a vessel a grain is about to fall on those in it: more than it falls in a step.
+const ABOVE: f64 = 0.03;
 /// Where each grain is is noted once in so many steps: a tenth of a second.
 const NOTED: u64 = 24;
 /// Grains begin to ride in a vessel that is tilted less than this (rad).
@@ -333,7 +335,7 @@ impl World {
         self.let_grains_ride();
     }
 
-    /// Gives the grains back to the engine that ride in what is tilted, or in no hand.
+    /// Gives the grains back to the engine that ride in what is tilted, or in no hand, or into which others fall.
     fn release_riding_grains(&mut self) {
         let riding = self.all_grains().filter(|grain| grain.rides.is_some());
         let mut vessels: Vec<u32> = riding.map(|grain| grain.vessel).collect();
@@ -342,12 +344,28 @@ impl World {
             let vessel = self.numbered(*number);
             !vessel.is_some_and(|vessel| {
                 let tilt = tilt_of(&self.physics.pose(vessel.body));
-                vessel.attachment.is_some() && tilt < TILTED
+                vessel.attachment.is_some() && tilt < TILTED && !self.is_filled_from_above(vessel)
             })
         });
         for number in vessels {
             self.release_grains_of(number);
         }
+    }
+
+    /// Whether a grain that does not ride is in a vessel, or just above it.
+    fn is_filled_from_above(&self, vessel: &Object) -> bool {
+        let Some(cavity) = vessel.room_for_grains() else {
+            return false;
+        };
+        let pose = self.physics.pose(vessel.body);
+        let mut loose = self.all_grains().filter(|grain| grain.rides.is_none());
+        loose.any(|grain| {
+            let place: Point3<f64> = self.physics.pose(grain.body).translation.vector.into();
+            let within = pose.inverse_transform_point(&place);
+            // As if it were a grain's fall lower already.
+            let below = within - nalgebra::Vector3::z() * ABOVE;
+            cavity.holds_grain(&within) || cavity.holds_grain(&below)
+        })
     }
 
     /// Gives the grains that ride in a vessel back to the engine, moving as it moves.
@@ -382,24 +400,20 @@ impl World {
             .collect();
         for (number, pose) in level {
             let mut lots = std::mem::take(&mut self.state.grains);
-            let loose = |grain: &&mut Grain| grain.vessel == number && grain.rides.is_none();
             let mut lie_still = true;
-            for grain in lots
-                .iter_mut()
-                .flat_map(|lot| &mut lot.grains)
-                .filter(loose)
-            {
-                let place = self.place_of(grain);
-                let now = pose.inverse_transform_point(&place);
-                lie_still &= (now - grain.noted).norm() < STILL && self.is_in_numbered(grain);
+            let mut within: Vec<&mut Grain> = Vec::new();
+            for grain in lots.iter_mut().flat_map(|lot| &mut lot.grains) {
+                let is_loose = grain.vessel == number && grain.rides.is_none();
+                if !is_loose || !self.is_in_numbered(grain) {
+                    continue;
+                }
+                let now = pose.inverse_transform_point(&self.place_of(grain));
+                lie_still &= (now - grain.noted).norm() < STILL;
                 grain.noted = now;
+                within.push(grain);
             }
             if lie_still {
-                for grain in lots
-                    .iter_mut()
-                    .flat_map(|lot| &mut lot.grains)
-                    .filter(loose)
-                {
+                for grain in within {
                     grain.rides = Some(pose.inverse() * self.physics.pose(grain.body));
                     self.physics.set_enabled(grain.body, false);
                 }

@@ -87,6 +87,44 @@ fn grains_ride_in_a_vessel_that_is_carried_level_and_leave_it_when_it_is_tilted(
 }
 
 #[test]
+fn grains_that_fall_on_those_that_ride_lie_on_them() {
+    let mut world = held_cup(30);
+    pass(&mut world, 2.0);
+    assert!(world.sleeps());
+    // Out of a cup upside down, the grains of which are those of another kind.
+    let cup = world.object_pose("cup").unwrap().translation;
+    let over = at(cup.x, cup.y, cup.z + 0.3);
+    spawn(&mut world, "other", "cup", &over);
+    world.move_object("other", &over).unwrap();
+    world.fill_with_grains("other", "peas", 20, RICE).unwrap();
+    let turned = from_xyz_rpy([cup.x, cup.y, cup.z + 0.16], [3.1, 0.0, 0.0]);
+    world.move_object("other", &turned).unwrap();
+    for _ in 0..240 {
+        world.step();
+        for (_, places) in world.grains() {
+            for (i, one) in places.iter().enumerate() {
+                for other in &places[..i] {
+                    assert!((one - other).norm() > 0.009, "grains in each other");
+                }
+            }
+        }
+        world.remove("other").ok();
+    }
+    let all: Vec<_> = world.grains().flat_map(|(_, places)| places).collect();
+    for (i, one) in all.iter().enumerate() {
+        for other in &all[..i] {
+            assert!((one - other).norm() > 0.0105, "grains in each other");
+        }
+    }
+    let found = world.grains_in("cup").unwrap();
+    assert_eq!(found.first(), Some(&("rice", 30)));
+    assert!(
+        found.get(1).is_some_and(|(_, peas)| *peas >= 10),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn grains_go_along_with_a_vessel_that_is_put_elsewhere() {
     let mut world = filled_cup(30);
     pass(&mut world, 1.0);
