@@ -100,14 +100,14 @@ fn grains(cook: &mut Cook, name: &str) -> f64 {
 fn grains_are_poured_and_counted() {
     let mut cook = at_island();
     cook.done(TAKE_CUP);
-    cook.done("(fill-with-grains 'cup-1 :rice 24)");
+    cook.done("(fill-with-grains 'cup-1 :rice 40)");
     let half = pouring("(amount 0.5)");
     cook.done(&format!("(with-simulated-robot {half})"));
     let (cup, bowl) = (grains(&mut cook, "cup-1"), grains(&mut cook, "bowl-1"));
-    assert!((10.0..=15.0).contains(&bowl), "{bowl} of 24");
+    assert!((17.0..=26.0).contains(&bowl), "{bowl} of 40");
     let lost = number(&mut cook, "(spilled-from 'cup-1)");
     assert!(
-        (lost - (24.0 - cup - bowl) * 0.904_779).abs() < 1e-3,
+        (lost - (40.0 - cup - bowl) * 0.904_779).abs() < 1e-3,
         "{lost}"
     );
     assert!(lost < 2.0, "{lost} ml");

@@ -237,7 +237,7 @@ fn a_torso_that_brings_the_hand_down_on_a_bottle_stops_there() {
            (perform (a motion (type moving-tcp) (right-pose ?above)))
            (perform (a motion (type moving-torso) (joint-angle ?down))))",
     );
-    assert!(report.contains("r_gripper_r_finger_tip_link"), "{report}");
+    assert!(report.contains("r_gripper_l_finger_tip_link"), "{report}");
     assert!(report.contains("BOTTLE-1"), "{report}");
     // It used to be pressed 24 mm farther.
     assert!(cook.distance("BOTTLE-1", &stands) < 0.001);
